@@ -31,8 +31,8 @@ struct bins_state {
 };
 
 struct element {
-    struct arena arena;    /* its lobes */
-    struct vertex *vertex; /* [max_depth + 1], owned */
+    struct arena arena;    /* of its vertices and their lobes */
+    struct vertex *vertex; /* [max_depth + 1] */
     int length;            /* 0: nothing was emitted */
     double beta;           /* of [S24 eq. 3.1] */
     long born;             /* iteration in which it was traced */
@@ -51,17 +51,13 @@ static void init_scratch(void *scratch, const void *state)
     struct bins *b = scratch;
     b->n_elements = s->bin_paths;
     b->element = mem_alloc((size_t)b->n_elements, sizeof *b->element);
-    for (int i = 0; i < b->n_elements; i++)
-        b->element[i].vertex = mem_alloc((size_t)s->frozen.max_depth + 1, sizeof *b->element[i].vertex);
 }
 
 static void free_scratch(void *scratch)
 {
     struct bins *b = scratch;
-    for (int i = 0; i < b->n_elements; i++) {
+    for (int i = 0; i < b->n_elements; i++)
         arena_free(&b->element[i].arena);
-        free(b->element[i].vertex);
-    }
     free(b->element);
 }
 
@@ -79,6 +75,7 @@ static void replace(struct pixel *p, struct element *e, long iteration)
 {
     uint64_t number = ((uint64_t)p->pass->first << 32) + p->bins->traced++;
     arena_reset(&e->arena);
+    e->vertex = arena_alloc(&e->arena, ((size_t)p->state->frozen.max_depth + 1) * sizeof *e->vertex);
     e->length = pixel_light_path(p->pass, &p->state->frozen.counts, p->x, p->y, number, &e->arena, e->vertex);
     e->beta = path_throughput(e->vertex, e->length);
     e->born = iteration;

@@ -61,10 +61,11 @@ struct pooled_pixel {
     struct sampler draws;     /* random numbers for the choice */
 };
 
-/* What light sub-paths and vertices are chosen by in `pool` and `vertices`. */
+/* What `pool` chooses a light sub-path by. `vertices` goes by the luminance of beta at the vertex, and with the last by
+ * its importance, too. */
 enum metric {
-    METRIC_CONSTANT,   /* every sub-path alike: `pool` is BDPT then */
-    METRIC_THROUGHPUT, /* the dissertation's: mean over RGB of beta at the furthest vertex; of a vertex, its own */
+    METRIC_CONSTANT,   /* every sub-path alike: BDPT */
+    METRIC_THROUGHPUT, /* the dissertation's: mean over RGB of beta at the furthest vertex */
     METRIC_IMPORTANCE  /* what the camera can use of it, importance.h */
 };
 extern const char *const METRICS[];

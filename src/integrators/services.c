@@ -129,11 +129,12 @@ bool services_paths_matter(const struct render_job *job, struct preparation *out
     return matter;
 }
 
-/* Probe, plan. */
 void services_settle(const struct render_job *job, struct preparation *out)
 {
     const double SAMPLES = 1.28; /* of each pixel, by the pilot's renders each */
     struct frozen *f = out->state;
+    if (!f->services.pilot && !f->services.credit)
+        return;
     struct probe probe = {job, workspaces_new(job->n_threads, job->max_depth), out, render_with, &f->counts, out->size};
     struct frozen usual = *f;
     struct plan plan = {{f->draws[FIRST_HIT], f->draws[LATER_HIT], f->lights, 1.0 / f->path_pixels}};
@@ -154,8 +155,7 @@ void services_settle(const struct render_job *job, struct preparation *out)
         if (noise.total > 0 && free_choice(job, f) && !plan_paths_pay(&costs, &noise, &plan))
             plan.n[LIGHT_PATH] = 0;
     }
-    if (f->services.pilot || f->services.credit)
-        set_numbers(job, f, &usual, &plan);
+    set_numbers(job, f, &usual, &plan);
     if (f->services.pilot)
         tell(out);
     workspaces_free(probe.work, job->n_threads);

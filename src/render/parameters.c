@@ -210,8 +210,7 @@ bool parameters_read(const struct scene *scene, const struct method *m, int max_
 {
     const struct settings *s = &scene->settings;
     struct common c;
-    if (!settings_fields(s, COMMON, &c, err) ||
-        !method_check(m, s, err))
+    if (!settings_fields(s, COMMON, &c, err) || !method_check(m, s, err))
         return false;
     job->max_depth = max_depth > 0 ? max_depth : c.max_depth;
     job->rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold;

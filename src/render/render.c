@@ -27,18 +27,19 @@ struct run {
     struct film *film;
     struct tiling tiling;
     struct preparation prepared; /* blocks begin at multiples of their length, maybe INT_MAX: counted in 64 bits */
-    int64_t begun;  /* tile passes of the first block that the film holds already */
-    int64_t n_jobs; /* all tile passes, with these */
+    int64_t begun;    /* tile passes of the first block that the film holds already */
+    int64_t n_passes; /* of all blocks, with these */
     enum render_wish wish; /* the most urgent so far, of progress and of the noise */
     double learning;       /* share of all work that learning has been */
     struct workspace *work; /* [n_threads] */
     struct tile *tile;      /* [n_slots] */
-    struct parallel_jobs jobs;
+    struct parallel_jobs parallel; /* the passes that the film does not hold yet, in their order */
 };
 
-struct run_job {
+/* A pass under way: by its number among those of `parallel`. */
+struct under_way {
     struct run *run;
-    int64_t job;
+    int64_t number;
 };
 
 /* Samples of a block that may have any length: few enough for a render to be stopped soon. A power of two divides the
@@ -58,9 +59,10 @@ static int64_t tiles_per_block(const struct run *r) { return tiling_count(&r->ti
 /* The iterations of block number b of this run. */
 static void block_range(const struct run *r, int64_t b, long *first, long *end)
 {
-    int64_t begin = ((int64_t)r->options->first / r->prepared.size.block + b) * r->prepared.size.block;
-    *first = begin > r->options->first ? (long)begin : r->options->first;
-    *end = begin + r->prepared.size.block < r->options->end ? (long)(begin + r->prepared.size.block) : r->options->end;
+    const struct render_options *o = r->options;
+    int64_t block = r->prepared.size.block, begin = (o->first / block + b) * block;
+    *first = begin > o->first ? (long)begin : o->first;
+    *end = begin + block < o->end ? (long)(begin + block) : o->end;
 }
 
 /* Whenever the halves are of one size. */
@@ -84,16 +86,16 @@ static void ask_progress(struct run *r, double share)
 /* More splats than a tile holds go into the film before their pass is complete, when it is the next to do so. */
 static void take_splats(void *context, struct tile *tile)
 {
-    const struct run_job *j = context;
-    if (parallel_await(&j->run->jobs, j->job))
-        film_take_splats(j->run->film, tile);
+    const struct under_way *p = context;
+    if (parallel_await(&p->run->parallel, p->number))
+        film_take_splats(p->run->film, tile);
     tile->n_splats = 0;
 }
 
-static void run_pass(void *context, int64_t job, int slot, int thread)
+static void run_pass(void *context, int64_t number, int slot, int thread)
 {
     struct run *r = context;
-    struct run_job this = {r, job};
+    struct under_way this = {r, number};
     const struct observers *others = r->options->observers;
     const struct observer planes = planes_observer(r->film->planes);
     struct tile_pass pass = {.job = &r->job, .tile = &r->tile[slot], .work = &r->work[thread]};
@@ -105,8 +107,8 @@ static void run_pass(void *context, int64_t job, int slot, int thread)
         other.next = pass.observer;
         pass.observer = &other;
     }
-    pass.rect = tiling_rect(&r->tiling, (r->begun + job) % tiles_per_block(r));
-    block_range(r, (r->begun + job) / tiles_per_block(r), &pass.first, &pass.end);
+    pass.rect = tiling_rect(&r->tiling, (r->begun + number) % tiles_per_block(r));
+    block_range(r, (r->begun + number) / tiles_per_block(r), &pass.first, &pass.end);
     tile_start(pass.tile, pass.rect, r->job.film_rect, &r->job.scene->filter);
     if (r->options->gate.end > 0)
         pass.tile->gate = r->options->gate;
@@ -117,10 +119,10 @@ static void run_pass(void *context, int64_t job, int slot, int thread)
     r->prepared.method->render(&r->prepared, &pass);
 }
 
-static bool merge_pass(void *context, int64_t job, int slot)
+static bool merge_pass(void *context, int64_t number, int slot)
 {
     struct run *r = context;
-    int64_t done = r->begun + job + 1;
+    int64_t done = r->begun + number + 1;
     long first, end;
     block_range(r, (done - 1) / tiles_per_block(r), &first, &end);
     r->film->block.iterations = end - first;
@@ -133,27 +135,25 @@ static bool merge_pass(void *context, int64_t job, int slot)
         if (good_enough(r) && r->wish == RENDER_GO_ON)
             r->wish = RENDER_END_BLOCK;
     }
-    ask_progress(r, r->learning + (1 - r->learning) * (double)done / (double)r->n_jobs);
+    ask_progress(r, r->learning + (1 - r->learning) * (double)done / (double)r->n_passes);
     return r->wish != RENDER_STOP && !(r->wish == RENDER_END_BLOCK && r->film->passes == 0);
 }
 
 static void run_all(struct run *r)
 {
     const struct render_options *o = r->options;
-    int64_t first_block = o->first / r->prepared.size.block,
-            end_block = ((int64_t)o->end + r->prepared.size.block - 1) / r->prepared.size.block;
-    r->n_jobs = tiles_per_block(r) * (end_block - first_block);
-
+    int64_t block = r->prepared.size.block, first_block = o->first / block, end_block = (o->end + block - 1) / block;
     int n_slots = (o->observers != NULL ? OBSERVED_SLOTS : SLOTS_PER_THREAD) * r->job.n_threads;
-    struct parallel_jobs jobs = {r->n_jobs - r->begun, r->job.n_threads, n_slots, r, run_pass, merge_pass, NULL};
-    r->jobs = jobs;
+    r->n_passes = tiles_per_block(r) * (end_block - first_block);
+    r->parallel = (struct parallel_jobs){.n_jobs = r->n_passes - r->begun, .n_threads = r->job.n_threads,
+                                         .n_slots = n_slots, .context = r, .work = run_pass, .commit = merge_pass};
     r->tile = mem_alloc((size_t)n_slots, sizeof *r->tile);
     for (int i = 0; i < n_slots; i++)
         r->tile[i].planes = r->film->planes;
     r->work = workspaces_new(r->job.n_threads, r->job.max_depth);
     for (int i = 0; i < r->job.n_threads; i++)
         r->work[i].scratch = method_scratch(&r->prepared);
-    parallel_run(&r->jobs);
+    parallel_run(&r->parallel);
     for (int i = 0; i < r->job.n_threads; i++)
         method_scratch_free(&r->prepared, r->work[i].scratch);
     workspaces_free(r->work, r->job.n_threads);
@@ -207,7 +207,7 @@ static bool watch(void *context, double traced)
     return r->wish == RENDER_GO_ON;
 }
 
-static bool begun(const struct film *film) { return film->iterations > 0 || film->passes > 0; }
+static bool holds_samples(const struct film *film) { return film->iterations > 0 || film->passes > 0; }
 
 static bool prepare(struct run *r, struct error *err)
 {
@@ -216,12 +216,10 @@ static bool prepare(struct run *r, struct error *err)
         return false;
     r->job.watch = r->options->progress != NULL ? watch : NULL;
     r->job.watch_context = r;
-    bool ok = true;
+    bool ok = r->options->prepared != NULL || method_prepare(m, &r->job, &r->prepared, err);
     if (r->options->prepared != NULL)
         r->prepared = *r->options->prepared;
-    else
-        ok = method_prepare(m, &r->job, &r->prepared, err);
-    r->film->learnt_short = r->wish != RENDER_GO_ON && !begun(r->film);
+    r->film->learnt_short = r->wish != RENDER_GO_ON && !holds_samples(r->film);
     return ok;
 }
 
@@ -264,7 +262,8 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     memcpy(film->note, r.prepared.note, sizeof film->note);
     memcpy(film->number, r.prepared.number, sizeof film->number);
     bool ok = check_range(&r, err) && cut(&r, err);
-    bool in_haste = r.wish != RENDER_GO_ON && begun(film); /* samples by what was learnt so are none of the film's */
+    /* Learning that was cut short has learnt other things than what the film's samples go by: no more are added. */
+    bool in_haste = r.wish != RENDER_GO_ON && holds_samples(film);
     if (ok && scene->lights.n == 0 && !film->planes.alpha) { /* all samples are black */
         film->block.iterations = options->end - options->first;
         film_end_block(film);

@@ -37,14 +37,14 @@ struct render_options {
     uint64_t seed;
     long first, end; /* iterations [first, end) of every pixel */
     long planned;    /* samples per pixel of the whole picture if these are a part of it; 0: `end` */
-    bool is_part;    /* these are to be added to others: they must be whole blocks, for a method that has any */
-    int block;     /* iterations of a block where the method leaves that open; 0: by the picture's size */
-    int n_threads; /* 0: one per processor */
-    int max_depth; /* 0: what the scene says, else 5 */
+    bool is_part;    /* these are to be added to others: they must be whole blocks, where the method says how long */
+    int block;       /* iterations of a block where the method leaves that open; 0: by the picture's size */
+    int n_threads;   /* 0: one per processor */
+    int max_depth;   /* 0: what the scene says, else 5 */
     double noise[N_NOISE_SCALES]; /* stop when the film's are below; 0: never. The film must keep halves */
-    struct gate gate; /* only light that has come so far (film.h); its end 0: all */
-    const struct observers *observers; /* who looks on at every path; NULL: nobody */
-    const struct preparation *prepared; /* by render_prepare, of these options but for samples; NULL: it is made */
+    struct gate gate;             /* only light that has come so far (scene/tile.h); its end 0: all */
+    const struct observers *observers;  /* who looks on at every path; NULL: nobody */
+    const struct preparation *prepared; /* by render_prepare with these options, for any samples; NULL: it is made */
     /* Called after each tile pass with the share of the work done, in (0,1], one call at a time and while nothing else
      * touches the film. NULL: not called. While the method learns it is called, too, learning being a part of the work;
      * if it is not to go on then, that ends with what has been learnt, by which one block is rendered, or at
@@ -70,6 +70,8 @@ bool render_scene(const struct scene *scene, const struct render_options *option
  * Returns false with a message when a parameter is bad; nothing needs release then. */
 bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
                     struct render_job *job, struct preparation *out, struct error *err);
+
+/* --- planes.c, tiling.c, identity.c ------------------------------------------------------------------ */
 
 /* planes_observer: what adds to the tile of a sample the planes that it has; all NULL if there are none. */
 struct observer planes_observer(struct planes planes);
