@@ -187,12 +187,59 @@ void put_material(struct writer *w, bool lamp)
         colour(w, "amount", 1);
     } else {
         put(w, "Material ");
-        if (lamp && chance(w, 0.25))
+        if (lamp && !w->media && chance(w, 0.25))
             put(w, "\"none\" ");
         else
             one_material(w);
     }
     put(w, "\n");
+}
+
+/* --- media ---------------------------------------------------------------------------------------------- */
+
+/* Some light gets through a unit of it, and of the thicker one through a half. */
+static void medium(struct writer *w, const char *name, double least, double most, double unit)
+{
+    double s = across(w, least, most) / unit, a = chance(w, 0.3) ? 0 : s * between(w, 0, 1);
+    put(w, "MakeNamedMedium \"%s\" \"string type\" \"homogeneous\" ", name);
+    put_rgb(w, "sigma_s", s, s * between(w, 0.3, 1), s * between(w, 0.3, 1));
+    put_rgb(w, "sigma_a", a, a * between(w, 0, 1), a);
+    if (chance(w, 0.7))
+        put_float(w, "g", between(w, -0.5, 0.7));
+    put(w, "\n");
+}
+
+void put_media(struct writer *w, double unit)
+{
+    medium(w, "fog", 0.02, 0.15, unit);
+    medium(w, "milk", 0.3, 2, unit);
+    w->around = chance(w, 0.6) ? "fog" : "";
+    put(w, "MediumInterface \"%s\"\n", w->around);
+}
+
+void put_bound(struct writer *w)
+{
+    put(w, "AttributeBegin Material \"\" MediumInterface \"%s\" \"\" ", w->around);
+    put(w, "Shape \"sphere\" \"float radius\" 9 AttributeEnd\n");
+}
+
+void put_milk(struct writer *w)
+{
+    put(w, "AttributeBegin Translate ");
+    put_vec(w, mul(direction(w), between(w, 0, 0.2)));
+    if (chance(w, 0.4)) {
+        put(w, "Material \"none\" ");
+    } else if (chance(w, 0.3)) {
+        put(w, "Material ");
+        specular(w, 1);
+    } else {
+        put_material(w, false);
+    }
+    bool turned = chance(w, 0.3);
+    put(w, "MediumInterface \"%s\" \"%s\" ", turned ? w->around : "milk", turned ? "milk" : w->around);
+    put(w, "%sShape \"sphere\" ", turned ? "ReverseOrientation " : "");
+    put_float(w, "radius", between(w, 0.4, 0.75));
+    put(w, "AttributeEnd\n");
 }
 
 /* --- shapes --------------------------------------------------------------------------------------------- */
@@ -312,6 +359,8 @@ static void light_at_infinity(struct writer *w)
 {
     struct map m = map_random(w);
     put_map(w, &m);
+    if (w->media)
+        put(w, "MediumInterface \"\" ");
     if (chance(w, 0.3)) {
         w->delta_light = true;
         put(w, "LightSource \"distant\" ");

@@ -85,6 +85,8 @@ static void begin(struct writer *w, const struct view *v, int max_depth)
     film(w, v->fov < 1);
     put(w, "Integrator \"bdpt\" \"integer maxdepth\" %d \"string heuristic\" \"%s\"\n", max_depth,
         chance(w, 0.5) ? "power" : "balance");
+    if (w->media)
+        put_media(w, v->unit);
     camera(w, v);
     put(w, "WorldBegin\nScale ");
     put_vec(w, vec(v->unit, v->unit, v->unit));
@@ -312,7 +314,7 @@ static void thing(struct writer *w)
     put(w, "AttributeBegin Translate ");
     put_vec(w, mul(direction(w), between(w, 0.2, 1.1)));
     put_map(w, &m);
-    if (chance(w, 0.15)) {
+    if (!w->media && chance(w, 0.15)) {
         put_area_light(w);
     } else {
         put_material(w, false);
@@ -372,9 +374,10 @@ static void anything(struct writer *w, struct random_scene *s)
     bool walls = chance(w, 0.35);
     if (!walls) { /* what no light reaches is not governed by the tails of rough lobes */
         double L = across(w, 0.02, 0.3);
+        put(w, "AttributeBegin %s", w->media ? "MediumInterface \"\" " : "");
         put(w, "LightSource \"infinite\" ");
         put_rgb(w, "L", L, L, L);
-        put(w, "\n");
+        put(w, "AttributeEnd\n");
     }
     for (int n = 1 + pick(w, 3); n > 0; n--)
         thing(w);
@@ -382,6 +385,10 @@ static void anything(struct writer *w, struct random_scene *s)
         instances(w);
     if (walls || chance(w, 0.7))
         surroundings(w, v.eye, walls);
+    if (w->media) {
+        put_bound(w);
+        put_milk(w);
+    }
 }
 
 struct random_scene random_scene(uint64_t number, const char *top, bool evil)
@@ -395,11 +402,15 @@ struct random_scene random_scene(uint64_t number, const char *top, bool evil)
     struct writer w = {.rng = rng_stream(number, RNG_TEST, 7, evil), .top = top, .evil = evil};
     int family = (int)(number % (sizeof FAMILIES / sizeof FAMILIES[0]));
     s.family = FAMILIES[family].name;
+    w.media = FAMILIES[family].write == anything && number / 8 % 3 == 1;
+    w.around = "";
     FAMILIES[family].write(&w, &s);
     put(&w, "WorldEnd\n");
     s.text = w.text;
     s.specular |= w.specular;
     s.delta_light |= w.delta_light;
+    s.media = w.media;
+    s.fog = w.around[0] != '\0';
     s.known &= !evil;
     return s;
 }

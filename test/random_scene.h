@@ -6,7 +6,8 @@
  *     furnaces   every ray sees the same, by theory: walls of albedo a that shine, or a sky over one convex thing
  *     direct     a patch lit by a delta light, seen from so near that the picture is one number, which is computed
  *                here without the program's help: pbrt-v3's rules for spots, distant lights and vertex normals
- *     any        nothing is known but that all methods must agree
+ *     any        nothing is known but that all methods must agree; a third of them have media, about all things,
+ *                within one closed shape, or both
  *
  * The sizes are such that pictures are neither black nor governed by rare bright samples: lights and camera stay away
  * from surfaces, rough lobes are broad, walls and lamps large.
@@ -28,6 +29,8 @@ struct random_scene {
     bool one_ray;     /* family "direct": all rays hit the same place, and path tracing alone has a chance */
     double low, high;
     bool delta_light; /* some light is met by no ray */
+    bool media, fog;  /* are there any (scene/medium.h), and about the lens as well? Joining a point in fog to a point
+                         light, or to the lens, has no variance unless it is weighed against other ways */
     bool specular;    /* some surface reflects or transmits in single directions, so that pt cannot join what is
                          behind it to a delta light, and lt cannot join it to the lens */
 };

@@ -20,6 +20,8 @@ struct writer {
     size_t used, capacity;
     int textures;              /* "s0", "f0", "s1", ... are defined */
     bool specular, delta_light; /* what has been written so far */
+    bool media;                 /* there are some, so that every lamp has a material and stands in what is around */
+    const char *around;         /* the medium that the camera is in; "": none */
 };
 
 /* put: text, as printf. put_numbers: n numbers and blanks, some of them evil if the scene is. put_vec: three. */

@@ -76,7 +76,7 @@ struct specimen {
     struct lobe lobe[MAX_LOBES];
 };
 
-enum { N_SPECIMENS = 19 };
+enum { N_SPECIMENS = 21 };
 
 static void specimens(struct specimen *s, const struct fourier_table *table)
 {
@@ -104,6 +104,9 @@ static void specimens(struct specimen *s, const struct fourier_table *table)
     coated.of.coat = rgb_grey(0.4);
     struct lobe layered = lobe(LOBE_FOURIER, 1, 0);
     layered.of.table = table;
+    struct lobe forward = lobe(LOBE_PHASE, 1, 0), backward = forward;
+    forward.of.g = 0.6;
+    backward.of.g = -0.3;
     struct specimen all[N_SPECIMENS] = {
         {"lambert", 1, {diffuse}},
         {"lambert transmission", 1, {through}},
@@ -124,6 +127,8 @@ static void specimens(struct specimen *s, const struct fourier_table *table)
         {"clear coat", 1, {gloss}},
         {"fourier", 1, {layered}},
         {"disney", 4, {dimmed(disney), dimmed(metal), gloss, dimmed(glass)}},
+        {"medium, forward", 1, {forward}},
+        {"medium, backward", 1, {backward}},
     };
     memcpy(s, all, sizeof all);
 }

@@ -185,14 +185,14 @@ static void compare(struct subject *s, const struct way *a, const struct way *b)
     report(s, p, what, found, expected);
 }
 
-/* Is it a method of independent samples without bias, and none of the three above? */
-static bool is_other(const struct method *m)
+/* Is it a method of independent samples without bias, and none of the three above, that sees media if there are? */
+static bool is_other(const struct method *m, bool media)
 {
     static const char *const not[] = {"pt", "lt", "bdpt", "asbdpt select=bins", "pathgraph", "ellipse"};
     for (size_t i = 0; i < sizeof not / sizeof not[0]; i++)
         if (strcmp(method_name(m), not[i]) == 0)
             return false;
-    return !m->chain;
+    return !m->chain && !(media && m->surfaces);
 }
 
 /* One of them; each of these parameters, where it has them, is its default as often as not. */
@@ -202,12 +202,12 @@ static const struct {
 } DRAWN[] = {{"connections", 1, 4}, {"pathpixels", 1, 8}, {"candidates", 1, 8}, {"neighbours", 0, 8},
              {"longest", 1, 2}};
 
-static struct way draw_other(struct rng *r)
+static struct way draw_other(struct rng *r, bool media)
 {
     const struct method *other[64];
     uint32_t n = 0;
     for (int i = 0; method_rows[i] != NULL; i++)
-        if (is_other(method_rows[i]))
+        if (is_other(method_rows[i], media))
             other[n++] = method_rows[i];
     const struct method *m = other[rng_below(r, n)];
     struct way way;
@@ -238,9 +238,10 @@ static struct gate draw_gate(struct rng *r, double unit)
 static void look_at(struct subject *s)
 {
     struct rng r = rng_stream(s->number, RNG_TEST, 8, 0);
-    struct way other = draw_other(&r);
+    struct way other = draw_other(&r, s->made.media);
     s->power = rng_below(&r, 2) == 0;
-    bool pt = !(s->made.delta_light && s->made.specular), lt = !s->made.specular && !s->made.one_ray;
+    bool pt = !(s->made.delta_light && (s->made.specular || s->made.fog));
+    bool lt = !s->made.specular && !s->made.one_ray && !s->made.fog;
     if (s->made.known && pt)
         compare(s, &PT, NULL);
     if (s->made.one_ray)
