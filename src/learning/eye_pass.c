@@ -8,8 +8,7 @@ static const double GUIDE_DELTA = 0.2; /* share of s = 1 samples that choose lig
 
 struct eye_pass {
     struct tables tables; /* so far */
-    struct guide_sums lights;
-    bool guide;
+    struct guide_sums lights; /* NULL sums: no guide is wanted */
     long n;
 };
 
@@ -27,7 +26,7 @@ static void trace(const struct pass *p, int thread, long i, struct findings *out
         f.light = regions_key(&e->tables.light, z->p, vertex_side(z));
         findings_add(out, f);
         f.kind = LIGHT_SEEN;
-        for (int j = 0; e->guide && j < LIGHTS_PER_VERTEX; j++) {
+        for (int j = 0; e->lights.arrived != NULL && j < LIGHTS_PER_VERTEX; j++) {
             struct connection light = connect_direct(l->job->scene, &p->counts, z, &sampler, j, LIGHTS_PER_VERTEX);
             f.cell = light.cell;
             f.x = rgb_luminance(light.value);
@@ -53,7 +52,7 @@ static void take(void *context, const struct finding *f)
 
 struct tables train_importance(struct training *t, struct tables known, long n, bool guide)
 {
-    struct eye_pass e = {.tables = known, .guide = guide, .n = n};
+    struct eye_pass e = {.tables = known, .n = n};
     struct pass pass = {t, any_counts(&NO_TABLES), 0, n, &e, trace, take};
     if (guide)
         guide_sums_init(&e.lights, &t->job->scene->lights, &known.eye);

@@ -4,8 +4,9 @@
 #include "base/number.h"
 #include "learning/training.h"
 
-/* The budget: eye sub-paths for each pixel, and between which numbers. */
-enum { LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LIGHT_MOST = 16 * 1024, COUNTED = 4 * 1024 };
+/* The budget: eye sub-paths for each pixel, and between which numbers; how many light sub-paths at most, and where
+ * nothing but the mean number of their vertices is asked for. */
+enum { LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LIGHT_MOST = 16 * 1024, LIGHT_COUNTED = 4 * 1024 };
 static const double LEARN_PER_PIXEL = 4;
 
 enum { MAX_EYE_REGIONS = 1024, MAX_LIGHT_REGIONS = 2048, MAX_IMPORTANCE_REGIONS = 1 << 17 };
@@ -17,9 +18,9 @@ struct tables learn(const struct render_job *job, const struct learn_options *op
     struct tables tables = NO_TABLES;
     double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
     long n = int_within(LEARN_PER_PIXEL * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LIGHT_MOST ? n : LIGHT_MOST;
-    bool places = options->importance || options->guide || options->pairs;
-    long aiming = options->importance && options->emission < 1 ? n_light / 2 : 0;
-    if (places) {
+    bool regions = options->importance || options->guide || options->pairs;
+    long n_emission = options->importance && options->emission < 1 ? n_light / 2 : 0;
+    if (regions) {
         vec3 low, high;
         train_extent(&t, &low, &high);
         regions_init(&tables.eye, low, high, options->eye_cells, options->levels, MAX_EYE_REGIONS);
@@ -31,10 +32,10 @@ struct tables learn(const struct render_job *job, const struct learn_options *op
             tables.importance.vertices = mem_alloc((size_t)tables.light.limit, sizeof(double));
         tables = train_importance(&t, tables, options->pairs ? n / 2 : n, options->guide);
     }
-    if (aiming > 0)
-        tables = train_emission(&t, tables, aiming, options->emission);
-    if (!places || options->importance)
-        tables = train_vertices(&t, tables, aiming, places ? n_light - aiming : COUNTED);
+    if (n_emission > 0)
+        tables = train_emission(&t, tables, n_emission, options->emission);
+    if (!regions || options->importance)
+        tables = train_vertices(&t, tables, n_emission, regions ? n_light - n_emission : LIGHT_COUNTED);
     if (options->pairs)
         tables = train_pairs(&t, tables, n / 2, n / 2, options->delta);
     patience_end(&t.patience);

@@ -1,5 +1,5 @@
-/* light_pass.c: the passes that look which light sub-paths are of use to the camera (emission.h), and where the
- * vertices of those are that know it; see training.h. */
+/* light_pass.c: the pass that looks which light sub-paths are of use to the camera (emission.h), and the one that looks
+ * where vertices lie of sub-paths that leave by that table; see training.h. */
 #include "learning/training.h"
 
 static const double FIRST_VERTEX = 0.2; /* what the first vertex of a light sub-path counts for in emission */
@@ -76,7 +76,7 @@ static void take_vertex(void *context, const struct finding *f)
         importance->vertices[region] += 1.0 / (double)l->n;
 }
 
-/* Walks need not know regions here, which are added meanwhile. */
+/* Walks are not to look up regions, which this pass adds: of the tables they have emission alone. */
 struct tables train_vertices(struct training *t, struct tables known, long first, long n)
 {
     struct light_pass l = {.tables = known, .n = n};

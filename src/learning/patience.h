@@ -1,6 +1,6 @@
-/* patience.h: may learning go on? Its threads ask before each path, however dear one is; job->watch is asked in turn
- * where work is counted, and every fiftieth of a second. Who is told to stop once is always told so; of a scene without
- * light there is nothing to learn.
+/* patience.h: may learning go on? job->watch says so, one call at a time: whenever a chunk of work is counted, and,
+ * since a chunk may take long, before a path of any thread that has not asked for a fiftieth of a second. After the
+ * first no it is not asked again. In a scene without light the answer is no from the beginning.
  *
  * Tests: test_learning.c.
  */
@@ -21,7 +21,7 @@ struct patience patience_begin(const struct render_job *job);
 void patience_end(struct patience *p);
 
 /* patience_lasts: thread-safe.
- *   asked  in-out: when the thread did so before, by the clock; 0 at first */
+ *   asked  in-out, of the thread: when it last asked job->watch, by the clock; 0 at first */
 bool patience_lasts(struct patience *p, double *asked);
 
 /* patience_count: so many sub-paths more; does it last? Thread-safe. */

@@ -11,10 +11,10 @@ static const struct plan PLAN_USUAL = {{3, 1, 2, 1}};
  * take over weight from others, so its variance falls more slowly than 1/n. */
 static const double BOLDNESS = 2.0 / 3;
 
-/* Light sub-paths cost more than rays: they are kept and chosen from. */
+/* What plan_costs does not count, keeping a pool of light sub-paths and choosing from it, as a factor of all costs. */
 static const double KEEPING = 1.08;
 
-/* The factors were measured. */
+/* CONNECTION, POINT: what a connection, and a light point with its connection, cost in rays; measured. */
 struct costs plan_costs(const struct importance *means)
 {
     const double CONNECTION = 0.6, POINT = 0.8;

@@ -30,13 +30,15 @@ void emission_sums_add(struct emission_sums *s, int cell, const double u[2], dou
 
 /* --- the table --------------------------------------------------------------------------------------- */
 
+/* The mean of n squares, leaning on the m above; emission.h. */
 static double shrunk(double sum, double n, double above)
 {
-    const double K = 4;
+    const double K = 4; /* rays that m_above counts for */
     return (sum + K * above) / (n + K);
 }
 
-/* m of a column's bins, by 2 x 2, 4 x 4, 8 x 8, each from those above; n rays left the column in all. */
+/* m of a column's bins: of the column, then of its 2 x 2, 4 x 4 and 8 x 8 parts, each from the part that holds it; n
+ * rays left the column in all. */
 static void mean_squares(const double *square, double n, double above, double *m)
 {
     m[0] = shrunk(sum_of(square, BINS), n, above);
@@ -100,7 +102,7 @@ static int fall(const double *part, double *u)
     return i;
 }
 
-/* The column's rho per q; 0 if it is dark. */
+/* rho / q = B / e, the same for all bins of a column; 0 if it is dark. */
 static double per_q(const struct emission *e, int column)
 {
     return e->columns.power[column] > 0 ? BINS / e->columns.power[column] : 0;

@@ -8,10 +8,11 @@
  * chooses both, and u lies uniformly in its bin. That root makes the variance of the sum of I least; the mean of few
  * leans on that of four times as many bins, at last of the cell and of the scene:
  *     m = (sum of I^2 + K m_above) / (n + K).
- * The density of a ray is then rho = B q / e times that of light.h; where it begins is not looked at.
+ * The density of a ray is then rho = B q / e times that of light.h: of its cell and u; the point of the cell that it
+ * leaves does not matter.
  *
  * The table is frozen before the render, so any is unbiased, and the weights know rho (emit.h). More than
- * EMISSION_COLUMNS cells share columns. Drawn by inversion, cell, row and bin in turn, so that strata remain strata.
+ * EMISSION_COLUMNS cells share columns. Column, row, bin and cell are drawn in turn by inversion: strata remain strata.
  * [Grittmann 2018] has such tables for photons; that squares are to be learnt is from [Rath 2020].
  *
  * Tests: test_emission.c, test_mis.c, test_learning.c.

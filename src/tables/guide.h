@@ -10,7 +10,7 @@
  * it (at the top: the shares of the whole scene), on which a region seldom visited relies.
  *
  * A scene with more than GUIDE_COLUMNS light cells is learnt in groups of consecutive cells; within a group the choice
- * is by power. So the memory is bounded, by 24 bytes for each of GUIDE_COLUMNS columns of each region.
+ * is by power. So the memory is bounded, by 16 bytes for each of GUIDE_COLUMNS columns of each region.
  *
  * The tables are frozen before the render, so any choice is unbiased; MIS needs the ratio of the two choices,
  * guide_density, as the count of strategy s = 1 (mis.h): its samples are that many times denser than those of emission.

@@ -13,7 +13,7 @@
 struct importance {
     /* [limit of the light regions], owned; NULL: not looked for */
     double *E;
-    double *vertices; /* connectible vertices y_1, y_2 ... of a light sub-path in each, met in no smaller one */
+    double *vertices; /* N of pairs.h: connectible vertices of a light sub-path, each in the finest region it lies in */
     /* Means over sub-paths: */
     double light_vertices;               /* connectible vertices of a light sub-path altogether */
     double eye_vertices, first_vertices; /* of an eye sub-path, and first hits among them */
