@@ -8,6 +8,7 @@
 
 #include "base/os.h"
 #include "lab/paths.h"
+#include "foggy.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -95,6 +96,21 @@ static void test_methods(struct test *t)
     test_method(t, "caustics with=asbdpt longest=2");
     test_method(t, "regularise with=pt angle=.2");
     test_method(t, "regularise with=bdpt angle=.2");
+}
+
+/* Through media as well, where a length is counted from one point within them to the next. */
+static void test_fog(struct test *t)
+{
+    static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt"};
+    struct scene scene;
+    if (!scene_from_text(t, FOGGY, &scene))
+        return;
+    for (int i = 0; i < 4; i++) {
+        struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
+        o.integrator = set_method(&scene, WAYS[i]);
+        test_sum(t, &scene, &o, WAYS[i]);
+    }
+    scene_free(&scene);
 }
 
 /* What no float holds is left out of every film alike, so that the rest still adds up. */
@@ -360,6 +376,7 @@ static void test_identity(struct test *t)
 void test_gates(struct test *t)
 {
     test_methods(t);
+    test_fog(t);
     test_mirror(t);
     test_ellipses(t);
     test_left_out(t);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/os.h"
+#include "foggy.h"
 #include "helpers.h"
 #include "random_writer.h"
 #include "tests.h"
@@ -103,6 +104,21 @@ static void test_sum(struct test *t)
         o.gate.begin = 6;
         o.gate.end = 12;
         check_sum(t, &scene, &o, what);
+    }
+    scene_free(&scene);
+}
+
+/* Through media as well. */
+static void test_fog(struct test *t)
+{
+    static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt"};
+    struct scene scene;
+    if (!scene_from_text(t, FOGGY, &scene))
+        return;
+    for (int i = 0; i < 4 && CHECK(t, scene.lights.n_groups == GROUPS, "%d groups", scene.lights.n_groups); i++) {
+        struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
+        o.integrator = set_method(&scene, WAYS[i]);
+        check_sum(t, &scene, &o, WAYS[i]);
     }
     scene_free(&scene);
 }
@@ -346,6 +362,7 @@ static void test_many_lights(struct test *t)
 
 void test_lights(struct test *t)
 {
+    test_fog(t);
     static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt select=subspaces"};
     test_sum(t);
     test_left_out(t);
