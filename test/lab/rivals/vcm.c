@@ -194,7 +194,7 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
             if (can_merge(&eye[t - 1]))
                 merge_all(m, &p->sample, &eye[t - 1], t);
         splat(m, &p->sample, light_pool_path(&m->pool, i), m->pool.length[i]);
-        m->pool.length[i] = 0; /* the frame has nothing left to splat */
+        p->n_light = 0; /* the frame has nothing left to splat */
     }
 }
 
