@@ -98,17 +98,11 @@ ref: asbdpt asbdpt-lab ## render the stored references of ref/ again (an hour; g
 	sh ref/make-ref.sh $(PROGRAM)
 
 # ---- what proves it ----
-test: asbdpt asbdpt-lab $(BUILD)/test layers standard references columns faults links limits ## build and run the test suite (two minutes; six on a slow machine)
-	sh test/cli.sh $(PROGRAM)
-	sh test/outputs.sh $(PROGRAM)
-	sh test/install.sh $(PROGRAM)
-	sh test/mini.sh $(PROGRAM)
-	sh test/keep.sh $(PROGRAM)
-	sh test/hashes_test.sh
-	sh test/hashes.sh $(PROGRAM)
-	LIST=test/lab/hashes.txt sh test/hashes.sh $(LAB)
-	sh test/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md
-	sh test/suites.sh $(BUILD)/test
+test: asbdpt asbdpt-lab $(BUILD)/test layers standard references columns faults links limits ## build and run the test suite (three minutes on two cores)
+	sh test/suites.sh "sh test/mini.sh $(PROGRAM)" "sh test/cli.sh $(PROGRAM)" "sh test/keep.sh $(PROGRAM)" $(BUILD)/test \
+	    $(foreach name,outputs install hashes_test hashes,"sh test/$(name).sh $(PROGRAM)") \
+	    "LIST=test/lab/hashes.txt sh test/hashes.sh $(LAB)" \
+	    "sh test/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
 
 check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
 	$(BUILD)/test --slow
@@ -162,7 +156,7 @@ links: ## check that links, functions, tests and mutants named in the documents 
 
 san: ## run the tests (or SUITES="...") under the address and undefined-behaviour sanitizers
 	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test
-	sh test/suites.sh build-san/test $(SUITES)
+	sh test/suites.sh $(if $(SUITES),$(foreach suite,$(SUITES),"build-san/test $(suite)"),build-san/test)
 
 INJECTED = calloc realloc fwrite fprintf fputs fputc fclose fsync fdopen rename pthread_create
 .PHONY: inject
