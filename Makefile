@@ -28,7 +28,7 @@ FUZZED   = $(BUILD)/obj/test/fuzz/libfuzzer.o $(TARGETS) $(filter-out %/main.o,$
 	@echo "This Makefile needs GNU make (gmake); doc/portability.md has a line that builds without any make." >&2; exit 1
 
 all: asbdpt asbdpt-lab ## build ./asbdpt, the renderer, and ./asbdpt-lab, the laboratory (the default)
-	@echo "Built. Next: make demo (half a minute), ./asbdpt --help, make test, make help."
+	@echo "Built. Next: make demo, ./asbdpt --help, make test, make help."
 
 # ---- what is built ----
 # A line for each file; V=1 shows the commands.

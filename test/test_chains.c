@@ -281,13 +281,8 @@ static void test_converges(struct test *t, const char *const *methods, long spp)
         "Shape \"sphere\" \"float radius\" .1\nAttributeEnd\n"
         "LightSource \"spot\" \"point from\" [0 .9 0] \"point to\" [0 -1 .1] \"rgb I\" [3e3 3e3 3e3]\n"
         "\"float coneangle\" 1 \"float conedeltaangle\" .1\nWorldEnd\n";
-    char path[300];
     struct scene scene;
-    snprintf(path, sizeof path, "%s/spot.pbrt", test_tmp(t));
-    FILE *f = fopen(path, "w");
-    fputs(room, f);
-    fclose(f);
-    if (!scene_from_file(t, path, 8, 8, &scene))
+    if (!scene_from_text(t, room, &scene))
         return;
     double truth = luminance(t, &scene, "bdpt", 1024);
     for (; *methods != NULL; methods++) {

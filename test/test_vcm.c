@@ -1,7 +1,6 @@
 /* test_vcm.c: vertex connection and merging: with a radius that nothing is within it is bdpt; where light is even its
  * radius brings no bias, if all weights of a path add up to 1; elsewhere the bias falls with the radius. */
 #include <math.h>
-#include <stdio.h>
 
 #include "lab/compare.h"
 #include "render/render.h"
@@ -49,13 +48,8 @@ static void test_even(struct test *t)
         "\"integer yresolution\" 16\nPixelFilter \"box\"\nWorldBegin\nMaterial \"matte\" \"rgb Kd\" [.5 .5 .5]\n"
         "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nReverseOrientation\nShape \"sphere\" \"float radius\" 1\n"
         "WorldEnd\n";
-    char path[300];
     struct scene scene;
-    snprintf(path, sizeof path, "%s/sphere.pbrt", test_tmp(t));
-    FILE *f = fopen(path, "w");
-    fputs(text, f);
-    fclose(f);
-    if (!scene_from_file(t, path, SIDE, SIDE, &scene))
+    if (!scene_from_text(t, text, &scene))
         return;
     struct batches even = render_batches(t, &scene, "bdpt", DEPTH, 64, 12, 4, 71);
     const char *vcm = set_method(&scene, "vcm radius=.05 alpha=1");
