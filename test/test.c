@@ -6,6 +6,7 @@
 
 #include "base/mem.h"
 #include "base/os.h"
+#include "helpers.h"
 #include "lab/stats.h"
 
 static const double LEVEL = 1e-4, BEYOND_DOUBT = 1e-7, SECOND_LEVEL = 0.001;
@@ -26,6 +27,37 @@ struct test {
     size_t n, capacity;
 };
 
+static bool doubtful(const struct hypothesis *h) { return h->must_hold && h->p < LEVEL && h->p >= BEYOND_DOUBT; }
+
+static void fail(struct test *t, const struct hypothesis *h, const char *must_be, double level)
+{
+    t->failures++;
+    const char *planted = h->must_hold ? "" : ": a fault that the test has planted, and must notice, is not noticed";
+    fprintf(t->set.out, "  FAIL %s\n       p = %.3g, must be %s %.3g%s\n", h->text, h->p, must_be, level, planted);
+    fprintf(t->set.out, "       repeat with: build/test --seed %llu %s\n", (unsigned long long)t->set.seed, t->name);
+}
+
+/* Fails what is certain already; NaN is neither small nor large enough. Is it doubtful? */
+static bool judge_one(struct test *t, const struct hypothesis *h)
+{
+    if (doubtful(h) && !t->set.once)
+        return true;
+    if (h->must_hold && !(h->p >= LEVEL))
+        fail(t, h, ">=", LEVEL);
+    else if (!h->must_hold && !(h->p < LEVEL))
+        fail(t, h, "<", LEVEL);
+    return false;
+}
+
+static void end_at_first(const struct test *t)
+{
+    if (!t->set.first || t->failures == 0)
+        return;
+    fprintf(t->set.out, "ended at the first failure\n");
+    remove_tree(t->set.tmp);
+    exit(1);
+}
+
 bool test_check(struct test *t, const char *file, int line, bool ok, const char *format, ...)
 {
     t->checks++;
@@ -39,6 +71,7 @@ bool test_check(struct test *t, const char *file, int line, bool ok, const char 
     fprintf(t->set.out, "\n       repeat with: build/test --seed %llu %s\n", (unsigned long long)t->set.seed, t->name);
     va_end(args);
     fflush(t->set.out); /* before a crash that may come of it */
+    end_at_first(t);
     return false;
 }
 
@@ -54,6 +87,10 @@ void test_hypothesis(struct test *t, const char *file, int line, bool must_hold,
     if (used > 0 && (size_t)used < sizeof h->text)
         vsnprintf(h->text + used, sizeof h->text - (size_t)used, format, args);
     va_end(args);
+    if (t->set.first) {
+        judge_one(t, h);
+        end_at_first(t);
+    }
 }
 
 /* Another seed for the second time, that no --seed of a few digits is. */
@@ -70,31 +107,15 @@ bool test_range(const struct test *t, uint64_t *first, uint64_t *end)
     return true;
 }
 
-static bool doubtful(const struct hypothesis *h) { return h->must_hold && h->p < LEVEL && h->p >= BEYOND_DOUBT; }
-
-static void fail(struct test *t, const struct hypothesis *h, const char *must_be, double level)
-{
-    t->failures++;
-    const char *planted = h->must_hold ? "" : ": a fault that the test has planted, and must notice, is not noticed";
-    fprintf(t->set.out, "  FAIL %s\n       p = %.3g, must be %s %.3g%s\n", h->text, h->p, must_be, level, planted);
-    fprintf(t->set.out, "       repeat with: build/test --seed %llu %s\n", (unsigned long long)t->set.seed, t->name);
-}
-
-/* Fails what is certain already; returns the number of doubtful hypotheses. NaN is neither small nor large enough. */
+/* Returns the number of doubtful hypotheses. */
 static size_t judge(struct test *t)
 {
     size_t doubts = 0;
-    for (size_t i = 0; i < t->n; i++) {
-        const struct hypothesis *h = &t->hypothesis[i];
-        if (doubtful(h) && !t->set.once) {
+    for (size_t i = 0; i < t->n; i++)
+        if (judge_one(t, &t->hypothesis[i])) {
             doubts++;
-            fprintf(t->set.out, "  doubtful: %s: p = %.3g\n", h->text, h->p);
-        } else if (h->must_hold && !(h->p >= LEVEL)) {
-            fail(t, h, ">=", LEVEL);
-        } else if (!h->must_hold && !(h->p < LEVEL)) {
-            fail(t, h, "<", LEVEL);
+            fprintf(t->set.out, "  doubtful: %s: p = %.3g\n", t->hypothesis[i].text, t->hypothesis[i].p);
         }
-    }
     return doubts;
 }
 

@@ -38,9 +38,9 @@ try() {
     if [ -f "$1/test/$2.sh" ]; then
         (cd "$1" && make -s LTO= asbdpt asbdpt-lab >/dev/null 2>&1 && $limit sh "test/$2.sh" ./asbdpt)
     elif [ "$2" = all ]; then
-        (cd "$1" && $limit build/test --once)
+        (cd "$1" && $limit build/test --first)
     else
-        (cd "$1" && $limit build/test --once "$2")
+        (cd "$1" && $limit build/test --first "$2")
     fi >"$1/output.txt" 2>&1
 }
 
