@@ -11,6 +11,7 @@
 
 #include "base/mem.h"
 #include "base/os.h"
+#include "base/parallel.h"
 #include "base/sampler.h"
 #include "base/warp.h"
 #include "lab/sides.h"
@@ -211,32 +212,81 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
     return render_gated(t, scene, integrator, max_depth, all, spp, n_batches, tile, seed);
 }
 
+/* Batches of a render, whose method is prepared. */
+struct batch_run {
+    struct render_job job;
+    struct preparation prepared;
+    struct gate gate;
+    int spp;
+    struct batches *pixels;
+    struct workspace *work; /* [threads] */
+    long *nonfinite;        /* [batches] */
+};
+
+/* Batch k, by hand, tile by tile as render.c does, on one thread. */
+static void work_batch(void *context, int64_t k, int slot, int thread)
+{
+    struct batch_run *r = context;
+    const struct scene *scene = r->job.scene;
+    struct tile tile = {.rect = r->job.film_rect};
+    struct tiling tiling = tiling_of(r->job.film_rect, &r->prepared.size);
+    struct tile_pass pass = {.job = &r->job, .tile = &tile, .work = &r->work[thread]};
+    long block = r->prepared.size.block > 0 ? r->prepared.size.block : LONGEST_BLOCK;
+    long first = (long)k * SAMPLER_POINTS, end = first + r->spp;
+    struct film film;
+    (void)slot;
+    film_init(&film, r->job.film_rect, scene->width, scene->height);
+    for (pass.first = first; pass.first < end; pass.first = pass.end) {
+        pass.end = (pass.first / block + 1) * block < end ? (pass.first / block + 1) * block : end;
+        for (int64_t i = 0; i < tiling_count(&tiling); i++) {
+            pass.rect = tiling_rect(&tiling, i);
+            tile_start(&tile, pass.rect, r->job.film_rect, &scene->filter);
+            if (r->gate.end > 0)
+                tile.gate = r->gate;
+            r->prepared.method->render(&r->prepared, &pass);
+            film_merge_tile(&film, &tile);
+        }
+    }
+    for (long i = 0; i < r->pixels->n; i++)
+        r->pixels->value[r->pixels->n * k + i] = film_value(&film, (size_t)i) / r->spp;
+    r->nonfinite[k] = film.nonfinite;
+    tile_free(&tile);
+    film_free(&film);
+}
+
+static bool commit_batch(void *context, int64_t k, int slot)
+{
+    (void)context;
+    (void)k;
+    (void)slot;
+    return true;
+}
+
 struct batches render_gated(struct test *t, const struct scene *scene, const char *integrator, int max_depth,
                             struct gate gate, int spp, int n_batches, int tile, uint64_t seed)
 {
     struct pixel_rect crop = render_crop(scene);
     struct batches pixels = batches_new(n_batches, 3L * rect_width(crop) * rect_height(crop), false);
+    struct batch_run r = {.gate = gate, .spp = spp * test_effort(t), .pixels = &pixels};
     struct render_options o = {.integrator = integrator, .max_depth = max_depth, .n_threads = os_cores(),
-                               .gate = gate};
-    struct render_job job;
-    struct preparation prepared;
+                               .seed = test_seed(t) * 1000003 + seed};
+    struct parallel_jobs jobs = {.n_jobs = n_batches, .n_threads = o.n_threads, .n_slots = o.n_threads, .context = &r,
+                                 .work = work_batch, .commit = commit_batch};
     struct error err;
-    o.seed = test_seed(t) * 1000003 + seed;
-    if (!CHECK(t, render_prepare(scene, &o, crop, &job, &prepared, &err), "%s", err.text))
+    if (!CHECK(t, render_prepare(scene, &o, crop, &r.job, &r.prepared, &err), "%s", err.text))
         return pixels;
-    o.prepared = &prepared;
-    for (int k = 0; k < n_batches; k++) {
-        struct film film;
-        o.first = (long)k * SAMPLER_POINTS;
-        o.end = o.first + spp * test_effort(t);
-        film_init(&film, crop, scene->width, scene->height);
-        CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
-        CHECK(t, film.nonfinite == 0, "%s: %ld contributions are not finite", integrator, film.nonfinite);
-        for (long i = 0; i < pixels.n; i++)
-            pixels.value[pixels.n * k + i] = film_value(&film, (size_t)i) / (double)film.iterations;
-        film_free(&film);
-    }
-    method_release(&prepared);
+    r.nonfinite = mem_alloc((size_t)n_batches, sizeof *r.nonfinite);
+    r.work = workspaces_new(o.n_threads, r.job.max_depth);
+    for (int i = 0; i < o.n_threads; i++)
+        r.work[i].scratch = method_scratch(&r.prepared);
+    parallel_run(&jobs);
+    for (int i = 0; i < o.n_threads; i++)
+        method_scratch_free(&r.prepared, r.work[i].scratch);
+    workspaces_free(r.work, o.n_threads);
+    method_release(&r.prepared);
+    for (int k = 0; k < n_batches; k++)
+        CHECK(t, r.nonfinite[k] == 0, "%s: %ld contributions are not finite", integrator, r.nonfinite[k]);
+    free(r.nonfinite);
     struct batches tiles = batches_tiles(&pixels, rect_width(crop), rect_height(crop), tile);
     batches_free(&pixels);
     return tiles;

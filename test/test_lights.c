@@ -309,7 +309,7 @@ static bool scene_beside(struct test *t, enum light_kind kind, int n, struct sce
     return ok;
 }
 
-/* CPU seconds of its samples alone, by what was prepared before. */
+/* CPU seconds of a render. */
 static double cost_of(struct test *t, const struct scene *scene, const struct render_options *o)
 {
     struct film film;
@@ -327,29 +327,18 @@ static void check_many(struct test *t, int kind, const char *integrator)
 {
     enum { FEW, MANY, PAIRS = 8 };
     struct scene scene[2];
-    struct render_job job[2];
-    struct preparation prepared[2];
-    struct render_options o[2];
-    struct error err;
+    const struct render_options o = {.integrator = integrator, .end = 64, .max_depth = 3, .n_threads = 1};
     double cost[2] = {0, INFINITY};
-    for (int i = FEW; i <= MANY; i++) {
-        const struct render_options these = {.integrator = integrator, .end = 64, .max_depth = 3, .n_threads = 1,
-                                             .prepared = &prepared[i]};
-        o[i] = these;
-        if (!scene_beside(t, (enum light_kind)kind, i == FEW ? 100 : 10000, &scene[i]) ||
-            !CHECK(t, render_prepare(&scene[i], &o[i], render_crop(&scene[i]), &job[i], &prepared[i], &err), "%s",
-                   err.text))
+    for (int i = FEW; i <= MANY; i++)
+        if (!scene_beside(t, (enum light_kind)kind, i == FEW ? 100 : 10000, &scene[i]))
             return;
-    }
     for (int k = 0; k < PAIRS && !(cost[MANY] < 4 * cost[FEW]); k++)
         for (int i = FEW; i <= MANY; i++)
-            cost[i] = cost_of(t, &scene[i], &o[i]);
+            cost[i] = cost_of(t, &scene[i], &o);
     CHECK(t, cost[MANY] < 4 * cost[FEW], "%s: %.4f s beside 10000 lights of kind %d, %.4f s beside 100", integrator,
           cost[MANY], kind, cost[FEW]);
-    for (int i = FEW; i <= MANY; i++) {
-        method_release(&prepared[i]);
+    for (int i = FEW; i <= MANY; i++)
         scene_free(&scene[i]);
-    }
 }
 
 static void test_many_lights(struct test *t)

@@ -216,9 +216,7 @@ static bool prepare(struct run *r, struct error *err)
         return false;
     r->job.watch = r->options->progress != NULL ? watch : NULL;
     r->job.watch_context = r;
-    bool ok = r->options->prepared != NULL || method_prepare(m, &r->job, &r->prepared, err);
-    if (r->options->prepared != NULL)
-        r->prepared = *r->options->prepared;
+    bool ok = method_prepare(m, &r->job, &r->prepared, err);
     r->film->learnt_short = r->wish != RENDER_GO_ON && !holds_samples(r->film);
     return ok;
 }
@@ -269,7 +267,6 @@ bool render_scene(const struct scene *scene, const struct render_options *option
         film_end_block(film);
     } else if (ok && options->end > options->first && !in_haste && !good_enough(&r)) /* what is resumed may be */
         run_all(&r);
-    if (options->prepared == NULL)
-        method_release(&r.prepared);
+    method_release(&r.prepared);
     return ok;
 }

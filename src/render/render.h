@@ -43,8 +43,7 @@ struct render_options {
     int max_depth;   /* 0: what the scene says, else 5 */
     double noise[N_NOISE_SCALES]; /* stop when the film's are below; 0: never. The film must keep halves */
     struct gate gate;             /* only light that has come so far (scene/tile.h); its end 0: all */
-    const struct observers *observers;  /* who looks on at every path; NULL: nobody */
-    const struct preparation *prepared; /* by render_prepare with these options, for any samples; NULL: it is made */
+    const struct observers *observers; /* who looks on at every path; NULL: nobody */
     /* Called after each tile pass with the share of the work done, in (0,1], one call at a time and while nothing else
      * touches the film. NULL: not called. While the method learns it is called, too, learning being a part of the work;
      * if it is not to go on then, that ends with what has been learnt, by which one block is rendered, or at
