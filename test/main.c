@@ -101,7 +101,8 @@ int main(int argc, char **argv)
             free(scene.text);
             return 0;
         } else {
-            fprintf(stderr, "usage: build/test [-l] [--slow] [--once | --first] [--seed N] [--scenes FIRST:END] [NAME...]\n"
+            fprintf(stderr, "usage: build/test [-l] [--slow] [--once | --first] [--seed N] [--scenes FIRST:END]"
+                            " [NAME...]\n"
                             "       build/test --scene N | --evil N\n");
             return 2;
         }
