@@ -106,7 +106,6 @@ bool services_paths_matter(const struct render_job *job, struct preparation *out
 {
     const double SAMPLES = 0.2; /* of each pixel, by each of the probe's renders */
     const double LEAST = 0.3;   /* of the variance, what light sub-paths are to save before they are looked into */
-    const double ONE[N_KINDS] = {1, 1, 1, 1};
     struct frozen *f = out->state;
     struct preparation bdpt;
     struct error none;
@@ -115,7 +114,7 @@ bool services_paths_matter(const struct render_job *job, struct preparation *out
         return true;
     struct workspace *work = workspaces_new(job->n_threads, job->max_depth);
     const struct probe probe = {job, work, &bdpt, render_with, &((struct frozen *)bdpt.state)->counts, out->size};
-    struct noise noise = noise_measure(&probe, ONE, SAMPLES);
+    struct noise noise = noise_measure(&probe, NULL, SAMPLES);
     bool matter = !(noise.tail < LEAST * noise.total);
     workspaces_free(work, job->n_threads);
     method_release(&bdpt);
@@ -131,7 +130,7 @@ bool services_paths_matter(const struct render_job *job, struct preparation *out
 
 void services_settle(const struct render_job *job, struct preparation *out)
 {
-    const double SAMPLES = 1.28; /* of each pixel, by the pilot's renders each */
+    const double SAMPLES = 0.64; /* of each pixel, by the pilot's renders each */
     struct frozen *f = out->state;
     if (!f->services.pilot && !f->services.credit)
         return;

@@ -9,7 +9,7 @@
 
 enum { SEQUENCE = 16, MOST_PIXELS = 1024 };
 enum sum { BROAD, DELTA, ALL, N_SUMS }; /* direct light that s = 0 can find; that it cannot; everything */
-static const double SAMPLES_PER_PIXEL = 1.28;
+static const double SAMPLES_PER_PIXEL = 0.64;
 static const double MOST_CREDIT = 64;
 
 /* Of one pixel, its two sequences together. */

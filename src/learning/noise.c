@@ -1,5 +1,5 @@
-/* noise.c: see probe.h. The probe renders tiles, each four times; an observer notes what the paths of a tile bring to
- * each of its pixels; the notes are reduced to variances, and those of all tiles are added up.
+/* noise.c: see probe.h. The probe renders tiles, each three or four times; an observer notes what the paths of a tile
+ * bring to each of its pixels; the notes are reduced to variances, and those of all tiles are added up.
  */
 #include <stdlib.h>
 
@@ -18,7 +18,7 @@ static const double CLIP_TAIL = 1e4; /* what the path tracer would bring has mor
 
 struct measure {
     const struct probe *probe;
-    const double *tried;     /* [N_KINDS] */
+    const double *tried;     /* [N_KINDS], or NULL */
     struct mis_counts again; /* of SHARES_ALL: those of s <= 1 are twice as large */
     struct noise *found;     /* [n_slots], of a tile */
     struct noise sums;
@@ -70,7 +70,7 @@ static int kind_of(const struct joined *p)
 static void end_row(struct notes *notes)
 {
     struct row *r = &notes->row;
-    double n = r->kind >= 0 ? notes->m->tried[r->kind] : 1;
+    double n = r->kind >= 0 && notes->m->tried != NULL ? notes->m->tried[r->kind] : 1;
     if (n > 1)
         r->of->spread[r->kind] += (r->x2 - r->x * r->x / n) * n / (n - 1) / COMPARED;
     *r = (struct row){.kind = -1};
@@ -244,6 +244,8 @@ static void render_tile(void *context, int64_t number, int slot, int thread)
     n->height = rect_height(n->rect);
     n->row.kind = -1;
     for (n->render = FIRST; n->render < RENDERS; n->render++) {
+        if (n->render == SHARES_EYE && m->tried == NULL)
+            continue;
         struct render_job job = probe_job(p->job, (uint64_t)(n->render % COMPARED));
         job.eye_seed = probe_job(p->job, COMPARED + (n->render == SHARES_NOTHING)).seed;
         job.enough = enough;
@@ -252,7 +254,7 @@ static void render_tile(void *context, int64_t number, int slot, int thread)
         tile_start(&n->tile, n->rect, job.film_rect, &job.scene->filter);
         p->render(p->method, n->render == SHARES_ALL ? &m->again : p->counts, &pass);
         end_row(n);
-        if (n->render == SHARES_EYE) {
+        if (n->render == SHARES_NOTHING) {
             find_scales(n);
             splats = squares_of_splats(n);
         }

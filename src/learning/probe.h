@@ -83,7 +83,8 @@ struct noise {
 };
 
 /* noise_measure: by samples for each pixel of the picture and render, in whole tiles; `tried` samples of each kind are
- * taken. All zeros if job->watch ended it. */
+ * taken, or NULL: then only `total` and `tail` are asked for, and a render is spared. All zeros if job->watch ended
+ * it. */
 struct noise noise_measure(const struct probe *p, const double *tried, double samples);
 
 #endif
