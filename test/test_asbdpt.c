@@ -1,10 +1,10 @@
 /* test_asbdpt.c: selection of light sub-paths: the unbiased ways agree with path tracing, the dissertation's does
  * not. */
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 
 #include "helpers.h"
+#include "integrators/pooled.h"
 #include "render/render.h"
 #include "transport/pixel_sample.h"
 #include "tests.h"
@@ -280,17 +280,21 @@ static void test_even_sky(struct test *t)
 /* Draws of one tile pass: divided by the probability, their number and that of the light sub-paths, as a fact. */
 struct draws {
     double number, paths; /* C and K */
+    bool whole;           /* sub-paths are drawn, not vertices for an eye region */
+    int spoilt;           /* every sub-path is, or every 2nd; 0: none */
+    const struct method *method;
     long told;
     double worst; /* largest relative difference */
     /* Of the eye region that is looked at, -1: any: */
-    const struct vertex *drawn[64]; /* [n] unlike ones, whose probabilities sum to: */
+    const struct vertex *drawn[256]; /* [n] unlike ones, whose probabilities sum to: */
     int n, region;
-    double sum;
+    double sum, least;
 };
 
 static void note_draw(void *context, const struct pixel_sample *sample, const struct joined *path)
 {
     struct draws *d = context;
+    const struct vertex *what = d->whole ? path->y - (path->s - 1) : path->y;
     int i = 0;
     (void)sample;
     if (path->s < 2 || path->t < 2)
@@ -298,12 +302,25 @@ static void note_draw(void *context, const struct pixel_sample *sample, const st
     d->told++;
     d->worst = fmax(d->worst, fabs(path->scale * path->pmf * d->number * d->paths - 1));
     d->region = d->region < 0 ? path->z->eye_region : d->region;
-    while (i < d->n && d->drawn[i] != path->y)
+    while (i < d->n && d->drawn[i] != what)
         i++;
-    if (i < d->n || i == 64 || d->region != path->z->eye_region)
+    if (i < d->n || i == 256 || (!d->whole && d->region != path->z->eye_region))
         return;
-    d->drawn[d->n++] = path->y;
+    d->drawn[d->n++] = what;
     d->sum += path->pmf;
+    d->least = d->n == 1 ? path->pmf : fmin(d->least, path->pmf);
+}
+
+/* The furthest vertices get throughputs by which nothing can be chosen. */
+static void spoil(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
+{
+    static const double useless[] = {-1e9, NAN, INFINITY, 1e300};
+    const struct draws *d = pass->observer->context;
+    struct light_pool *pool = scratch;
+    for (int k = 0; k < pool->n; k += d->spoilt)
+        if (pool->length[k] > 0)
+            pool->vertex[pool->start[k] + (size_t)pool->length[k] - 1].beta = rgb_grey(useless[k / d->spoilt % 4]);
+    d->method->begin(scratch, state, pass, iteration);
 }
 
 static void check_draws(struct test *t, struct scene *scene, const char *way, struct draws d, double least)
@@ -320,9 +337,18 @@ static void check_draws(struct test *t, struct scene *scene, const char *way, st
     struct tile_pass pass = {&job, job.film_rect, 0, 1, &tile, work, &observer};
     work->scratch = method_scratch(&p);
     tile_start(&tile, job.film_rect, job.film_rect, &scene->filter);
+    struct method spoiling = *p.method;
+    spoiling.begin = spoil;
+    d.method = p.method;
+    p.method = d.spoilt ? &spoiling : p.method;
     p.method->render(&p, &pass);
     CHECK(t, d.told > 100 && d.worst < 1e-9, "%s: %ld draws, what they count for is off by %g", way, d.told, d.worst);
-    CHECK(t, d.sum < 1 + 1e-9 && d.sum > least, "%s: probabilities of %d vertices sum to %g", way, d.n, d.sum);
+    CHECK(t, d.sum < 1 + 1e-9, "%s: probabilities of %d that were drawn sum to %g", way, d.n, d.sum);
+    CHECK(t, d.sum > least, "%s: too few, %d, are drawn: their probabilities sum to %g", way, d.n, d.sum);
+    double useless = d.spoilt == 1 ? 1 : 0.1; /* if nothing is of any use delta is 1 */
+    CHECK(t, d.spoilt == 0 || fabs(d.least * d.paths - useless) < 1e-9,
+          "%s: what is no importance has %g times the probability that delta leaves it", way,
+          d.least * d.paths / useless);
     tile_free(&tile);
     method_scratch_free(&p, work->scratch);
     workspaces_free(work, 1);
@@ -335,7 +361,10 @@ static void test_counts(struct test *t)
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
         return;
-    check_draws(t, &scene, "asbdpt select=pool", (struct draws){.number = 1, .paths = 256, .region = INT_MAX}, -1);
+    check_draws(t, &scene, "asbdpt select=pool", (struct draws){.number = 1, .paths = 256, .whole = true}, 0.5);
+    for (int spoilt = 2; spoilt > 0; spoilt--)
+        check_draws(t, &scene, "asbdpt select=pool metric=throughput",
+                    (struct draws){.number = 1, .paths = 256, .whole = true, .spoilt = spoilt}, 0.4);
     check_draws(t, &scene, "asbdpt select=vertices connections=3 pathpixels=4",
                 (struct draws){.number = 3, .paths = 64, .region = -1}, 0);
     check_draws(t, &scene, "asbdpt select=vertices connections=3 pathpixels=256",

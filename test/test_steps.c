@@ -60,7 +60,7 @@ static void walks_in_a_box(struct test *t)
     struct room r;
     struct vertex path[MAX + 1];
     double beta = 0, rev = 0, itself = 0;
-    int shorter = 0, longer = 0;
+    int shorter = 0, longer = 0, vain = 0;
     if (!build(t, BOX, "", &r))
         return;
     for (uint64_t i = 0; i < 500; i++) {
@@ -70,6 +70,7 @@ static void walks_in_a_box(struct test *t)
         n = walk_eye(t, &r, i, 0, path, max);
         shorter += n < max;
         longer += n > max || path[max].length != -7;
+        vain += r.sampler.drawn[DRAW_SCATTERING] > max - 2;
         for (int k = 1; k < n && k < max; k++) {
             beta = most_of(beta, fabs(path[k].beta.g / pow(ALBEDO_PERCENT / 100.0, k - 1) - 1));
             itself += path[k].prim_id == path[k - 1].prim_id && k > 1;
@@ -78,6 +79,7 @@ static void walks_in_a_box(struct test *t)
         }
     }
     CHECK(t, longer == 0, "full: %d walks have more vertices than they may", longer);
+    CHECK(t, vain == 0, "full: %d walks depart in vain from the last vertex that they may have", vain);
     CHECK(t, shorter == 0, "vertices: %d of 500 walks end within a closed box", shorter);
     CHECK(t, beta < 1e-9, "throughput: beta is off by a factor of %g where it is a power of the albedo", beta + 1);
     CHECK(t, rev < 1e-9, "pdf_rev of a matte vertex is off by %g", rev);
