@@ -128,7 +128,7 @@ hashes: asbdpt asbdpt-lab ## write the list of pictures' checksums anew, after a
 mutants: ## apply small faults one by one; the tests must catch every one
 	sh test/mutants/run.sh 2
 
-layers: ## check that no file includes a higher room, that no room holds a circle, that headers compile alone
+layers: ## check that no file includes a higher room, that no room holds a circle, that headers compile alone and offer what is used
 	@ABOVE="test/lab/caustics test/lab/rivals test/lab/chains test/lab" sh test/layers.sh src $(CC)
 
 standard: ## check that src calls and includes nothing that differs from machine to machine, but in one place

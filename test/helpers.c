@@ -14,6 +14,7 @@
 #include "base/parallel.h"
 #include "base/sampler.h"
 #include "base/warp.h"
+#include "lab/numbers.h"
 #include "lab/sides.h"
 #include "lab/stats.h"
 #include "parser/parser.h"

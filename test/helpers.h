@@ -80,7 +80,7 @@ bool films_equal(const struct film *a, const struct film *b);
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
 
-/* render_gated: the same, of what comes through a gate. */
+/* render_gated: as render_batches, of what comes through a gate. */
 struct batches render_gated(struct test *t, const struct scene *scene, const char *integrator, int max_depth,
                             struct gate gate, int spp, int n_batches, int tile, uint64_t seed);
 

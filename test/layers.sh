@@ -2,14 +2,15 @@
 # layers.sh [SRC [CC...]]: the folders of SRC are rooms; SRC/LAYERS lists them, bottom up. Checked:
 #   1. every file lies in a room that is listed, and includes only files of its own room and of rooms below;
 #   2. inside a room there is no circle, a .c and its .h counting as one;
-#   3. every header compiles alone.
+#   3. every header compiles alone;
+#   4. what a header offers is called in SRC: whatever only others call, they bring. A planted function is not missed.
 # ABOVE names folders elsewhere that are rooms over all these, bottom up, and that they know nothing of.
 # Prints what is wrong; exit status 0 only if nothing is.
 src=${1:-src}
 [ $# -gt 0 ] && shift
 [ $# -gt 0 ] || set -- cc
 pairs=$(mktemp) || exit 1
-trap 'rm -f "$pairs" "$pairs.circle"' EXIT
+trap 'rm -f "$pairs" "$pairs.circle" "$pairs.h"' EXIT
 
 awk -v pairs="$pairs" -v top="$src/" -v above="$ABOVE" '
     NR == FNR { rank[$1] = NR; next }
@@ -58,3 +59,45 @@ for header in $(find "$src" $ABOVE -name '*.h' | sort -u); do
         exit 1
     }
 done
+
+# A line that begins with a type declares or defines a function; all other words are uses.
+uncalled() {
+    awk '
+    FNR == 1 { comment = 0; header = FILENAME ~ /\.h$/ }
+    {
+        line = $0
+        gsub(/\\./, "", line)
+        gsub(/"[^"]*"/, "\"\"", line)
+        if (comment && !sub(/^.*\*\//, "", line)) next
+        gsub(/\/\*([^*]|\*+[^*\/])*\*+\//, " ", line)
+        comment = sub(/\/\*.*/, "", line)
+        name = ""
+        if (line ~ /^[a-z][^=;]*[a-z0-9_]\(/ && line !~ /^typedef/) {
+            head = line
+            sub(/\(.*/, "", head)
+            name = head
+            sub(/.*[^A-Za-z0-9_]/, "", name)
+            line = substr(line, length(head) + 1)
+            if (header)
+                where[name] = FILENAME ":" FNR
+        }
+        while (match(line, /[A-Za-z_][A-Za-z_0-9]*/)) {
+            used[substr(line, RSTART, RLENGTH)] = 1
+            line = substr(line, RSTART + RLENGTH)
+        }
+    }
+    END {
+        for (name in where)
+            if (!(name in used)) {
+                print where[name] ": nobody calls " name "() in these rooms; it belongs to those who do"
+                bad = 1
+            }
+        exit bad
+    } ' "$@"
+}
+echo 'int planted(int x);' >"$pairs.h"
+if uncalled "$pairs.h" >/dev/null; then
+    echo "a function without a caller is not noticed"
+    exit 1
+fi
+uncalled $(find "$src" -name '*.[ch]' | sort)

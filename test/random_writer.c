@@ -8,6 +8,7 @@
 #include "base/maths.h"
 #include "base/mem.h"
 #include "fuzz/hostile.h"
+#include "lab/numbers.h"
 
 /* --- text and numbers ----------------------------------------------------------------------------------- */
 

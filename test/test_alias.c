@@ -13,6 +13,7 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/rng.h"
+#include "lab/numbers.h"
 #include "lab/stats.h"
 #include "tests.h"
 

@@ -196,7 +196,7 @@ static void test_expected_vertices(struct test *t)
         if (!scene_from_text(t, cases[i].text, &scene))
             return;
         struct render_options o = {.integrator = set_method(&scene, "lvc connections=3"), .max_depth = cases[i].depth};
-        struct render_job job;
+        struct render_job job = {.scene = NULL};
         struct preparation prepared;
         if (CHECK(t, render_prepare(&scene, &o, render_crop(&scene), &job, &prepared, &err), "%s", err.text)) {
             const double *count = ((const struct frozen *)prepared.state)->counts.connect;
@@ -326,7 +326,7 @@ static void spoil(void *scratch, const void *state, const struct tile_pass *pass
 static void check_draws(struct test *t, struct scene *scene, const char *way, struct draws d, double least)
 {
     struct render_options o = {.integrator = set_method(scene, way), .seed = 1, .max_depth = 4, .n_threads = 1};
-    struct render_job job;
+    struct render_job job = {.scene = NULL};
     struct error err;
     struct preparation p;
     if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &job, &p, &err), "%s", err.text))

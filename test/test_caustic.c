@@ -234,8 +234,8 @@ static bool first_hit(const struct scene *scene, struct arena *arena, vec3 eye, 
 }
 
 /* What the three that make the path weigh it, together, where a chain of one vertex leads to y by way of `image`. */
-static double all_weights(const struct one_more *extra, struct pixel_sample *sample, vec3 eye, const struct vertex *z,
-                          const struct connection *c, vec3 image)
+static double all_weights(const struct one_more *extra, struct pixel_sample *sample, struct arena *arena, vec3 eye,
+                          const struct vertex *z, const struct connection *c, vec3 image)
 {
     struct surface at;
     if (!meet(sample->scene, z->p, image, z->prim_id, &at))
@@ -250,8 +250,8 @@ static double all_weights(const struct one_more *extra, struct pixel_sample *sam
     sent[2].prev_delta = true;
     sent[2].wo = normalize(sub(x.p, z->p));
     struct connection hit = {.weight = -1}, splat = {.weight = -1, .end = eye};
-    extra->weigh(extra, sample, seen, 0, 4, &hit);
-    extra->weigh(extra, sample, sent, 3, 1, &splat);
+    extra->weigh(extra, sample, arena, seen, 0, 4, &hit);
+    extra->weigh(extra, sample, arena, sent, 3, 1, &splat);
     return c->weight + hit.weight + splat.weight;
 }
 
@@ -273,7 +273,7 @@ static void test_receivers(struct test *t)
         struct one_more *extra = caustics_new(&scene, 1);
         struct mis_counts counts = {.hit = {1, 1}, .direct = {1, 1}, .connect = {1, 1}, .splat = 640 * 480,
                                     .power = i % 4 > 1};
-        struct pixel_sample sample = {.scene = &scene, .counts = &counts, .max_depth = 5, .arena = &arena};
+        struct pixel_sample sample = {.scene = &scene, .counts = &counts, .max_depth = 5};
         for (int n = 0; n < 40; n++) {
             vec3 at = vec(4 * rng_uniform(&r) - 2, 0, 4 * rng_uniform(&r) - 2);
             struct vertex z, path[2];
@@ -282,11 +282,11 @@ static void test_receivers(struct test *t)
                 continue;
             path[1] = z;
             sample.sampler = sampler_start(test_seed(t), RNG_TEST, i, (uint64_t)n);
-            for (int k = extra->connect(extra, &sample, path, 2, c); k-- > 0;)
+            for (int k = extra->connect(extra, &sample, &arena, path, 2, c); k-- > 0;)
                 if (!rgb_is_black(c[k].c.value) && c[k].c.end.y < 9) {
                     vec3 image = c[k].c.end;
                     image.z = mirror ? 8 - image.z : image.z;
-                    double sum = all_weights(extra, &sample, eye, &z, &c[k].c, image);
+                    double sum = all_weights(extra, &sample, &arena, eye, &z, &c[k].c, image);
                     met++;
                     CHECK(t, fabs(sum - 1) < 1e-6, "receiver %d: weights add up to %.9f", (int)i, sum);
                 }

@@ -161,29 +161,41 @@ static rgb heard(const struct chain_state *s)
     return sum;
 }
 
-/* What bdpt makes of these numbers, on one pixel: its light points and lens points come last. */
-static rgb bdpt_of(struct bench *b, const struct tape *number)
+/* What bdpt makes of these numbers, on one pixel: of its connections, those to light points come first. */
+static rgb bdpt_of(struct bench *b, struct tape *number)
 {
-    struct tape all = {.n = 0};
+    const struct scene *scene = b->scene;
+    const struct mis_counts *counts = &((const struct frozen *)b->prepared.state)->counts;
     struct tile tile = {.rect = b->job.film_rect};
-    rgb sum = rgb_black();
-    for (int i = 0; i < STRATEGY_NUMBERS; i++)
-        for (size_t k = 0; k < number[i].n; k++) {
-            all.number = mem_grow(all.number, &all.capacity, all.n + 1, sizeof *all.number);
-            all.number[all.n++] = number[i].number[k];
-        }
-    size_t n = all.n;
-    b->job.tape = &all;
     struct tile_pass pass = {&b->job, b->job.film_rect, 0, 1, &tile, b->work, NULL};
-    tile_start(&tile, b->job.film_rect, b->job.film_rect, &b->scene->filter);
-    b->prepared.method->render(&b->prepared, &pass);
+    struct sampler from[STRATEGY_NUMBERS];
+    rgb sum;
+    bool all = true;
+    tile_start(&tile, b->job.film_rect, b->job.film_rect, &scene->filter);
+    arena_reset(&b->work->arena);
+    for (int i = 0; i < STRATEGY_NUMBERS; i++) {
+        from[i] = sampler_start(0, RNG_TEST, 0, 0);
+        from[i].tape = &number[i];
+        number[i].at = 0;
+    }
+    struct pixel_sample s = pixel_sample_begin(&pass, counts, 0, 0, 0);
+    struct walk eye = {scene, counts, &b->work->arena, &from[EYE_NUMBERS], b->job.rr_threshold}, light = eye;
+    light.sampler = &from[LIGHT_NUMBERS];
+    int n_eye = path_eye_pixel(&eye, 0, 0, b->work->eye, s.max_depth + 2, &s.filter_weight);
+    int n_light = path_light(&light, b->work->light, s.max_depth + 1);
+    s.sampler = from[POINT_NUMBERS];
+    pixel_sum_eye(&s, b->work->eye, n_eye);
+    pixel_sum_pairs(&s, b->work->eye, n_eye, b->work->light, n_light, NO_CHOICE);
+    s.sampler = from[LENS_NUMBERS];
+    pixel_splat_path(&s, b->work->light, n_light, 1);
+    sum = s.until;
     for (size_t i = 0; i < tile.n_splats; i++)
         if (floor(tile.splat[i].px) == 0 && floor(tile.splat[i].py) == 0)
             sum = rgb_add(sum, tile.splat[i].value);
-    sum = rgb_add(sum, rgb_make(exact_value(&tile.sum[0]), exact_value(&tile.sum[1]), exact_value(&tile.sum[2])));
+    for (int i = 0; i < STRATEGY_NUMBERS; i++)
+        all = all && number[i].at == number[i].n;
     tile_free(&tile);
-    free(all.number);
-    return all.n == n ? sum : rgb_grey(NAN);
+    return all ? sum : rgb_grey(NAN);
 }
 
 static bool same(rgb a, rgb b) { return rgb_max(rgb_add(a, rgb_scale(b, -1))) <= 1e-9 * (rgb_max(b) + 1e-3) &&
@@ -236,7 +248,7 @@ static void test_samples(struct test *t)
         return;
     for (int i = 0; i < 500; i++) {
         chain_candidate(pssmlt.chain, i);
-        const struct chain_state *state = &pssmlt.chain->next;
+        struct chain_state *state = &pssmlt.chain->next;
         rgb one = heard(state), two = bdpt_of(&bdpt, state->number), three = all_strategies(&mmlt, state);
         CHECK(t, same(one, two), "sample %d: pssmlt has %g, bdpt %g", i, one.g, two.g);
         CHECK(t, same(three, two), "sample %d: the strategies of mmlt have %g, bdpt %g", i, three.g, two.g);

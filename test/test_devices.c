@@ -13,6 +13,7 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "image/image.h"
+#include "lab/image_write.h"
 #include "tests.h"
 
 static void check_no_write(struct test *t, const char *path, int size)

@@ -7,13 +7,14 @@
 
 #include "base/mem.h"
 #include "base/rng.h"
+#include "caustics/specular.h"
 #include "lab/stats.h"
 #include "tests.h"
 
 enum { TRIANGLES = 8, SIDE = 6 };
 
 /* Two points and a triangle that does not come near them, and all lengths of the ways by it. */
-struct setting {
+struct placing {
     vec3 y, z, corner[3];
     double least, most;
 };
@@ -24,11 +25,11 @@ static vec3 around(struct rng *r, vec3 centre, double size)
     return add(centre, mul(vec(u[0] - 0.5, u[1] - 0.5, u[2] - 0.5), size));
 }
 
-static double way(const struct setting *s, vec3 x) { return length(sub(x, s->y)) + length(sub(x, s->z)); }
+static double way(const struct placing *s, vec3 x) { return length(sub(x, s->y)) + length(sub(x, s->z)); }
 
-static struct setting any_setting(struct rng *r)
+static struct placing any_setting(struct rng *r)
 {
-    struct setting s = {.y = around(r, vec(-1, 0, 0), 1), .z = around(r, vec(1, 0, 0), 1)};
+    struct placing s = {.y = around(r, vec(-1, 0, 0), 1), .z = around(r, vec(1, 0, 0), 1)};
     for (int i = 0; i < 3; i++) {
         s.corner[i] = around(r, vec(0, 0, 2.5), 2.5);
         s.most = fmax(s.most, way(&s, s.corner[i]));
@@ -37,13 +38,13 @@ static struct setting any_setting(struct rng *r)
     return s;
 }
 
-static vec3 point(const struct setting *s, double b1, double b2)
+static vec3 point(const struct placing *s, double b1, double b2)
 {
     return add(add(mul(s->corner[0], 1 - b1 - b2), mul(s->corner[1], b1)), mul(s->corner[2], b2));
 }
 
 /* Which of SIDE^2 equal parts of the triangle x is in; -1 if it is not in it, or the way by x is not tau long. */
-static int part_of(const struct setting *s, vec3 x, double tau)
+static int part_of(const struct placing *s, vec3 x, double tau)
 {
     double b1, b2;
     vec3 a = sub(s->corner[1], s->corner[0]), b = sub(s->corner[2], s->corner[0]);
@@ -57,7 +58,7 @@ static int part_of(const struct setting *s, vec3 x, double tau)
 }
 
 /* Points that are kept with a probability in inverse proportion to their density are uniform; all points are not. */
-static void uniform(struct test *t, struct rng *r, const struct setting *s)
+static void uniform(struct test *t, struct rng *r, const struct placing *s)
 {
     enum { DRAWS = 40000, CELLS = 2 * SIDE * SIDE };
     struct draw {
@@ -95,14 +96,14 @@ static void uniform(struct test *t, struct rng *r, const struct setting *s)
 }
 
 /* What arrives by way of the triangle, but for materials. */
-static double arrives(const struct setting *s, vec3 x)
+static double arrives(const struct placing *s, vec3 x)
 {
     return 1 / (length2(sub(x, s->y)) * length2(sub(x, s->z)));
 }
 
 /* In each of some gates, and in all together, what is drawn brings as much as a sum over small parts of the triangle
  * has; no numbers are random here. */
-static void integrals(struct test *t, const struct setting *s)
+static void integrals(struct test *t, const struct placing *s)
 {
     enum { GATES = 4, FINE = 300, LENGTHS = 256, ANGLES = 64 };
     double sum[GATES] = {0}, total = 0, all = 0, range = (s->most - s->least) / GATES, pdf;
@@ -133,7 +134,7 @@ void test_ellipse(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 73, 0);
     for (int i = 0; i < TRIANGLES; i++) {
-        struct setting s = any_setting(&r);
+        struct placing s = any_setting(&r);
         uniform(t, &r, &s);
         integrals(t, &s);
     }

@@ -9,6 +9,7 @@
 #include "base/mem.h"
 #include "base/rng.h"
 #include "caustics/lamp.h"
+#include "lab/numbers.h"
 #include "lab/stats.h"
 #include "tables/tables.h"
 #include "transport/path.h"

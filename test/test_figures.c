@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "lab/tree.h"
 #include "helpers.h"
 #include "learning/learn.h"
 #include "tests.h"
@@ -29,7 +30,7 @@ static void test_trees(struct test *t)
         snprintf(path, sizeof path, "scenes/%s.pbrt", trees[i].name);
         if (!scene_from_file(t, path, 0, 0, &scene))
             continue;
-        figure(t, path, scene.kd.cost, trees[i].cost, 0.03);
+        figure(t, path, tree_figures(&scene.kd).cost, trees[i].cost, 0.03);
         scene_free(&scene);
     }
 }

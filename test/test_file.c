@@ -16,6 +16,8 @@
 #include "image/image.h"
 #include "base/mem.h"
 #include "base/rng.h"
+#include "lab/image_write.h"
+#include "lab/numbers.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -242,7 +244,7 @@ static void test_json(struct test *t)
     json_open(&j, "c", '{');
     json_close(&j);
     json_open(&j, "d", '[');
-    json_bool(&j, NULL, true);
+    json_word(&j, NULL, "true");
     json_count(&j, NULL, UINT64_MAX);
     json_close(&j);
     json_text(&j, "e", NULL);

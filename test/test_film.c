@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "base/rng.h"
 #include "base/vec.h"
+#include "lab/numbers.h"
 #include "lab/stats.h"
 #include "transport/pixel_sample.h"
 #include "tests.h"

@@ -9,6 +9,7 @@
 #include "base/os.h"
 #include "lab/paths.h"
 #include "foggy.h"
+#include "lab/methods.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -80,8 +81,8 @@ static void test_method(struct test *t, const char *name)
     snprintf(way, sizeof way, "%s", name);
     o.integrator = set_method(&scene, way);
     struct error err;
-    if (method_find(o.integrator, &scene.settings, &err)->chain) /* 8 iterations have so few that a gate may be empty */
-        o.end = 64;
+    if (method_is_chain(method_find(o.integrator, &scene.settings, &err)))
+        o.end = 64; /* 8 iterations have so few that a gate may be empty */
     test_sum(t, &scene, &o, way);
     scene_free(&scene);
 }

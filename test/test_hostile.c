@@ -23,6 +23,8 @@
 #include "fuzz/hostile.h"
 #include "fuzz/targets.h"
 #include "image/image.h"
+#include "lab/image_write.h"
+#include "lab/numbers.h"
 #include "helpers.h"
 #include "random_scene.h"
 #include "tests.h"

@@ -12,6 +12,8 @@
 
 #include "base/mem.h"
 #include "base/rng.h"
+#include "lab/numbers.h"
+#include "lab/tree.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -255,8 +257,9 @@ static void compare(struct test *t, const char *name, const struct geometry *geo
     }
     CHECK(t, wrong == 0, "%s: %d of %d rays wrong", name, wrong, n_rays);
     CHECK(t, hits > n_rays / 20, "%s: only %d of %d rays hit anything: a poor test", name, hits, n_rays);
-    CHECK(t, kd.n_items <= 32 * (size_t)geometry_primitives(geo), "%s: %zu references for %d primitives", name,
-          kd.n_items, geometry_primitives(geo));
+    size_t references = tree_figures(&kd).references;
+    CHECK(t, references <= 32 * (size_t)geometry_primitives(geo), "%s: %zu references for %d primitives", name,
+          references, geometry_primitives(geo));
     kd_free(&kd);
 }
 
@@ -370,7 +373,8 @@ static void check_watertight(struct test *t, struct rng *r)
         kd_build(&kd, &geo, KD_SURFACES);
         int escaped = count_escapes(&kd, &geo, CENTRE[i], radius, 40000, r);
         CHECK(t, (escaped > 0) == (i == 3), "ball %d: %d of 40000 rays got out", i, escaped);
-        CHECK(t, kd.cost < 80 && kd.n_nodes > 1000, "a cost of %g with %d nodes is no good tree", kd.cost, kd.n_nodes);
+        double cost = tree_figures(&kd).cost;
+        CHECK(t, cost < 80 && kd.n_nodes > 1000, "a cost of %g with %d nodes is no good tree", cost, kd.n_nodes);
         kd_free(&kd);
         geometry_free(&geo);
     }

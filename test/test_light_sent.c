@@ -8,6 +8,8 @@
 #include "base/warp.h"
 #include "caustics/lamp.h"
 #include "image/image.h"
+#include "lab/image_write.h"
+#include "lab/numbers.h"
 #include "lab/stats.h"
 #include "helpers.h"
 #include "tests.h"

@@ -9,6 +9,7 @@
 #include "transport/counts.h"
 #include "base/mem.h"
 #include "base/warp.h"
+#include "lab/numbers.h"
 #include "tables/tables.h"
 #include "helpers.h"
 #include "oracle.h"

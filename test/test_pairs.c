@@ -6,6 +6,7 @@
 #include "base/mem.h"
 #include "base/rng.h"
 #include "base/warp.h"
+#include "lab/numbers.h"
 #include "tables/pairs.h"
 #include "tests.h"
 

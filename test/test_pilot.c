@@ -27,7 +27,7 @@ static const char FLOOR[] = "LookAt 0 0 4  0 0 0  0 1 0\n"
 static bool settle(struct test *t, const struct scene *scene, struct frozen *out)
 {
     struct render_options o = {.integrator = "asbdpt", .max_depth = 5, .n_threads = 2, .seed = test_seed(t)};
-    struct render_job job;
+    struct render_job job = {.scene = NULL};
     struct preparation prepared;
     struct error err;
     if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &job, &prepared, &err), "%s", err.text))

@@ -16,6 +16,9 @@
 #include <string.h>
 
 #include "base/maths.h"
+#include "caustics/surfaces.h"
+#include "lab/methods.h"
+#include "lab/numbers.h"
 #include "lab/stats.h"
 #include "helpers.h"
 #include "random_scene.h"
@@ -192,7 +195,7 @@ static bool is_other(const struct method *m, bool media)
     for (size_t i = 0; i < sizeof not / sizeof not[0]; i++)
         if (strcmp(method_name(m), not[i]) == 0)
             return false;
-    return !m->chain && !(media && m->surfaces);
+    return !method_is_chain(m) && !(media && m->check == surfaces_alone);
 }
 
 /* One of them; each of these parameters, where it has them, is its default as often as not. */

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "lab/methods.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -39,7 +40,7 @@ static void test_tiles(struct test *t)
             struct scene scene;
             struct film film;
             long wrong = 0;
-            if ((*m)->chain || !scene_from_text(t, EMPTY, &scene))
+            if (method_is_chain(*m) || !scene_from_text(t, EMPTY, &scene))
                 continue;
             scene.width = sizes[i][0];
             scene.height = sizes[i][1];

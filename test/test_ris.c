@@ -135,7 +135,7 @@ static void test_weights(struct test *t, const char *path, const char *method)
     if (!scene_from_file(t, path, SIDE, SIDE, &scene))
         return;
     struct render_options o = {.integrator = set_method(&scene, method), .max_depth = 5, .n_threads = 1};
-    struct render_job job;
+    struct render_job job = {.scene = NULL};
     struct preparation prepared;
     if (!CHECK(t, render_prepare(&scene, &o, render_crop(&scene), &job, &prepared, &err), "%s", err.text))
         return;
@@ -155,7 +155,7 @@ static void test_weights(struct test *t, const char *path, const char *method)
                 break;
             struct pixel_sample sample = pixel_sample_begin(&pass, r->counts, x, y, 3);
             struct vertex eye[16];
-            if (pixel_eye_path(&pass, &sample, 3, eye, 2) < 2 ||
+            if (pixel_eye_path(&pass, &sample, eye, 2) < 2 ||
                 !oracle_weights(&scene, r->counts, light, s, eye, 2, weight))
                 continue;
             if (s == 2)

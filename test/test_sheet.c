@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 #include "image/picture.h"
+#include "lab/numbers.h"
 #include "lab/sheet.h"
 #include "tests.h"
 

@@ -9,6 +9,7 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/rng.h"
+#include "lab/numbers.h"
 #include "tests.h"
 
 static bool near(double a, double b, double relative) { return fabs(a - b) <= relative * fabs(b); }

@@ -1,6 +1,5 @@
 /* test_streams.c: random numbers have names (seed, purpose, pixel, iteration), and no two names may meet. Tested from
- * two sides: the numbers of a sampler, and the sub-paths that the integrators trace. And whoever plays a sample's
- * numbers again gets the sample. */
+ * two sides: the numbers of a sampler, and the sub-paths that the integrators trace. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -169,7 +168,7 @@ static void trace_all(struct test *t, const struct scene *scene, const char *int
                       struct keys *eye, struct keys *light)
 {
     struct render_options o = {.integrator = integrator, .seed = seed, .max_depth = 1, .n_threads = 1};
-    struct render_job job;
+    struct render_job job = {.scene = NULL};
     struct error err;
     struct preparation prepared;
     if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &job, &prepared, &err), "%s", err.text))
@@ -190,69 +189,6 @@ static void trace_all(struct test *t, const struct scene *scene, const char *int
     method_scratch_free(&prepared, work->scratch);
     workspaces_free(work, 1);
     method_release(&prepared);
-}
-
-/* --- replay ------------------------------------------------------------------------------------------ */
-
-/* Render two iterations of all pixels with the numbers of the tape, from its beginning, or record them. */
-static double *play_back(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed,
-                         struct tape *tape)
-{
-    struct render_options o = {.integrator = integrator, .seed = 5, .max_depth = 4, .n_threads = 1};
-    struct render_job job;
-    struct error err;
-    struct preparation prepared;
-    struct pixel_rect all = render_crop(scene);
-    size_t n = 3 * (size_t)rect_width(all) * (size_t)rect_height(all);
-    double *value = mem_alloc(n, sizeof *value);
-    if (!CHECK(t, render_prepare(scene, &o, all, &job, &prepared, &err), "%s", err.text))
-        return value;
-    struct film film;
-    struct tile tile = {.rect = all};
-    struct workspace *work = workspaces_new(1, job.max_depth);
-    work->scratch = method_scratch(&prepared);
-    job.seed = job.eye_seed = seed; /* what was learnt stays as it is */
-    job.tape = tape;
-    tape->at = 0;
-    struct tile_pass pass = {&job, all, 0, 2, &tile, work, NULL};
-    film_init(&film, all, scene->width, scene->height);
-    tile_start(&tile, all, all, &scene->filter);
-    prepared.method->render(&prepared, &pass);
-    film_merge_tile(&film, &tile);
-    for (size_t i = 0; i < n; i++)
-        value[i] = film_value(&film, i);
-    film_free(&film);
-    tile_free(&tile);
-    method_scratch_free(&prepared, work->scratch);
-    workspaces_free(work, 1);
-    method_release(&prepared);
-    return value;
-}
-
-/* A recorded sample replayed under another seed gives its value to the last bit, whatever the method. */
-static void test_replay(struct test *t)
-{
-    struct scene scene;
-    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 6, 4, &scene))
-        return;
-    for (int i = 0; i < N_WAYS; i++) {
-        struct tape tape = {.n = 0}, other = {.n = 0};
-        choose_way(&scene, &WAYS[i]);
-        double *one = play_back(t, &scene, WAYS[i].integrator, 1, &tape);
-        size_t recorded = tape.n;
-        double *two = play_back(t, &scene, WAYS[i].integrator, 2, &tape);
-        double *three = play_back(t, &scene, WAYS[i].integrator, 2, &other);
-        size_t bytes = 3 * 6 * 4 * sizeof *one;
-        CHECK(t, recorded > 100 && tape.n == recorded && memcmp(one, two, bytes) == 0,
-              "%s: a replay differs; %lu numbers", WAYS[i].name, (unsigned long)recorded);
-        CHECK(t, memcmp(one, three, bytes) != 0, "%s: numbers of its own make no difference", WAYS[i].name);
-        free(one);
-        free(two);
-        free(three);
-        free(tape.number);
-        free(other.number);
-    }
-    scene_free(&scene);
 }
 
 /* --- sub-paths --------------------------------------------------------------------------------------- */
@@ -280,6 +216,5 @@ static void test_sub_paths(struct test *t)
 void test_streams(struct test *t)
 {
     test_names(t);
-    test_replay(t);
     test_sub_paths(t);
 }

@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "base/number.h"
+#include "lab/numbers.h"
 #include "helpers.h"
 #include "tests.h"
 

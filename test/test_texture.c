@@ -11,6 +11,7 @@
 #include "base/rng.h"
 #include "helpers.h"
 #include "image/picture.h"
+#include "lab/numbers.h"
 #include "material/noise.h"
 #include "material/texture.h"
 #include "parser/parser.h"

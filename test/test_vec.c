@@ -6,6 +6,7 @@
 #include "base/rng.h"
 #include "base/transform.h"
 #include "base/warp.h"
+#include "lab/numbers.h"
 #include "helpers.h"
 #include "tests.h"
 

@@ -92,17 +92,18 @@ void json_count(struct json *j, const char *name, uint64_t value)
     fprintf(j->file, "%" PRIu64, value);
 }
 
-void json_text(struct json *j, const char *name, const char *text)
+void json_word(struct json *j, const char *name, const char *word)
 {
     begin(j, name);
-    if (text != NULL)
-        quote(j, text);
-    else
-        fputs("null", j->file);
+    fputs(word, j->file);
 }
 
-void json_bool(struct json *j, const char *name, bool value)
+void json_text(struct json *j, const char *name, const char *text)
 {
+    if (text == NULL) {
+        json_word(j, name, "null");
+        return;
+    }
     begin(j, name);
-    fputs(value ? "true" : "false", j->file);
+    quote(j, text);
 }

@@ -30,11 +30,12 @@ void json_open(struct json *j, const char *name, char kind);
 void json_close(struct json *j);
 
 /* json_number: with 17 digits, so that it is read back as it was; null if it is not finite. json_numbers: an array [n]
- * of these on one line. json_text: quoted; a byte that is no part of UTF-8 becomes U+FFFD. NULL becomes null. */
+ * of these on one line. json_text: quoted; a byte that is no part of UTF-8 becomes U+FFFD. NULL becomes null.
+ * json_word: not quoted, as true. */
 void json_number(struct json *j, const char *name, double value);
 void json_numbers(struct json *j, const char *name, const double *values, int n);
 void json_count(struct json *j, const char *name, uint64_t value); /* with all its digits */
 void json_text(struct json *j, const char *name, const char *text);
-void json_bool(struct json *j, const char *name, bool value);
+void json_word(struct json *j, const char *name, const char *word);
 
 #endif

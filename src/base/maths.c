@@ -257,7 +257,6 @@ static double log_to_base(double x, struct pair unit)
 
 double m_log(double x) { return log_to_base(x, (struct pair){1, 0}); }
 double m_log2(double x) { return log_to_base(x, (struct pair){0x1.71547652b82fep+0, 0x1.777d0ffda0d24p-56}); }
-double m_log10(double x) { return log_to_base(x, (struct pair){0x1.bcb7b1526e50ep-2, 0x1.95355baaafad3p-57}); }
 
 double m_log1p(double x)
 {

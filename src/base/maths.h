@@ -31,11 +31,10 @@ double m_acos(double x);
 double m_exp(double x);
 double m_expm1(double x);
 
-/* Logarithms, 0.6 ulp: natural, binary, decimal; exact where the result is a whole number. -infinity for 0, NaN below.
+/* Logarithms, 0.6 ulp: natural and binary; exact where the result is a whole number. -infinity for 0, NaN below.
  * m_log1p: log(1 + x), 1 ulp, also where it is small. */
 double m_log(double x);
 double m_log2(double x);
-double m_log10(double x);
 double m_log1p(double x);
 
 /* m_pow: x^y for x >= 0, 0.7 ulp; NaN for x < 0, unless y = 0. y is finite. */

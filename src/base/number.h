@@ -26,8 +26,7 @@
 static inline double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 static inline double sqr(double x) { return x * x; }
 
-/* least_of, most_of: the smaller, the larger of two numbers; NaN if one of them is, which fmin and fmax forget. */
-static inline double least_of(double a, double b) { return isnan(a) || a < b ? a : b; }
+/* most_of: the larger of two numbers; NaN if one of them is, which fmax forgets. */
 static inline double most_of(double a, double b) { return isnan(a) || a > b ? a : b; }
 
 /* safe_sqrt: square root of a number that rounding may have pushed below 0. */

@@ -63,7 +63,4 @@ static inline struct rng rng_stream(uint64_t seed, enum rng_purpose purpose, uin
 /* rng_uniform: a multiple of 2^-32 in [0,1); never 1. */
 static inline double rng_uniform(struct rng *r) { return rng_u32(r) * (1.0 / 4294967296.0); }
 
-/* rng_below: an integer in [0,n), n >= 1, without modulo bias worth speaking of (2^-32 n). */
-static inline uint32_t rng_below(struct rng *r, uint32_t n) { return (uint32_t)(((uint64_t)rng_u32(r) * n) >> 32); }
-
 #endif

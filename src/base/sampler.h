@@ -48,14 +48,14 @@ enum decision {
 };
 
 /* Numbers from elsewhere: the next one that a sampler gives is number[at], if there is one; else its own, which is
- * appended. So the same tape, set back to at = 0, gives what it has recorded: for replay, mutation and tests. */
+ * appended. So the same tape, set back to at = 0, gives what it has recorded: a Markov chain's mutations are such. */
 struct tape {
     double *number; /* [n], each in [0,1); owned */
     size_t n, at, capacity;
 };
 
 struct sampler {
-    struct tape *tape; /* NULL, but where somebody records or replays: then all samplers of one thread share it */
+    struct tape *tape; /* NULL: all are its own */
     struct rng rng;
     uint64_t scramble;        /* hash of (seed, purpose, pixel, iteration / SAMPLER_POINTS) */
     uint32_t index;           /* iteration % SAMPLER_POINTS, bits reversed: where in the sequence */

@@ -69,18 +69,6 @@ static inline vec3 normalize(vec3 a)
 /* faceforward: n or -n, whichever lies on the side of v. */
 static inline vec3 faceforward(vec3 n, vec3 v) { return dot(n, v) < 0 ? neg(n) : n; }
 
-/* combination: x and y for which x a + y b is nearest to v. False if a and b are parallel. */
-static inline bool combination(vec3 a, vec3 b, vec3 v, double *x, double *y)
-{
-    double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), va = dot(v, a), vb = dot(v, b);
-    double det = aa * bb - ab * ab;
-    if (!(det > 0))
-        return false;
-    *x = (va * bb - vb * ab) / det;
-    *y = (vb * aa - va * ab) / det;
-    return true;
-}
-
 /* is_place: can something of the scene be at p? A kd-tree's planes are as thick as 1e-14 of the scene (kdtree.c):
  * beside something farther away than this, what is of everyday size could not be told apart. */
 static inline bool is_place(vec3 p)

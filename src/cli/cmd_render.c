@@ -17,7 +17,7 @@
 #include "render/parameters.h"
 
 #define AT(member) offsetof(struct job_options, member)
-static const struct option OPTIONS[] = {
+const struct option RENDER_OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .file = FILE_READ, .help = "a scene file"},
     {"-o", "FILE", OPTION_TEXTS, AT(output), .alias = "--outfile",
      .file = FILE_WRITTEN, .help = "linear .pfm .exr, sRGB .png .ppm; repeatable"},
@@ -123,22 +123,11 @@ static bool open_default_output(const struct job_options *o, const struct scene 
     return ok;
 }
 
-/* Samples of a chain are neither a pixel's own nor independent. */
-static bool suits(const struct job_options *o, const struct method *m, const struct files *f, struct error *err)
-{
-    const char *wanted = f->aov.wanted[AOV_VARIANCE] ? "--aov variance"
-                         : o->lights != NULL ? "--lights" : o->alpha ? "--alpha"
-                         : keep_asks_noise(&o->keep) ? "--noise" : NULL;
-    return !m->chain || wanted == NULL ||
-           error_usage(err, "%s: the samples of %s are a chain, and do not show that; render several --seed", wanted,
-                     m->name);
-}
-
 /* What the scene names, or what lies beside that, once the scene is loaded; all are different files. */
 static bool open_others(struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
 {
     struct names all = {0};
-    bool ok = names_add_options(&all, OPTIONS, o, err) &&
+    bool ok = names_add_options(&all, RENDER_OPTIONS, o, err) &&
               (f->pictures.n > 0 || open_default_output(o, scene, &all, &f->pictures, err)) &&
               aov_open(&f->aov, o->layers, &all, &f->pictures, err) &&
               lights_open(o->lights, scene, &all, &f->pictures, err);
@@ -232,7 +221,7 @@ static int run(void *options)
     int status = ok ? job_load(o, &scene, &integrator) : fail(&err);
     if (status == EXIT_OK) {
         double load_seconds = os_wall_seconds() - start;
-        ok = suits(o, integrator, &files, &err) && open_others(o, &scene, &files, &err) &&
+        ok = open_others(o, &scene, &files, &err) &&
              render(o, &scene, integrator, load_seconds, &files, &err);
         scene_free(&scene);
         status = ok ? EXIT_OK : fail(&err);
@@ -242,6 +231,6 @@ static int run(void *options)
 }
 
 const struct command command_render = {
-    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,png,ppm}]... [options]"}, OPTIONS,
+    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,png,ppm}]... [options]"}, RENDER_OPTIONS,
     sizeof(struct job_options), run, false,
     "render scenes/veach-ajar.pbrt --quick --spp 16 -o ajar.png"};

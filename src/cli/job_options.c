@@ -38,15 +38,9 @@ const struct option JOB_OPTIONS[] = {
     {"--strict", NULL, OPTION_ON, AT(strict), .help = "warnings of the scene are errors"},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"}, {.name = NULL}};
 
-/* Who hears of warnings, and how many there were. */
-struct listener {
-    const struct job_options *options;
-    int n_warnings;
-};
-
 static void print_warning(void *context, const char *text)
 {
-    struct listener *to = context;
+    struct job_loading *to = context;
     to->n_warnings++;
     if (to->options->strict || !to->options->quiet)
         fprintf(stderr, "asbdpt: %s%s\n", to->options->strict ? "" : "warning: ", text);
@@ -109,7 +103,7 @@ void integrator_unknown(const char *wanted, struct error *out)
 }
 
 /* A warning about the scene as a whole. */
-static void warn(struct listener *to, const char *format, const char *what)
+static void warn(struct job_loading *to, const char *format, const char *what)
 {
     struct error text, line;
     error_set(&text, format, what);
@@ -117,7 +111,7 @@ static void warn(struct listener *to, const char *format, const char *what)
     print_warning(to, line.text);
 }
 
-static void warn_of_strays(const struct scene *scene, struct listener *to)
+static void warn_of_strays(const struct scene *scene, struct job_loading *to)
 {
     int n = strays_count(scene);
     char text[32];
@@ -126,18 +120,11 @@ static void warn_of_strays(const struct scene *scene, struct listener *to)
         warn(to, "%s paths leave a medium that they are not in: what MediumInterfaces say does not fit together", text);
 }
 
-/* What a file calls mlt is pbrt-v3's: mmlt. */
-static const char *name_in_file(const struct scene *scene)
-{
-    const char *name = scene->integrator != NULL ? scene->integrator : "bdpt";
-    return strcmp(name, "mlt") == 0 ? "mmlt" : name;
-}
-
 /* The method asked for; pbrt's integrators that do not exist here are replaced by the default. */
-static const struct method *choose_method(const struct scene *scene, struct listener *to, struct error *err)
+static const struct method *choose_method(const struct scene *scene, struct job_loading *to, struct error *err)
 {
     const struct job_options *o = to->options;
-    const char *name = o->integrator != NULL ? o->integrator : name_in_file(scene);
+    const char *name = o->integrator != NULL ? o->integrator : scene->integrator != NULL ? scene->integrator : "bdpt";
     if (method_exists(name))
         return method_find(name, &scene->settings, err);
     if (o->integrator == NULL) {
@@ -154,18 +141,11 @@ static const struct method *choose_method(const struct scene *scene, struct list
     return NULL;
 }
 
-int job_load(const struct job_options *o, struct scene *scene, const struct method **method)
+int job_open(struct job_loading *job, struct scene *scene, const struct method **method)
 {
-    return job_load_for(o, NULL, scene, method);
-}
-
-int job_load_for(const struct job_options *o, job_readers *choose, struct scene *scene, const struct method **method)
-{
-    const struct method *readers[3] = {NULL, NULL, NULL};
+    const struct job_options *o = job->options;
     struct error err;
-    struct listener listener = {o, 0};
-    struct message_sink sink = {print_warning, print_error, &listener};
-    struct render_job job;
+    struct message_sink sink = {print_warning, print_error, job};
     char *meant = file_meant(o->scene_path, ".pbrt");
     if (meant != NULL) {
         error_set(&err, "%s: there is no such file; did you mean %s?", o->scene_path, meant);
@@ -174,25 +154,42 @@ int job_load_for(const struct job_options *o, job_readers *choose, struct scene 
     }
     if (!parse_scene(o->scene_path, scene, &sink, NULL))
         return EXIT_JOB;
-    bool ok = apply(o, scene, &err) && (*method = readers[0] = choose_method(scene, &listener, &err)) != NULL &&
-              (choose == NULL || choose(o, scene, *method, readers, &err));
-    if (ok) {
-        parameters_adapt(scene, readers, &sink);
-        ok = parameters_belong(scene, readers, &err) && parameters_read(scene, *method, o->max_depth, &job, &err);
-    }
+    if (apply(o, scene, &err) && (*method = choose_method(scene, job, &err)) != NULL)
+        return EXIT_OK;
+    scene_free(scene);
+    return fail(&err);
+}
+
+int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene)
+{
+    const struct job_options *o = job->options;
+    struct error err;
+    struct message_sink sink = {print_warning, print_error, job};
+    struct render_job read;
+    parameters_adapt(scene, readers, &sink);
+    bool ok = parameters_belong(scene, readers, &err) &&
+              parameters_read(scene, readers[0], o->max_depth, &read, &err);
     if (ok && scene->lights.n == 0)
-        warn(&listener, "%s", "there are no lights, so the picture is black");
+        warn(job, "%s", "there are no lights, so the picture is black");
     if (ok) {
         scene_prepare(scene);
-        warn_of_strays(scene, &listener);
+        warn_of_strays(scene, job);
     }
-    if (ok && o->strict && listener.n_warnings > 0)
+    if (ok && o->strict && job->n_warnings > 0)
         ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
-    if (!ok) {
-        scene_free(scene);
-        return fail(&err);
-    }
-    return EXIT_OK;
+    if (ok)
+        return EXIT_OK;
+    scene_free(scene);
+    return fail(&err);
+}
+
+int job_load(const struct job_options *o, struct scene *scene, const struct method **method)
+{
+    struct job_loading job = {o, 0};
+    const struct method *readers[2] = {NULL, NULL};
+    int status = job_open(&job, scene, &readers[0]);
+    *method = readers[0];
+    return status == EXIT_OK ? job_ready(&job, readers, scene) : status;
 }
 
 struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m)

@@ -52,17 +52,21 @@ struct job_options {
     struct tone_options tone;
     struct keep_options keep;
 };
-extern const struct option JOB_OPTIONS[], RUN_OPTIONS[]; /* the second, for what takes samples, lead on to the first */
+/* Of render; RUN_OPTIONS, for what takes samples; JOB_OPTIONS, for all: each leads on to the next. */
+extern const struct option RENDER_OPTIONS[], RUN_OPTIONS[], JOB_OPTIONS[];
 
 /* job_load: parse the scene, apply the options, prepare it, and find the method. Returns EXIT_OK, or EXIT_JOB or
  * EXIT_USAGE after printing why (then nothing needs release). */
 int job_load(const struct job_options *o, struct scene *scene, const struct method **method);
 
-/* job_load_for: the same where others than the method that is found may render.
- *   choose  says which: one or two, at m[0] and m[1]; false with a message if there is none such; NULL: that one */
-typedef bool job_readers(const struct job_options *o, const struct scene *scene, const struct method *found,
-                         const struct method **m, struct error *err);
-int job_load_for(const struct job_options *o, job_readers *choose, struct scene *scene, const struct method **method);
+/* The same in two steps: job_open parses the scene, applies the options and finds the method; job_ready, with
+ * all methods that will read the parameters, ended by NULL, does the rest, and releases the scene if it fails. */
+struct job_loading {
+    const struct job_options *options;
+    int n_warnings; /* so far */
+};
+int job_open(struct job_loading *job, struct scene *scene, const struct method **method);
+int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene);
 
 /* job_render: what a render is to be by these options, all its samples at once.
  * job_spp: samples per pixel in force: option, 1 if quick, scene, else 16. */

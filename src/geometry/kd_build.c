@@ -81,7 +81,6 @@ static void make_leaf(struct builder *b, uint32_t node, const struct kd_cell *ce
     kd->node[node].word = (uint32_t)(n / KD_LANES) << 2 | KD_LEAF;
     kd->node[node].at.first = (uint32_t)(first / KD_LANES);
     b->n_leaf_items += n;
-    kd->n_items += cell->n;
 }
 
 /* Two neighbouring nodes; returns the first. */
@@ -122,24 +121,20 @@ static bool cut_cell(struct builder *b, const struct kd_cell *cell, struct kd_pl
     return true;
 }
 
-/* Build what is below a node and free the cell's items; returns the cost of a ray that crosses it. */
-static double build_cell(struct builder *b, uint32_t node, const struct kd_cell *cell)
+/* Build what is below a node, and free the cell's items. */
+static void build_cell(struct builder *b, uint32_t node, const struct kd_cell *cell)
 {
     struct kd_plane p;
     struct kd_cell part[2];
-    if (cell->depth > b->kd->depth)
-        b->kd->depth = cell->depth;
     bool cut = cut_cell(b, cell, &p, part);
     if (!cut)
         make_leaf(b, node, cell);
     free(cell->ref);
     if (!cut)
-        return kd_leaf_cost(cell->n);
+        return;
     uint32_t child = add_children(b, node, &p);
-    double area = kd_half_area(&cell->box), cost = KD_VISIT_COST;
     for (uint32_t s = 0; s < 2; s++)
-        cost += build_cell(b, child + s, &part[s]) * (area > 0 ? kd_half_area(&part[s].box) / area : 1);
-    return cost;
+        build_cell(b, child + s, &part[s]);
 }
 
 static int prim_of_item(const struct geometry *geo, uint32_t item)
@@ -221,7 +216,7 @@ void kd_build(struct kdtree *kd, const struct geometry *geo, enum kd_of kind)
         b.max_depth = (int)fmin(KD_MAX_DEPTH, 8 + 2.0 * m_log2((double)root.n));
         kd->node = mem_grow(NULL, &b.node_capacity, 2, sizeof *kd->node);
         kd->n_nodes = 2;
-        kd->cost = build_cell(&b, 0, &root);
+        build_cell(&b, 0, &root);
         fill_blocks(&b);
         free(b.leaf_item);
     } else {

@@ -20,11 +20,8 @@ struct kdtree {
     struct kd_node *node;   /* [n_nodes], root first, owned */
     struct kd_block *block; /* [n_blocks] what the leaves refer to, owned */
     int n_nodes, n_blocks;
-    size_t n_items;     /* references to primitives in all leaves */
     float lo[3], hi[3]; /* bounds of everything; lo > hi for an empty tree */
     double reach;       /* largest absolute coordinate of the bounds */
-    int depth;          /* deepest leaf, the root being at 0 */
-    double cost;        /* expected cost of a ray by the surface-area heuristic, in tests of a block of triangles */
 };
 
 /* Which primitives: those with a material; those without, but for those that bound media and no more. */

@@ -90,12 +90,6 @@ static const struct format *format_to_write(const char *path)
     return format != NULL && format->write != NULL ? format : NULL;
 }
 
-const char *image_extension(const char *path)
-{
-    const struct format *format = format_by_name(path);
-    return format != NULL ? format->extension : NULL;
-}
-
 bool image_writable(const char *path) { return format_to_write(path) != NULL; }
 
 bool image_create(const char *path, struct file_output *out, struct error *err)
@@ -126,13 +120,6 @@ bool image_keeps_place(const char *path)
 {
     const struct format *format = format_to_write(path);
     return format != NULL && format->keeps_place;
-}
-
-bool image_write(const char *path, int width, int height, const float *pixels, struct error *err)
-{
-    struct file_output f;
-    const struct raster r = {{0, 0, 0, 0}, width, height, pixels, NULL, 0};
-    return image_create(path, &f, err) && image_finish(&f, &r, err);
 }
 
 static float linear_value(const struct image *img, size_t i)

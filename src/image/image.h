@@ -33,16 +33,12 @@ void image_mend(struct image *img, bool negative_too);
 /* image_create, image_finish: write a picture in the format named by the extension; to standard output, -, as PFM.
  * .ppm and .png are clamped to [0,1] and sRGB encoded; .exr has halfs, like pbrt-v3's, .float.exr has floats. The file
  * appears whole or not at all. The first says what is wrong with the name or the place, as of a terminal, and is to be
- * followed by image_finish or file_abandon; the second, which may come hours later, fails on any I/O error.
- * image_write: both, of linear RGB [height*width*3], top row first. */
+ * followed by image_finish or file_abandon; the second, which may come hours later, fails on any I/O error. */
 bool image_create(const char *path, struct file_output *out, struct error *err);
 bool image_finish(struct file_output *f, const struct raster *r, struct error *err);
-bool image_write(const char *path, int width, int height, const float *pixels, struct error *err);
 
-/* image_extension: that of a format of pictures that `path` ends in, or NULL.
- * image_writable: does it end in an extension image_write knows? image_is_8_bit: in one of 8-bit sRGB pictures?
+/* image_writable: does it end in an extension that image_create knows? image_is_8_bit: in one of 8-bit sRGB pictures?
  * image_keeps_place: in one of those that say where the picture lies in its whole? */
-const char *image_extension(const char *path);
 bool image_writable(const char *path);
 bool image_is_8_bit(const char *path);
 bool image_keeps_place(const char *path);

@@ -14,7 +14,7 @@ static void render_pixel(const struct tile_pass *pass, const struct mis_counts *
     struct pixel_sample sample = pixel_sample_begin(pass, counts, x, y, iteration);
     /* Light tracing needs of the eye sub-path only the lights seen directly (s = 0, t = 2). */
     bool light_tracing = counts->hit[LATER_HIT] == 0;
-    int n_eye = pixel_eye_path(pass, &sample, iteration, work->eye, light_tracing ? 2 : sample.max_depth + 2);
+    int n_eye = pixel_eye_path(pass, &sample, work->eye, light_tracing ? 2 : sample.max_depth + 2);
     int n_light = 0;
     if (counts->splat > 0)
         n_light = pixel_light_path(pass, counts, x, y, (uint64_t)iteration, &work->arena, work->light);

@@ -121,7 +121,7 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
     struct workspace *work = p->pass->work;
     arena_reset(&work->arena);
     struct pixel_sample sample = pixel_sample_begin(p->pass, &p->state->frozen.counts, p->x, p->y, iteration);
-    int n = pixel_eye_path(p->pass, &sample, iteration, work->eye, sample.max_depth + 2);
+    int n = pixel_eye_path(p->pass, &sample, work->eye, sample.max_depth + 2);
     struct sampler draw = pixel_sampler(p->pass, RNG_SELECT, p->x, p->y, iteration);
     replace_aged(p, iteration);
     double u = sampler_number(&draw, DRAW_LIGHT_END);
@@ -149,9 +149,10 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
     }
 }
 
-static bool check(const void *state, struct error *err)
+static bool check(const void *state, const struct scene *scene, struct error *err)
 {
     const struct bins_state *s = state;
+    (void)scene;
     return s->bin_paths % 2 == 0 ||
            error_set(err, "asbdpt: binpaths %d is odd; bins hold two sub-paths each", s->bin_paths);
 }

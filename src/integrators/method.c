@@ -16,15 +16,16 @@ const struct field *method_has(const struct method *m, const char *name)
     return m->select != NULL && strcmp(name, select.name) == 0 ? &select : field_find(method_parameters(m), name);
 }
 
-static bool read(const struct method *m, const struct settings *s, void *state, struct error *err)
+static bool read(const struct method *m, const struct scene *scene, void *state, struct error *err)
 {
-    return settings_fields(s, method_parameters(m), state, err) && (m->check == NULL || m->check(state, err));
+    return settings_fields(&scene->settings, method_parameters(m), state, err) &&
+           (m->check == NULL || m->check(state, scene, err));
 }
 
-bool method_check(const struct method *m, const struct settings *s, struct error *err)
+bool method_check(const struct method *m, const struct scene *scene, struct error *err)
 {
     void *state = mem_alloc(1, m->state_size);
-    bool ok = read(m, s, state, err);
+    bool ok = read(m, scene, state, err);
     free(state);
     return ok;
 }
@@ -39,7 +40,7 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
     f->counts = bdpt;
     f->max_depth = job->max_depth;
     f->lights = f->path_pixels = 1;
-    if (!read(m, &job->scene->settings, out->state, err)) {
+    if (!read(m, job->scene, out->state, err)) {
         free(out->state);
         return false;
     }

@@ -58,17 +58,12 @@ struct method {
     const char *help;   /* one line */
     const char *why;    /* for trace: how what an eye sub-path is joined to is chosen; NULL: it is not */
 
-    /* Of the laboratory alone. chain: samples are mutations of others, of no pixel and not independent. merges: what is
-     * added to a pixel is of many paths at once, of any length, as by density estimation. surfaces: it knows of them
-     * alone, not of media (scene/medium.h). */
-    bool chain, merges, surfaces;
-
     const struct field *parameters;  /* of the state; NULL: none */
     size_t state_size, scratch_size; /* scratch_size 0: none; else all zeros at first */
     double rr_threshold;             /* of Russian roulette unless the user gives one (path.h) */
 
-    /* Do the parameters, each right in itself, fit each other? False with a message if not. NULL: they do. */
-    bool (*check)(const void *state, struct error *err);
+    /* Do the parameters, each right in itself, fit each other and the scene? False with a message if not. NULL: yes. */
+    bool (*check)(const void *state, const struct scene *scene, struct error *err);
     /* Settle what differs from BDPT; out->state is zero but for struct frozen and the parameters. NULL: nothing. */
     void (*prepare)(const struct render_job *job, struct preparation *out);
     void (*release)(void *state); /* what the state owns, but not the state; NULL: nothing */
@@ -92,8 +87,8 @@ extern const struct method method_bdpt; /* what the others differ from */
 const struct field *method_parameters(const struct method *m);
 const struct field *method_has(const struct method *m, const char *name);
 
-/* method_check: are the settings right that are the method's own? False with a message if not. */
-bool method_check(const struct method *m, const struct settings *s, struct error *err);
+/* method_check: are the scene's settings right that are the method's own? False with a message if not. */
+bool method_check(const struct method *m, const struct scene *scene, struct error *err);
 
 /* method_prepare: read the parameters and prepare.
  *   out  method_release releases it after success

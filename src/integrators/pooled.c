@@ -70,7 +70,7 @@ struct pooled_pixel pooled_begin(const struct preparation *m, const struct tile_
     struct pooled_pixel p = {.eye = pass->work->eye, .number = number};
     p.sample = pixel_sample_begin(pass, &f->counts, x, y, iteration);
     p.sample.lights = f->lights;
-    p.n = pixel_eye_path(pass, &p.sample, iteration, pass->work->eye, f->max_depth + 2);
+    p.n = pixel_eye_path(pass, &p.sample, pass->work->eye, f->max_depth + 2);
     p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
     if (f->path_pixels > 0 && number % f->path_pixels == 0) {
         const struct light_pool *pool = pass->work->scratch;

@@ -48,7 +48,7 @@ static void take_sample(const struct measure *m, const struct render_job *job, i
     memset(value, 0, N_SUMS * sizeof *value);
     arena_reset(&work->arena);
     struct pixel_sample sample = pixel_sample_begin(&pass, &m->counts, x, y, iteration);
-    int n = pixel_eye_path(&pass, &sample, iteration, work->eye, job->max_depth + 2);
+    int n = pixel_eye_path(&pass, &sample, work->eye, job->max_depth + 2);
     pixel_sum_eye(&sample, work->eye, n);
 }
 

@@ -123,22 +123,12 @@ static bool passed_over(const struct scene *scene, const struct setting *item, c
     return true;
 }
 
-/* pbrt-v3's number of samples for its mlt. True if it is to be taken out. */
-static bool adapt_mutations(struct scene *scene, const struct setting *item, const struct method *reader)
-{
-    if (strcmp(item->name, "mutationsperpixel") != 0 || !setting_is_of_file(item) || !reader->chain ||
-        item->n_values != 1)
-        return false;
-    scene->spp = int_within(strtod(item->value, NULL), 1, 1 << 30);
-    return true;
-}
-
 void parameters_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink)
 {
     struct settings *all = &scene->settings;
     for (int i = 0; i < all->n;) {
         const struct field *found;
-        if (adapt_mutations(scene, &all->item[i], readers[0]) || passed_over(scene, &all->item[i], readers, sink)) {
+        if (passed_over(scene, &all->item[i], readers, sink)) {
             settings_remove(all, i);
             continue;
         }
@@ -210,7 +200,7 @@ bool parameters_read(const struct scene *scene, const struct method *m, int max_
 {
     const struct settings *s = &scene->settings;
     struct common c;
-    if (!settings_fields(s, COMMON, &c, err) || !method_check(m, s, err))
+    if (!settings_fields(s, COMMON, &c, err) || !method_check(m, scene, err))
         return false;
     job->max_depth = max_depth > 0 ? max_depth : c.max_depth;
     job->rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold;

@@ -162,38 +162,15 @@ static void run_all(struct run *r)
     free(r->tile);
 }
 
-static const struct method *begin_job(const struct scene *scene, const struct render_options *options,
-                                      struct pixel_rect rect, struct render_job *job, struct error *err)
+bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
+                    struct render_job *job, struct preparation *out, struct error *err)
 {
     const struct method *m = method_find(options->integrator, &scene->settings, err);
-    memset(job, 0, sizeof *job);
-    if (m != NULL && m->surfaces && scene->media.n > 0) {
-        error_set(err, "%s knows of surfaces alone, and this scene has media; bdpt can render it", m->name);
-        return NULL;
-    }
     job->scene = scene;
     job->film_rect = rect;
     job->seed = job->eye_seed = options->seed;
     job->n_threads = options->n_threads < 1 ? os_cores() : options->n_threads;
-    return m != NULL && parameters_read(scene, m, options->max_depth, job, err) ? m : NULL;
-}
-
-bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
-                    struct render_job *job, struct preparation *out, struct error *err)
-{
-    const struct method *m = begin_job(scene, options, rect, job, err);
-    return m != NULL && method_prepare(m, job, out, err);
-}
-
-/* Can whoever looks on be told of all paths? */
-static bool observable(const struct run *r, const struct method *m, struct error *err)
-{
-    const struct planes *p = &r->film->planes;
-    if (m->chain && (r->options->observers != NULL || p->lights > 0 || p->alpha))
-        return error_set(err, "%s goes from sample to sample over the whole picture: no pixel has one to tell of",
-                         m->name);
-    return !m->merges || p->lights == 0 ||
-           error_set(err, "%s adds what comes of many lights at once: render one of them at a time", m->name);
+    return m != NULL && parameters_read(scene, m, options->max_depth, job, err) && method_prepare(m, job, out, err);
 }
 
 /* Learning counts as work, a sub-path as a sample. */
@@ -209,14 +186,11 @@ static bool watch(void *context, double traced)
 
 static bool holds_samples(const struct film *film) { return film->iterations > 0 || film->passes > 0; }
 
-static bool prepare(struct run *r, struct error *err)
+static bool prepare(struct run *r, const struct scene *scene, struct error *err)
 {
-    const struct method *m = begin_job(r->job.scene, r->options, r->film->rect, &r->job, err);
-    if (m == NULL || !observable(r, m, err))
-        return false;
     r->job.watch = r->options->progress != NULL ? watch : NULL;
     r->job.watch_context = r;
-    bool ok = method_prepare(m, &r->job, &r->prepared, err);
+    bool ok = render_prepare(scene, r->options, r->film->rect, &r->job, &r->prepared, err);
     r->film->learnt_short = r->wish != RENDER_GO_ON && !holds_samples(r->film);
     return ok;
 }
@@ -254,8 +228,8 @@ static bool cut(struct run *r, struct error *err)
 bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
                   struct error *err)
 {
-    struct run r = {.options = options, .film = film, .job = {.scene = scene}};
-    if (!prepare(&r, err))
+    struct run r = {.options = options, .film = film};
+    if (!prepare(&r, scene, err))
         return false;
     memcpy(film->note, r.prepared.note, sizeof film->note);
     memcpy(film->number, r.prepared.number, sizeof film->number);

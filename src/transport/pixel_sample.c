@@ -28,9 +28,7 @@ static uint64_t pixel_number(const struct scene *scene, int x, int y)
 static struct sampler stream(const struct render_job *job, uint64_t seed, enum rng_purpose purpose, int x, int y,
                              uint64_t number)
 {
-    struct sampler s = sampler_start(seed, purpose, pixel_number(job->scene, x, y), number);
-    s.tape = job->tape;
-    return s;
+    return sampler_start(seed, purpose, pixel_number(job->scene, x, y), number);
 }
 
 struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y,
@@ -39,15 +37,15 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
     const struct render_job *job = pass->job;
     struct pixel_sample sample = {.scene = job->scene, .counts = counts, .tile = pass->tile, .observer = pass->observer,
                                   .max_depth = job->max_depth, .x = x, .y = y, .iteration = iteration,
-                                  .filter_weight = 1, .lights = 1, .arena = &pass->work->arena};
+                                  .filter_weight = 1, .lights = 1};
     sample.sampler = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
     return sample;
 }
 
-int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *sample, long iteration, struct vertex *path,
-                   int max_vertices)
+int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *sample, struct vertex *path, int max_vertices)
 {
-    struct sampler sampler = stream(pass->job, pass->job->eye_seed, RNG_EYE, sample->x, sample->y, (uint64_t)iteration);
+    struct sampler sampler = stream(pass->job, pass->job->eye_seed, RNG_EYE, sample->x, sample->y,
+                                    (uint64_t)sample->iteration);
     struct walk w = {sample->scene, sample->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
     int n = path_eye_pixel(&w, sample->x, sample->y, path, max_vertices, &sample->filter_weight);
     tell_walked(sample, RADIANCE, path, n);

@@ -27,7 +27,6 @@ struct pixel_sample {
     rgb until, before;      /* sums of what paths with t >= 2 have brought so far: of those shorter than the end of the
                              * film's gate, and of those shorter than its beginning (scene/tile.h). Without a gate
                              * `until` is the sample's value, and `before` 0 */
-    struct arena *arena;    /* for what does not outlive the sample */
 };
 
 /* --- sub-paths --------------------------------------------------------------------------------------- */
@@ -38,8 +37,7 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
 
 /* pixel_eye_path: the eye sub-path of the sample's pixel into path [max_vertices]; sets sample->filter_weight. Returns
  * its length. */
-int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *sample, long iteration, struct vertex *path,
-                   int max_vertices);
+int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *sample, struct vertex *path, int max_vertices);
 
 /* pixel_sampler: the stream of a pixel and iteration for a purpose of the method's own. */
 struct sampler pixel_sampler(const struct tile_pass *pass, enum rng_purpose purpose, int x, int y, long iteration);

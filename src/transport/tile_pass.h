@@ -27,7 +27,6 @@ struct render_job {
     void *watch_context;
     bool (*enough)(void *context); /* is the rest of a tile pass not wanted, from now on? NULL: all of it is */
     void *enough_context;
-    struct tape *tape; /* where the numbers of samples are recorded, or come from (sampler.h), by one thread; or NULL */
 };
 
 /* How a method wants its work cut. */

@@ -19,6 +19,7 @@
 #include "base/sampler.h"
 #include "base/warp.h"
 #include "lab/commands.h"
+#include "lab/tree.h"
 #include "lab/methods.h"
 #include "lab/timed.h"
 #include "parser/parser.h"
@@ -197,10 +198,11 @@ static bool measure_scene(const char *path, const struct bench_options *o, doubl
     start = os_cpu_seconds();
     scene_prepare(&scene);
     value[BUILD] = os_cpu_seconds() - start;
+    const struct tree_figures tree = tree_figures(&scene.kd);
     value[TRIANGLES] = scene.geo.n_triangles;
     value[NODES] = scene.kd.n_nodes;
-    value[REFERENCES] = (double)scene.kd.n_items;
-    value[COST] = scene.kd.cost;
+    value[REFERENCES] = (double)tree.references;
+    value[COST] = tree.cost;
     measure_rays(&scene, value);
     bool ok = measure_renders(&scene, o, value, err);
     scene_free(&scene);

@@ -9,6 +9,7 @@
 #include "cli/job_options.h"
 #include "image/image.h"
 #include "lab/commands.h"
+#include "lab/tree.h"
 
 static const char *const LIGHT_NAMES[] = {
     [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot",
@@ -32,7 +33,6 @@ static void print_lights(const struct light_set *lights)
 
 static void print_scene(const struct scene *s, const struct method *m, double seconds)
 {
-    const struct kdtree *kd = &s->kd;
     struct pixel_rect crop = render_crop(s);
     printf("film          %dx%d, crop [%d,%d) x [%d,%d)\n", s->width, s->height, crop.x0, crop.x1, crop.y0, crop.y1);
     static const char *const KINDS[] = {"perspective", "orthographic", "environment"};
@@ -53,8 +53,9 @@ static void print_scene(const struct scene *s, const struct method *m, double se
     vec3 lo, hi;
     scene_bounds(s, &lo, &hi);
     printf("bounds        (%g, %g, %g) to (%g, %g, %g)\n", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
-    printf("kd-tree       %d nodes, %zu references, depth %d, expected cost %.1f\n", kd->n_nodes, kd->n_items,
-           kd->depth, kd->cost);
+    const struct tree_figures tree = tree_figures(&s->kd);
+    printf("kd-tree       %d nodes, %zu references, depth %d, expected cost %.1f\n", s->kd.n_nodes, tree.references,
+           tree.depth, tree.cost);
     printf("loaded in     %.2f s\n", seconds);
 }
 
@@ -131,6 +132,16 @@ static void print_channel(const float *value, int channel, long pixels)
     printf(n < pixels ? "; %ld NaN or infinite\n" : "\n", pixels - n);
 }
 
+/* The format's, if it is the name of a picture; else NULL. */
+static const char *extension(const char *path)
+{
+    static const char *const KNOWN[] = {".pfm", ".float.exr", ".exr", ".hdr", ".pic", ".ppm", ".pgm", ".png", ".tga"};
+    for (size_t i = 0; i < sizeof KNOWN / sizeof KNOWN[0]; i++)
+        if (file_has_extension(path, KNOWN[i]))
+            return KNOWN[i];
+    return NULL;
+}
+
 static bool print_picture(const struct info_options *o, struct error *err)
 {
     int width, height, x = 0, y = 0;
@@ -146,7 +157,7 @@ static bool print_picture(const struct info_options *o, struct error *err)
         const float *p = value + 3 * ((size_t)y * (size_t)width + (size_t)x);
         printf("%.9g %.9g %.9g\n", (double)p[0], (double)p[1], (double)p[2]);
     } else if (ok) {
-        printf("format        %s, %s\nsize          %dx%d\nchannels      %s", image_extension(o->job.scene_path),
+        printf("format        %s, %s\nsize          %dx%d\nchannels      %s", extension(o->job.scene_path),
                about.linear ? "linear" : "sRGB, here made linear", width, height,
                about.channels == 1 ? "1, grey" : "3, RGB");
         if (about.dropped > 0)
@@ -168,7 +179,7 @@ static int run(void *options)
     const struct method *integrator;
     double start = os_wall_seconds();
     struct error err;
-    if (image_extension(o->job.scene_path) != NULL)
+    if (extension(o->job.scene_path) != NULL)
         return print_picture(o, &err) ? EXIT_OK : fail(&err);
     if (o->pixel != NULL)
         return usage_error(&command_info, "--pixel is for pictures; asbdpt-lab trace tells of a scene's");

@@ -10,6 +10,7 @@
 #include "lab/compare.h"
 #include "lab/directory.h"
 #include "lab/commands.h"
+#include "lab/image_write.h"
 #include "lab/paths.h"
 #include "lab/sheet.h"
 

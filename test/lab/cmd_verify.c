@@ -118,11 +118,10 @@ static bool complete(struct verify_options *o)
 
 /* --- both sides -------------------------------------------------------------------------------------- */
 
-/* The methods that render: what was given; or one that renders references, and the scene's or its partner. */
-static bool choose_integrators(const struct job_options *job, const struct scene *scene, const struct method *scenes,
+/* The one or two that render: what was given; or one that renders references, and the scene's or its partner. */
+static bool choose_integrators(const struct verify_options *o, const struct scene *scene, const struct method *scenes,
                                const struct method **m, struct error *err)
 {
-    const struct verify_options *o = (const struct verify_options *)job; /* its first member */
     const char *partner = strcmp(scenes->name, METHOD_REFERENCE) == 0 ? METHOD_PARTNER : scenes->name;
     for (int i = 0, n = 0; i < 2; i++) {
         const struct measured *given = &o->source[i].method;
@@ -174,7 +173,7 @@ static bool make_sides(struct scene *scene, const struct method *scenes, const s
     }
     if (o->source[0].n > 0 && o->source[1].n > 0)
         return true;
-    if (!choose_integrators(&o->job, scene, scenes, m, err) ||
+    if (!choose_integrators(o, scene, scenes, m, err) ||
         ((like != NULL || o->job.res[0] == 0) && !side_choose_resolution(scene, like, err)))
         return false;
     for (int i = 0, n = 0; i < 2; i++)
@@ -238,6 +237,21 @@ static int judge(const struct verify_options *o, uint64_t content, int max_depth
     return o->store == NULL || sides_store(o->store, a, b, &from, err) ? EXIT_OK : fail(err);
 }
 
+static int load(const struct verify_options *o, struct scene *scene, const struct method **scenes)
+{
+    struct job_loading job = {&o->job, 0};
+    const struct method *readers[3] = {NULL, NULL, NULL};
+    struct error err;
+    int status = job_open(&job, scene, scenes);
+    if (status != EXIT_OK)
+        return status;
+    readers[0] = *scenes;
+    if (choose_integrators(o, scene, *scenes, readers, &err))
+        return job_ready(&job, readers, scene);
+    scene_free(scene);
+    return fail(&err);
+}
+
 static int verify(const struct verify_options *o)
 {
     struct error err;
@@ -246,7 +260,7 @@ static int verify(const struct verify_options *o)
     const struct method *scenes = NULL;
     bool has_scene = o->job.scene_path != NULL;
     int status = EXIT_OK, max_depth = 0;
-    if (has_scene && (status = job_load_for(&o->job, choose_integrators, &scene, &scenes)) != EXIT_OK)
+    if (has_scene && (status = load(o, &scene, &scenes)) != EXIT_OK)
         return status;
     bool ok = (!has_scene || parameters_max_depth(&scene, o->job.max_depth, &max_depth, &err)) &&
               make_sides(&scene, scenes, o, side, &err);

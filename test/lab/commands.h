@@ -1,4 +1,5 @@
-/* commands.h: the subcommands that asbdpt-lab has and asbdpt has not, each in its cmd_*.c. */
+/* commands.h: the subcommands that asbdpt-lab has and asbdpt has not, each in its cmd_*.c,
+ * and `render` with its methods. */
 #ifndef ASBDPT_LAB_COMMANDS_H
 #define ASBDPT_LAB_COMMANDS_H
 
@@ -6,6 +7,6 @@
 
 extern const struct command command_verify, command_experiment, command_equal_time, command_family, command_demo,
     command_transient, command_bench, command_info, command_compare, command_trace, command_worth,
-    command_strategies;
+    command_strategies, command_render_more;
 
 #endif

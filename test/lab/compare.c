@@ -8,6 +8,7 @@
 #include "base/maths.h"
 #include "base/mem.h"
 #include "image/image.h"
+#include "lab/numbers.h"
 #include "lab/sheet.h"
 
 struct difference compare_pixels(const float *x, const float *r, long n)
@@ -31,7 +32,7 @@ struct difference compare_pixels(const float *x, const float *r, long n)
     if (count > 0) {
         d.rmse = sqrt(square / count);
         d.rmse8 = sqrt(square8 / count);
-        d.psnr = d.rmse8 > 0 ? 20 * m_log10(255 / d.rmse8) : HUGE_VAL;
+        d.psnr = d.rmse8 > 0 ? 20 * log_ten(255 / d.rmse8) : HUGE_VAL;
         d.relmse = relative / count;
         d.mean_ratio = sum_r != 0 || sum_x != 0 ? sum_x / sum_r : 1;
     }

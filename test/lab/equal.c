@@ -10,6 +10,7 @@
 #include "base/number.h"
 #include "base/progress.h"
 #include "base/rng.h"
+#include "lab/numbers.h"
 #include "lab/stats.h"
 
 enum { MOST_SAMPLES = 1 << 20, DRAWS = 2000, MOST_SCENES = 64 };

@@ -11,6 +11,7 @@
 #include "lab/figures.h"
 #include "lab/markup.h"
 #include "lab/measure.h"
+#include "lab/numbers.h"
 #include "lab/sheet.h"
 #include "lab/table.h"
 
@@ -194,7 +195,7 @@ static void write_panel(FILE *f, const struct results *e, const struct plot_axis
     xml_print(f, "<text transform=\"translate(%d %d) rotate(-40)\">%s</text>\n", x + PANEL / 2, TOP - 8,
               e->scene[column].name);
     for (int i = 0; i < n; i++) {
-        double power = m_log10(tick[i]), at = place(a, column, tick[i]);
+        double power = log_ten(tick[i]), at = place(a, column, tick[i]);
         if (fabs(power - floor(power + 0.5)) < 1e-9)
             fprintf(f, "<path class=\"%s\" d=\"M%.1f %dV%d\"/>\n<text class=\"n\" x=\"%.1f\" y=\"%d\">%g</text>\n",
                     fabs(power) < 0.5 ? "one" : "grid", at, TOP, bottom, at, bottom + 12, tick[i]);

@@ -7,6 +7,7 @@
 #include "base/maths.h"
 #include "base/number.h"
 #include "lab/markup.h"
+#include "lab/numbers.h"
 
 /* The picture's size and the frame of the data in it, in SVG units. */
 enum { WIDTH = 640, LEFT = 68, RIGHT = 624, TOP = 40, BOTTOM = 330 };
@@ -107,7 +108,7 @@ double axis_position(const struct plot_axis *a, double value)
 
 static int linear_ticks(const struct plot_axis *a, double tick[], bool major[])
 {
-    double raw = (a->high - a->low) / 8, power = m_pow(10, floor(m_log10(raw))), scaled = raw / power;
+    double raw = (a->high - a->low) / 8, power = m_pow(10, floor(log_ten(raw))), scaled = raw / power;
     double step = power * (scaled <= 1 ? 1 : scaled <= 2 ? 2 : scaled <= 5 ? 5 : 10);
     int n = 0;
     for (double i = ceil(a->low / step); i * step <= a->high && n < AXIS_MAX_TICKS; i++, n++) {
@@ -121,9 +122,9 @@ static int linear_ticks(const struct plot_axis *a, double tick[], bool major[])
  * short one at every digit. */
 static int log_ticks(const struct plot_axis *a, double tick[], bool major[])
 {
-    double decades = m_log10(a->high / a->low);
+    double decades = log_ten(a->high / a->low);
     int n = 0, every = 1 + int_within(decades / 10, 0, 100);
-    for (int power = int_within(floor(m_log10(a->low)), -324, 308); m_pow(10, power) <= a->high; power++)
+    for (int power = int_within(floor(log_ten(a->low)), -324, 308); m_pow(10, power) <= a->high; power++)
         for (int digit = 1; digit <= 9; digit++) {
             double value = digit * m_pow(10, power);
             if (value < a->low || value > a->high || n >= AXIS_MAX_TICKS || (decades > 6 && digit != 1))

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "chains/chain.h"
 #include "cli/job_options.h"
 #include "render/parameters.h"
 
@@ -39,22 +40,32 @@ bool measured_biased(const struct measured *m)
     return found;
 }
 
+bool method_is_chain(const struct method *m) { return m->render == chain_render; }
+bool method_merges(const struct method *m) { return strcmp(m->name, "pathgraph") == 0; }
+
+bool method_observable(const struct method *m, struct error *err)
+{
+    return !method_is_chain(m) ||
+           error_set(err, "%s goes from sample to sample over the whole picture: no pixel has one to tell of", m->name);
+}
+
 /* Is there such an integrator, and has it these parameters, with such values? */
 static bool check(const struct measured *m, struct error *err)
 {
-    struct settings s = {0};
+    struct scene none = {.settings = {0}};
+    struct settings *s = &none.settings;
     struct error known;
     if (!method_exists(m->integrator)) {
         integrator_unknown(m->integrator, &known);
         return error_set(err, "there is no method %s; %s", m->integrator, known.text);
     }
-    bool ok = set_pairs(m->text, &s, err);
-    const struct method *row = ok ? method_find(m->integrator, &s, err) : NULL;
-    for (int i = 0; row != NULL && ok && i < s.n; i++)
-        if (field_find(parameters_common(), s.item[i].name) == NULL && method_has(row, s.item[i].name) == NULL)
-            ok = error_set(err, "%s: there is no parameter \"%s\"", m->text, s.item[i].name);
-    ok = ok && row != NULL && method_check(row, &s, err);
-    settings_clear(&s);
+    bool ok = set_pairs(m->text, s, err);
+    const struct method *row = ok ? method_find(m->integrator, s, err) : NULL;
+    for (int i = 0; row != NULL && ok && i < s->n; i++)
+        if (field_find(parameters_common(), s->item[i].name) == NULL && method_has(row, s->item[i].name) == NULL)
+            ok = error_set(err, "%s: there is no parameter \"%s\"", m->text, s->item[i].name);
+    ok = ok && row != NULL && method_check(row, &none, err);
+    settings_clear(s);
     return ok;
 }
 

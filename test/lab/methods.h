@@ -43,6 +43,14 @@ struct methods {
 
 #define METHODS_HELP "what is compared, as NAME:PARAMETER=VALUE:..., values like 4/8"
 
+/* method_is_chain: are its samples mutations of others, of no pixel and not independent? method_merges: is what it adds
+ * to a pixel of many paths at once, of any length, as by density estimation? */
+bool method_is_chain(const struct method *m);
+bool method_merges(const struct method *m);
+
+/* method_observable: can it be told what each sample of a pixel is made of? False with a message if not. */
+bool method_observable(const struct method *m, struct error *err);
+
 /* methods_read: a list. False with a message on an integrator, a parameter or a value that does not exist, and if a
  * method is given twice. */
 bool methods_read(const char *text, struct methods *out, struct error *err);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/os.h"
+#include "lab/methods.h"
 
 /* The paths of one tile pass. */
 struct list {
@@ -73,7 +74,10 @@ bool paths_render(const struct scene *scene, const struct render_options *option
 {
     struct render_options o = *options;
     struct lists lists = {NULL, scene, film->rect, taker};
+    const struct method *m = method_find(options->integrator, &scene->settings, err);
     const struct observers observers = {&lists, begin, end};
+    if (m == NULL || !method_observable(m, err))
+        return false;
     o.n_threads = options->n_threads < 1 ? os_cores() : options->n_threads;
     o.observers = &observers;
     o.block = options->block > 0 ? options->block : 1; /* short passes: their paths are kept until it is their turn */
@@ -111,7 +115,7 @@ bool gates_render(const struct scene *scene, const struct render_options *option
     struct gate_sums sums = {gates, rect_pixels(film->rect), sum};
     const struct path_taker taker = {&sums, take_by_gate};
     const struct method *m = method_find(options->integrator, &scene->settings, err);
-    if (m != NULL && m->merges)
+    if (m != NULL && method_merges(m))
         return error_set(err, "%s adds paths of many lengths at once: render one gate at a time", m->name);
     return m != NULL && paths_render(scene, options, film, &taker, err);
 }

@@ -3,7 +3,7 @@
 #include "lab/commands.h"
 
 static const struct command *const COMMANDS[] = {
-    &command_render,     &command_merge,      &command_convert, &command_info,   &command_compare, &command_trace,
+    &command_render_more, &command_merge,      &command_convert, &command_info,   &command_compare, &command_trace,
     &command_worth,      &command_strategies, &command_verify,  &command_demo,   &command_equal_time,
     &command_experiment, &command_family,     &command_transient, &command_bench, NULL};
 
@@ -11,4 +11,4 @@ const struct program program = {
     "asbdpt-lab", "the laboratory of asbdpt: what measures its pictures and its speed",
     "Does what asbdpt does, with more integrators. Compares pictures, tells how a sample came about, tests whether "
     "methods have the same expectation, gives them the same time, repeats the dissertation's measurements.", COMMANDS,
-    &command_render, NULL};
+    &command_render_more, NULL};

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/maths.h"
+#include "lab/numbers.h"
 
 #define PLUS_MINUS "\xc2\xb1" /* U+00B1 in UTF-8 */
 
@@ -49,7 +50,7 @@ static void add_spp(struct table *t, long spp) { table_add(t, (double)spp, "%ld"
 /* "mean +- error" with as many digits after the point as show two of the error's. */
 static void add_estimate(struct table *t, double mean, double error)
 {
-    int digits = error > 0 && isfinite(error) ? 1 - (int)floor(m_log10(error)) : 0;
+    int digits = error > 0 && isfinite(error) ? 1 - (int)floor(log_ten(error)) : 0;
     digits = digits < 0 ? 0 : digits > 6 ? 6 : digits;
     if (!isfinite(mean))
         table_add_missing(t, 1);

@@ -40,7 +40,7 @@ bool timed_render(const struct scene *scene, const struct render_options *o, str
 bool timed_prepare(const struct scene *scene, const struct render_options *o, double *seconds, int *block,
                    struct error *err)
 {
-    struct render_job job;
+    struct render_job job = {.scene = NULL};
     struct preparation prepared;
     double start = os_cpu_seconds();
     if (!render_prepare(scene, o, render_crop(scene), &job, &prepared, err))

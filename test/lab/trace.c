@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lab/methods.h"
 
 void trace_free(struct trace *trace)
 {
@@ -141,12 +142,11 @@ bool trace_render(const struct scene *scene, const struct render_options *option
                   struct error *err)
 {
     struct pixel_rect film = render_crop(scene);
-    struct render_job job;
+    struct render_job job = {.scene = NULL};
     struct preparation prepared;
     const struct method *m = method_find(options->integrator, &scene->settings, err);
-    if (m == NULL || (m->chain && error_set(err, "%s goes from sample to sample over the whole picture: no pixel has "
-                                            "one to tell of", m->name)) ||
-        !check_sample(options, film, trace, err) || !render_prepare(scene, options, film, &job, &prepared, err))
+    if (m == NULL || !method_observable(m, err) || !check_sample(options, film, trace, err) ||
+        !render_prepare(scene, options, film, &job, &prepared, err))
         return false;
     trace->why = m->why;
     memcpy(trace->note, prepared.note, sizeof trace->note);

@@ -31,7 +31,7 @@ static void put_path(struct json *j, const char *name, const struct scene *scene
         json_number(j, "pdf_fwd", v->pdf_fwd);
         if (pdf_rev >= 0)
             json_number(j, "pdf_rev", pdf_rev);
-        json_bool(j, "left_by_delta", i + 1 < path->n && path->vertex[i + 1].prev_delta);
+        json_word(j, "left_by_delta", i + 1 < path->n && path->vertex[i + 1].prev_delta ? "true" : "false");
         json_close(j);
     }
     json_close(j);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/os.h"
+#include "lab/methods.h"
 
 static bool before(const struct brought *a, const struct brought *b)
 {
@@ -88,6 +89,9 @@ bool worst_render(const struct scene *scene, const struct render_options *option
     struct render_options o = *options;
     struct lists lists = {.all = worst};
     const struct observers observers = {&lists, begin, end};
+    const struct method *m = method_find(options->integrator, &scene->settings, err);
+    if (m == NULL || !method_observable(m, err))
+        return false;
     o.n_threads = options->n_threads < 1 ? os_cores() : options->n_threads;
     o.observers = &observers;
     lists.of = mem_alloc((size_t)(o.n_threads * OBSERVED_SLOTS), sizeof *lists.of);

@@ -97,10 +97,11 @@ static int pierced(const struct caustics *all, const struct quest *q, int *group
     }
 }
 
-static struct quest quest_for(const struct pixel_sample *sample, const struct vertex *z, const struct light_point *y)
+static struct quest quest_for(const struct pixel_sample *sample, struct arena *arena, const struct vertex *z,
+                              const struct light_point *y)
 {
     bool parallel = y->light < 0 || light_at_infinity(&sample->scene->lights.light[y->light]);
-    struct quest q = {sample->scene, sample->arena, z, y, parallel, -1, 1, 0};
+    struct quest q = {sample->scene, arena, z, y, parallel, -1, 1, 0};
     return q;
 }
 
@@ -216,8 +217,8 @@ static struct one_more_path made(const struct mis_counts *counts, const struct q
     return out;
 }
 
-static int connect(const struct one_more *self, struct pixel_sample *sample, const struct vertex *eye, int t,
-                   struct one_more_path out[ONE_MORE_MOST])
+static int connect(const struct one_more *self, struct pixel_sample *sample, struct arena *arena,
+                   const struct vertex *eye, int t, struct one_more_path out[ONE_MORE_MOST])
 {
     const struct caustics *all = (const void *)self;
     const struct scene *scene = sample->scene;
@@ -229,7 +230,7 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, con
         return 0;
     if (!lamp_draw(scene, &sample->sampler, &y) || !(y.pdf > 0))
         return 0;
-    struct quest q = quest_for(sample, z, &y);
+    struct quest q = quest_for(sample, arena, z, &y);
     int n = 0, room = sample->max_depth + 1 - t, through = psi_through(all, &q, c);
     for (int i = 0; i < through && q.k <= room; i++)
         out[n++] = made(sample->counts, &q, &c[i], pdf);
@@ -242,10 +243,11 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, con
 }
 
 /* A path that others have made: its k vertices from z on are x, x[step] ..., then y. False if Psi has no such chain. */
-static bool in_psi(const struct caustics *all, const struct pixel_sample *sample, const struct vertex *z, int step,
-                   int k, const struct light_point *y, struct arrival at, struct makers *out)
+static bool in_psi(const struct caustics *all, const struct pixel_sample *sample, struct arena *arena,
+                   const struct vertex *z, int step, int k, const struct light_point *y, struct arrival at,
+                   struct makers *out)
 {
-    struct quest q = quest_for(sample, z, y);
+    struct quest q = quest_for(sample, arena, z, y);
     struct specular_chain found[STARTS];
     vec3 p[SPECULAR_LONGEST];
     if (k < 1 || k > all->longest || all->left[!(at.pdf > 0)])
@@ -265,8 +267,8 @@ static bool in_psi(const struct caustics *all, const struct pixel_sample *sample
     return false;
 }
 
-static void weigh_hit(const struct caustics *all, const struct pixel_sample *sample, const struct vertex *eye, int t,
-                      double *weight)
+static void weigh_hit(const struct caustics *all, const struct pixel_sample *sample, struct arena *arena,
+                      const struct vertex *eye, int t, double *weight)
 {
     const struct vertex *end = &eye[t - 1], *z = end - 1;
     struct makers m;
@@ -278,12 +280,12 @@ static void weigh_hit(const struct caustics *all, const struct pixel_sample *sam
     y.w = neg(end->wo);
     y.pdf = end->pdf_origin;
     struct arrival at = {z->wo, z == &eye[1] ? z->pdf_fwd : 0};
-    if (z->kind == VERTEX_SURFACE && z->eye_end == FIRST_HIT && in_psi(all, sample, z, 1, k, &y, at, &m))
+    if (z->kind == VERTEX_SURFACE && z->eye_end == FIRST_HIT && in_psi(all, sample, arena, z, 1, k, &y, at, &m))
         *weight = share(sample->counts, m.hit, m);
 }
 
-static void weigh_lens(const struct caustics *all, const struct pixel_sample *sample, const struct vertex *light,
-                       int s, vec3 lens, double *weight)
+static void weigh_lens(const struct caustics *all, const struct pixel_sample *sample, struct arena *arena,
+                       const struct vertex *light, int s, vec3 lens, double *weight)
 {
     const struct camera *camera = &sample->scene->camera;
     const struct vertex *z = &light[s - 1];
@@ -296,17 +298,17 @@ static void weigh_lens(const struct caustics *all, const struct pixel_sample *sa
     for (int i = 2; i < s; i++)
         if (!light[i].prev_delta)
             return;
-    if (in_psi(all, sample, z, -1, s - 2, &y, (struct arrival){neg(w), pdf * abs_dot(z->ng, w)}, &m))
+    if (in_psi(all, sample, arena, z, -1, s - 2, &y, (struct arrival){neg(w), pdf * abs_dot(z->ng, w)}, &m))
         *weight = share(sample->counts, m.splat, m);
 }
 
-static void weigh(const struct one_more *self, const struct pixel_sample *sample, const struct vertex *path, int s,
-                  int t, struct connection *c)
+static void weigh(const struct one_more *self, const struct pixel_sample *sample, struct arena *arena,
+                  const struct vertex *path, int s, int t, struct connection *c)
 {
     if (s == 0)
-        weigh_hit((const void *)self, sample, path, t, &c->weight);
+        weigh_hit((const void *)self, sample, arena, path, t, &c->weight);
     else if (t == 1)
-        weigh_lens((const void *)self, sample, path, s, c->end, &c->weight);
+        weigh_lens((const void *)self, sample, arena, path, s, c->end, &c->weight);
 }
 
 /* --- what chains can go by --------------------------------------------------------------------------- */
@@ -358,14 +360,14 @@ struct trial {
 
 /* Without a chain of weight w, which brings X, the second moment is larger by X^2 / (1 - w); and others bring the rest
  * of what the chain found, t = 1 with them, which is not tried. */
-static struct trial try_chains(const struct one_more *self, struct pixel_sample *sample, const struct vertex *eye,
-                               int n)
+static struct trial try_chains(const struct one_more *self, struct pixel_sample *sample, struct arena *arena,
+                               const struct vertex *eye, int n)
 {
     const double MOST = 100; /* chance decides whether more is seen */
     struct one_more_path more[ONE_MORE_MOST];
     struct trial out = {rgb_luminance(sample->until), {0, 0}};
     for (int t = 2; t <= n; t++)
-        for (int i = eye[t - 1].kind == VERTEX_SURFACE ? connect(self, sample, eye, t, more) : 0; i-- > 0;) {
+        for (int i = eye[t - 1].kind == VERTEX_SURFACE ? connect(self, sample, arena, eye, t, more) : 0; i-- > 0;) {
             double C = rgb_luminance(more[i].c.value), w = more[i].c.weight;
             out.brings += C * (1 - w);
             out.tail[t > 2] += sqr(C * w) * fmin(1 / (1 - w), MOST);
@@ -404,9 +406,9 @@ bool caustics_pay(struct one_more *self, const struct render_job *job, const str
         tile_start(&tile, pass.rect, film, &job->scene->filter);
         arena_reset(&work->arena);
         struct pixel_sample sample = pixel_sample_begin(&pass, counts, x, y, i);
-        int length = pixel_eye_path(&pass, &sample, i, work->eye, job->max_depth + 2);
-        one_more_sum_eye(&sample, &all->more, work->eye, length);
-        trial[i] = try_chains(&all->more, &sample, work->eye, length);
+        int length = pixel_eye_path(&pass, &sample, work->eye, job->max_depth + 2);
+        one_more_sum_eye(&sample, &work->arena, &all->more, work->eye, length);
+        trial[i] = try_chains(&all->more, &sample, &work->arena, work->eye, length);
     }
     tile_free(&tile);
     workspaces_free(work, 1);

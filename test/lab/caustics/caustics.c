@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "caustics/caustic.h"
+#include "caustics/surfaces.h"
 
 struct caustics_state {
     struct one_more_state base;
@@ -35,7 +36,7 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_caustics = {
-    .name = "caustics", .surfaces = true,
+    .name = "caustics", .check = surfaces_alone,
     .help = "another method with caustic connections [Hanika 2015], through mirrors and glass",
     .parameters = PARAMETERS, .state_size = sizeof(struct caustics_state), .prepare = prepare, .release = release,
     ONE_MORE_ROW};

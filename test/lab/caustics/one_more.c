@@ -11,54 +11,57 @@ const char *const ONE_MORE_METHODS[] = {"bdpt", "pt", "asbdpt", NULL};
 
 /* --- a sample ---------------------------------------------------------------------------------------- */
 
-static void weigh_again(const struct one_more *more, const struct pixel_sample *sample, const struct vertex *path,
-                        int s, int t, struct connection *c)
+static void weigh_again(const struct one_more *more, const struct pixel_sample *sample, struct arena *arena,
+                        const struct vertex *path, int s, int t, struct connection *c)
 {
     if (more->weigh != NULL && !rgb_is_black(c->value))
-        more->weigh(more, sample, path, s, t, c);
+        more->weigh(more, sample, arena, path, s, t, c);
 }
 
-static void sum_more(struct pixel_sample *sample, const struct one_more *more, const struct vertex *eye, int t)
+static void sum_more(struct pixel_sample *sample, struct arena *arena, const struct one_more *more,
+                     const struct vertex *eye, int t)
 {
     struct one_more_path made[ONE_MORE_MOST];
-    int n = more->connect(more, sample, eye, t, made);
+    int n = more->connect(more, sample, arena, eye, t, made);
     for (int i = 0; i < n; i++)
         pixel_add(sample, &made[i].c, 1, t + made[i].passed, NULL, &eye[t - 1], NO_CHOICE);
 }
 
-static void sum_direct(struct pixel_sample *sample, const struct one_more *more, const struct vertex *eye, int t)
+static void sum_direct(struct pixel_sample *sample, struct arena *arena, const struct one_more *more,
+                       const struct vertex *eye, int t)
 {
     const struct vertex *z = &eye[t - 1];
     int n = z->eye_end == FIRST_HIT && sample->lights > 0 ? sample->lights : 1;
     const struct choice each = {1, 1.0 / n};
     for (int i = 0; i < n; i++) {
         struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);
-        weigh_again(more, sample, eye, 1, t, &c);
+        weigh_again(more, sample, arena, eye, 1, t, &c);
         pixel_add(sample, &c, 1, t, NULL, z, each);
     }
 }
 
-void one_more_sum_eye(struct pixel_sample *sample, const struct one_more *more, const struct vertex *eye, int n)
+void one_more_sum_eye(struct pixel_sample *sample, struct arena *arena, const struct one_more *more,
+                      const struct vertex *eye, int n)
 {
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
         struct connection c = connect_hit(sample->scene, sample->counts, z - 1, z, t);
-        weigh_again(more, sample, eye, 0, t, &c);
+        weigh_again(more, sample, arena, eye, 0, t, &c);
         pixel_add(sample, &c, 0, t, NULL, z, NO_CHOICE);
         if (z->kind == VERTEX_SURFACE && t <= sample->max_depth + 1) {
-            sum_direct(sample, more, eye, t);
-            sum_more(sample, more, eye, t);
+            sum_direct(sample, arena, more, eye, t);
+            sum_more(sample, arena, more, eye, t);
         }
     }
 }
 
 /* As pixel_splat_path. */
-static void splat(struct pixel_sample *sample, const struct one_more *more, const struct vertex *light, int n_light,
-                  double scale)
+static void splat(struct pixel_sample *sample, struct arena *arena, const struct one_more *more,
+                  const struct vertex *light, int n_light, double scale)
 {
     for (int s = 2; s <= n_light && s <= sample->max_depth + 1; s++) {
         struct connection c = connect_lens(sample->scene, sample->counts, light, s, &sample->sampler);
-        weigh_again(more, sample, light, s, 1, &c);
+        weigh_again(more, sample, arena, light, s, 1, &c);
         pixel_splat(sample, &c, s, &light[s - 1], scale / sample->counts->splat);
     }
 }
@@ -70,13 +73,13 @@ static void render_alone(const struct frozen *f, const struct one_more *more, co
     const struct mis_counts *counts = &f->counts;
     arena_reset(&work->arena);
     struct pixel_sample sample = pixel_sample_begin(pass, counts, x, y, iteration);
-    int n_eye = pixel_eye_path(pass, &sample, iteration, work->eye, sample.max_depth + 2), n_light = 0;
+    int n_eye = pixel_eye_path(pass, &sample, work->eye, sample.max_depth + 2), n_light = 0;
     if (counts->splat > 0)
         n_light = pixel_light_path(pass, counts, x, y, (uint64_t)iteration, &work->arena, work->light);
-    one_more_sum_eye(&sample, more, work->eye, n_eye);
+    one_more_sum_eye(&sample, &work->arena, more, work->eye, n_eye);
     if (counts->connect[FIRST_HIT] > 0)
         pixel_sum_pairs(&sample, work->eye, n_eye, work->light, n_light, NO_CHOICE);
-    splat(&sample, more, work->light, n_light, 1);
+    splat(&sample, &work->arena, more, work->light, n_light, 1);
     pixel_sample_end(&sample);
 }
 
@@ -85,10 +88,10 @@ static void render_shared(const struct preparation *m, const struct one_more *mo
 {
     arena_reset(&pass->work->arena);
     struct pooled_pixel p = pooled_begin(m, pass, x, y, number, iteration);
-    one_more_sum_eye(&p.sample, more, p.eye, p.n);
+    one_more_sum_eye(&p.sample, &pass->work->arena, more, p.eye, p.n);
     pooled_connect(m, pass, &p);
     if (p.light != NULL)
-        splat(&p.sample, more, p.light, p.n_light, p.scale);
+        splat(&p.sample, &pass->work->arena, more, p.light, p.n_light, p.scale);
     pixel_sample_end(&p.sample);
 }
 

@@ -19,17 +19,19 @@ struct one_more_path {
 
 /* What describes such a strategy begins with this. */
 struct one_more {
-    /* What it makes of the eye sub-path's first t vertices; returns how many. */
-    int (*connect)(const struct one_more *self, struct pixel_sample *sample, const struct vertex *eye, int t,
-                   struct one_more_path out[ONE_MORE_MOST]);
+    /* What it makes of the eye sub-path's first t vertices; returns how many. The arena is for what does not outlive
+     * the sample. */
+    int (*connect)(const struct one_more *self, struct pixel_sample *sample, struct arena *arena,
+                   const struct vertex *eye, int t, struct one_more_path out[ONE_MORE_MOST]);
     /* c->weight of a path that it makes, too: by s <= 1 from t eye vertices, or by t = 1 from s light vertices. NULL:
      * it makes no such paths. */
-    void (*weigh)(const struct one_more *self, const struct pixel_sample *sample, const struct vertex *path, int s,
-                  int t, struct connection *c);
+    void (*weigh)(const struct one_more *self, const struct pixel_sample *sample, struct arena *arena,
+                  const struct vertex *path, int s, int t, struct connection *c);
 };
 
 /* one_more_sum_eye: as pixel_sum_eye, s = 0 and s = 1, and what is made beside them. */
-void one_more_sum_eye(struct pixel_sample *sample, const struct one_more *more, const struct vertex *eye, int n);
+void one_more_sum_eye(struct pixel_sample *sample, struct arena *arena, const struct one_more *more,
+                      const struct vertex *eye, int n);
 
 /* one_more_render: a tile pass by a method that is prepared, with that strategy.
  *   method  pt, bdpt, or one that shares the light sub-paths of a tile (pooled.h), whose scratch the workspace holds */

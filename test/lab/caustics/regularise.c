@@ -15,6 +15,7 @@
 #include "caustics/delta.h"
 #include "caustics/lamp.h"
 #include "caustics/one_more.h"
+#include "caustics/surfaces.h"
 
 #include <stddef.h>
 #include <stdio.h>
@@ -53,14 +54,15 @@ static rgb spread(const struct vertex *z, vec3 w, double eps)
 }
 
 /* By a copy of the sampler: what other strategies draw is the same as without. */
-static int connect(const struct one_more *self, struct pixel_sample *sample, const struct vertex *eye, int t,
-                   struct one_more_path out[ONE_MORE_MOST])
+static int connect(const struct one_more *self, struct pixel_sample *sample, struct arena *arena,
+                   const struct vertex *eye, int t, struct one_more_path out[ONE_MORE_MOST])
 {
     const struct regularise *r = (const void *)self;
     const struct scene *scene = sample->scene;
     const struct vertex *z = &eye[t - 1];
     struct sampler draws = sample->sampler;
     struct light_point y;
+    (void)arena;
     if (z->bsdf.n_lobes == z->bsdf.n_smooth || !without_rival(sample->counts, eye, t))
         return 0;
     if (!lamp_draw(scene, &draws, &y) || !light_is_delta(&scene->lights.light[y.light]))
@@ -103,7 +105,7 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_regularise = {
-    .name = "regularise", .surfaces = true,
+    .name = "regularise", .check = surfaces_alone,
     .help = "mirrors and glass are blurred where nothing else finds a light; biased",
     .parameters = PARAMETERS, .state_size = sizeof(struct regularise_state), .prepare = prepare,
     .release = one_more_release, ONE_MORE_ROW};

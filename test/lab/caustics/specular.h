@@ -15,6 +15,18 @@
 
 enum { SPECULAR_LONGEST = 2 };
 
+/* combination: x and y for which x a + y b is nearest to v. False if a and b are parallel. */
+static inline bool combination(vec3 a, vec3 b, vec3 v, double *x, double *y)
+{
+    double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), va = dot(v, a), vb = dot(v, b);
+    double det = aa * bb - ab * ab;
+    if (!(det > 0))
+        return false;
+    *x = (va * bb - vb * ab) / det;
+    *y = (vb * aa - va * ab) / det;
+    return true;
+}
+
 /* What a chain is looked for in, and between what. */
 struct quest {
     const struct scene *scene;

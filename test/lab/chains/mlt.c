@@ -28,6 +28,7 @@
 #include "base/maths.h"
 #include "base/number.h"
 #include "caustics/lamp.h"
+#include "caustics/surfaces.h"
 
 /* --- a state's path ---------------------------------------------------------------------------------- */
 
@@ -334,6 +335,6 @@ static const struct chain_rules RULES = {.by_length = true, .own_size = sizeof(s
 static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
 
 const struct method method_mlt = {
-    .name = "mlt", .surfaces = true,
+    .name = "mlt", .check = surfaces_alone,
     .help = "a Markov chain over paths: new ones, lens and caustic perturbations [Veach 1997]",
     .parameters = &CHAIN_PARAMETERS[1], .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};

@@ -27,7 +27,7 @@ static void sample(struct chain *c, bool small)
     const struct observer observer = {.context = &all_lengths, .joined = joined};
     struct pixel_sample s = {.scene = job->scene, .counts = &c->all->frozen.counts, .tile = &c->next.heard,
                              .observer = &observer, .max_depth = job->max_depth, .filter_weight = 1, .lights = 1,
-                             .arena = &work->arena, .sampler = p.sampler[POINT_NUMBERS]};
+                             .sampler = p.sampler[POINT_NUMBERS]};
     const struct gate all = c->next.heard.gate;
     c->next.heard.gate = c->gate; /* for the sums alone */
     int n_eye = primary_eye(&p, job->max_depth + 2, &px, &py), n_light = primary_light(&p, job->max_depth + 1);

@@ -23,6 +23,8 @@
 #include "base/maths.h"
 #include "caustics/lamp.h"
 #include "caustics/one_more.h"
+#include "caustics/specular.h"
+#include "caustics/surfaces.h"
 
 extern const struct method method_pt, method_ellipse;
 
@@ -135,7 +137,7 @@ bool ellipse_draw(vec3 y, vec3 z, const vec3 corner[3], double tau, double range
 /* --- the strategy ------------------------------------------------------------------------------------- */
 
 /* The point x of a triangle as a vertex that comes after z with this density per area. */
-static bool arrive(const struct pixel_sample *sample, const struct vertex *z, int triangle, vec3 x,
+static bool arrive(const struct pixel_sample *sample, struct arena *arena, const struct vertex *z, int triangle, vec3 x,
                    const vec3 corner[3], double pdf, struct vertex *out)
 {
     const struct scene *scene = sample->scene;
@@ -163,12 +165,12 @@ static bool arrive(const struct pixel_sample *sample, const struct vertex *z, in
     *out = v;
     if (rgb_is_black(v.beta) || !rgb_is_finite(v.beta) || !scene_visible(scene, z->p, z->prim_id, at.p, at.prim_id))
         return false;
-    material_bsdf(scene->material, group->material, &scene->textures, &at, sample->arena, &out->bsdf);
+    material_bsdf(scene->material, group->material, &scene->textures, &at, arena, &out->bsdf);
     return vertex_connectible(out);
 }
 
-static int connect(const struct one_more *self, struct pixel_sample *sample, const struct vertex *eye, int t,
-                   struct one_more_path out[ONE_MORE_MOST])
+static int connect(const struct one_more *self, struct pixel_sample *sample, struct arena *arena,
+                   const struct vertex *eye, int t, struct one_more_path out[ONE_MORE_MOST])
 {
     const struct ellipse *own = (const void *)self;
     const struct scene *scene = sample->scene;
@@ -194,7 +196,7 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, con
     for (int i = 0; i < 3; i++)
         corner[i] = vec((double)P9[3 * i], (double)P9[3 * i + 1], (double)P9[3 * i + 2]);
     if (!ellipse_draw(y.p, z->p, corner, tau, most - least, v[1], &x, &pdf) ||
-        !arrive(sample, z, triangle, x, corner, P * pdf, &at))
+        !arrive(sample, arena, z, triangle, x, corner, P * pdf, &at))
         return 0;
     out[0].c = lamp_connect(scene, sample->counts, &at, &y, y.pdf);
     out[0].c.weight = 1;
@@ -203,10 +205,11 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, con
 }
 
 /* Of others' paths those that are its own count for nothing. */
-static void weigh(const struct one_more *self, const struct pixel_sample *sample, const struct vertex *path, int s,
-                  int t, struct connection *c)
+static void weigh(const struct one_more *self, const struct pixel_sample *sample, struct arena *arena,
+                  const struct vertex *path, int s, int t, struct connection *c)
 {
     (void)self;
+    (void)arena;
     const struct vertex *x = &path[t - 2 + s], *z = x - 1, *end = x + 1;
     if (!isfinite(sample->tile->gate.end) || s > 1 || t + s < 4)
         return;
@@ -245,6 +248,7 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
 }
 
 const struct method method_ellipse = {
-    .name = "ellipse", .surfaces = true, .help = "ellipsoidal connections [Pediredla 2019]: for narrow gates; else pt",
+    .name = "ellipse", .check = surfaces_alone,
+    .help = "ellipsoidal connections [Pediredla 2019]: for narrow gates; else pt",
     .state_size = sizeof(struct ellipse_state), .rr_threshold = DEFAULT_RR_THRESHOLD,
     .prepare = prepare, .release = release, .render = render};

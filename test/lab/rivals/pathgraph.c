@@ -22,6 +22,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
+#include "caustics/surfaces.h"
 #include "rivals/together.h"
 
 enum { LARGEST_CLUSTER = 64, ALONE = 6 };
@@ -270,7 +271,7 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
 }
 
 const struct method method_pathgraph = {
-    .name = "pathgraph", .surfaces = true, .merges = true,
+    .name = "pathgraph", .check = surfaces_alone,
     .help = "path graphs [Deng 2021]: pt whose vertices share what lights them with others; biased",
     .parameters = PARAMETERS, .state_size = sizeof(struct pathgraph_state), .scratch_size = sizeof(struct light_pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = render};

@@ -14,6 +14,7 @@
  */
 #include <stddef.h>
 
+#include "caustics/surfaces.h"
 #include "rivals/ris.h"
 
 struct pcbdpt_state {
@@ -48,7 +49,7 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_pcbdpt = {
-    .name = "pcbdpt", .surfaces = true,
+    .name = "pcbdpt", .check = surfaces_alone,
     .help = "probabilistic connections [Popov 2015]: light vertices drawn by records nearby",
     .why = "C draws for each eye vertex from the tile's light vertices, P the mean of the PMFs of the records nearby "
            "and of the uniform choice; scale 1 / (C K P)",

@@ -20,6 +20,7 @@
  */
 #include <stddef.h>
 
+#include "caustics/surfaces.h"
 #include "rivals/together.h"
 
 struct restir_state {
@@ -132,7 +133,7 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
 }
 
 const struct method method_restir = {
-    .name = "restir", .surfaces = true,
+    .name = "restir", .check = surfaces_alone,
     .help = "reservoirs [Bitterli 2020]: light points resampled, and shared with pixels nearby",
     .parameters = PARAMETERS, .state_size = sizeof(struct restir_state), .scratch_size = sizeof(struct light_pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = render, .scratch_free = light_pool_free};

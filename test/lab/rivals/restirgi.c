@@ -22,6 +22,7 @@
  */
 #include <stddef.h>
 
+#include "caustics/surfaces.h"
 #include "rivals/together.h"
 
 struct restirgi_state {
@@ -227,7 +228,7 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
 }
 
 const struct method method_restirgi = {
-    .name = "restirgi", .surfaces = true,
+    .name = "restirgi", .check = surfaces_alone,
     .help = "reservoirs [Ouyang 2021]: second vertices resampled, and shared with pixels nearby",
     .parameters = PARAMETERS, .state_size = sizeof(struct restirgi_state), .scratch_size = sizeof(struct light_pool),
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = render};

@@ -21,6 +21,7 @@
  *
  * Tests: test_ris.c, test_rivals.c.
  */
+#include "caustics/surfaces.h"
 #include "rivals/ris.h"
 #include "rivals/together.h"
 
@@ -431,7 +432,7 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_ris = {
-    .name = "ris", .surfaces = true,
+    .name = "ris", .check = surfaces_alone,
     .help = "resampling [Nabata 2020a]: light vertices drawn by a record nearby, with weights to suit",
     .why = "one draw for each eye vertex from the tile's light vertices, by one of the records nearby or uniformly; "
            "scale 1 / (K P)",

@@ -13,6 +13,7 @@
 #include <stddef.h>
 
 #include "base/alias.h"
+#include "caustics/surfaces.h"
 #include "rivals/ris.h"
 
 void ris2_presample(struct ris *r, const struct tile_pass *pass, long iteration)
@@ -46,7 +47,7 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_ris2 = {
-    .name = "ris2", .surfaces = true,
+    .name = "ris2", .check = surfaces_alone,
     .help = "two-stage resampling [Nabata 2020b]: by power first, then by a record nearby",
     .why = "one draw for each eye vertex, by one of the records nearby or uniformly, from light vertices drawn before "
            "in proportion to luminance(beta), which have a factor u for that; scale u / (K P)",

@@ -23,6 +23,7 @@
 #include <string.h>
 
 #include "base/maths.h"
+#include "caustics/surfaces.h"
 #include "rivals/together.h"
 
 struct vcm_state {
@@ -52,14 +53,15 @@ static double stepped(const struct scene *scene, const struct mis_counts *counts
 }
 
 /* Give all vertices of a walk c_e' and what follows from it. Vertices 0 and 1 have no merge before them. */
-static void know_merges(const struct vcm *m, const struct pixel_sample *sample, struct vertex *path, int n)
+static void know_merges(const struct vcm *m, const struct pixel_sample *sample, struct arena *arena,
+                        struct vertex *path, int n)
 {
     for (int e = 1; e < n; e++) {
         struct vertex *v = &path[e];
         if (e > 1)
             v->mis = stepped(sample->scene, sample->counts, &path[e - 1], v);
         if (e > 1 && v->lamp != NULL) {
-            struct vertex *lamp = arena_alloc(sample->arena, sizeof *lamp);
+            struct vertex *lamp = arena_alloc(arena, sizeof *lamp);
             *lamp = *v->lamp;
             lamp->mis = stepped(sample->scene, sample->counts, &path[e - 1], lamp);
             v->lamp = lamp;
@@ -168,11 +170,11 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
     struct vcm *m = scratch;
     const struct vcm_state *s = state;
     const struct scene *scene = pass->job->scene;
-    struct pixel_sample sample = {.scene = scene, .counts = &s->frozen.counts, .arena = &m->pool.arena};
+    struct pixel_sample sample = {.scene = scene, .counts = &s->frozen.counts};
     m->r = s->radius * scene->lights.radius * m_pow((double)iteration + 1, (s->alpha - 1) / 2);
     m->eta = m->pool.n * PI * sqr(m->r);
     for (int k = 0; k < m->pool.n; k++)
-        know_merges(m, &sample, &m->pool.vertex[m->pool.start[k]], m->pool.length[k]);
+        know_merges(m, &sample, &m->pool.arena, &m->pool.vertex[m->pool.start[k]], m->pool.length[k]);
     m->found = candidates_find(&m->pool);
     fill_grid(m);
 }
@@ -186,7 +188,7 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
         struct pooled_pixel *p = &pixel[i];
         size_t size = (size_t)p->n * sizeof *p->eye;
         struct vertex *eye = memcpy(arena_alloc(&pass->work->arena, size), p->eye, size);
-        know_merges(m, &p->sample, eye, p->n);
+        know_merges(m, &p->sample, &pass->work->arena, eye, p->n);
         p->eye = eye;
         pixel_sum_eye(&p->sample, eye, p->n);
         pixel_sum_pairs(&p->sample, eye, p->n, light_pool_path(&m->pool, i), m->pool.length[i], NO_CHOICE);
@@ -224,7 +226,7 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 
 const struct method method_vcm = {
-    .name = "vcm", .surfaces = true,
+    .name = "vcm", .check = surfaces_alone,
     .help = "vertex connection and merging [Georgiev 2012c]: bdpt, and vertices that meet; biased",
     .why = "the pixel's own light sub-path, and all of the tile's light vertices within the radius; scale 1, of merges "
            "1 / (K pi r^2)",

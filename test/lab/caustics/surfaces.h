@@ -1,0 +1,10 @@
+/* surfaces.h: the `check` of methods (method.h) that know of surfaces alone, not of media (scene/medium.h). */
+#ifndef ASBDPT_SURFACES_H
+#define ASBDPT_SURFACES_H
+
+#include "base/error.h"
+#include "scene/scene.h"
+
+bool surfaces_alone(const void *state, const struct scene *scene, struct error *err);
+
+#endif
