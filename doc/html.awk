@@ -205,6 +205,8 @@ source { printf "<span id=\"L%d\" class=\"n\">%4d</span> %s\n", FNR, FNR, title 
 fence && /^ *```/ { fence = 0; print "</pre>"; next }
 fence { print fence == 2 ? colour($0) : escape($0); next }
 /^ *```/ { flush(); fence = /```c$/ ? 2 : 1; printf "<pre>"; next }
+/^<!-- .* -->$/ { next }
+{ gsub(/<!-- [a-z][^>]* -->/, "") } # marks of measured numbers
 /^ *$/ {
     blank = 1
     if (kind == "pre") buffer = buffer "\n"

@@ -1,5 +1,6 @@
 #!/bin/sh
-# figures.sh PROGRAM [DIR]: makes every figure of the tour, in doc/tour/figures or DIR (about a minute of CPU);
+# figures.sh PROGRAM [DIR]: makes every figure of the tour, but for those of measured numbers (test/evidence.sh), in
+# doc/tour/figures or DIR (about a minute of CPU);
 # `make figures` calls it.
 program=$1
 case $program in /*) ;; *) program=$PWD/$program ;; esac
@@ -85,11 +86,3 @@ done
 
 # What the methods draw from what.
 awk -f "$tour/indices.awk" -f "$tour/family.awk" </dev/null >"$out/family.svg"
-
-# Squared error at equal time, from the table of doc/selection.md: 1 is bdpt.
-awk -F '|' '/^\| scene \| pt, rmse8/ { on = 1; next }
-    on && /^\| [a-z-]+ \|/ && $2 !~ /geometric|worst/ {
-        gsub(/[ *]/, "", $2); gsub(/[][*,]/, "", $4); print $2, $4 # a value and its interval
-    }
-    on && /^$/ { exit }' "$tour/../selection.md" >table.txt
-chart gains "Squared error of asbdpt in bdpt's time; bdpt is 1; whiskers: 95 %" 1 log

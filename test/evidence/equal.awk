@@ -1,0 +1,69 @@
+# equal.awk: sections of doc/measured from equal-time.md of `asbdpt-lab equal-time`, or from such a table as it makes
+# itself. table: a row for each scene; readme: in words, and sorted; mean, worst: these two alone.
+function clean(s) { gsub(/[ *]/, "", s); return s }
+function first(s) { sub(/ .*/, "", s); return s }
+function add(scene, a, b, c, d) { row[++n] = scene; pt[n] = a; rmse8[n] = b; relmse[n] = c; blocks[n] = d }
+function short(v) { return v == "-" ? v : sprintf(v + 0 >= 10 ? "%.0f" : v + 0 >= 1 ? "%.1f" : "%.2f", v) }
+# The scene with the smallest (sign 1) or largest (sign -1) value.
+function end_of(values, sign,    i, at) {
+    for (i = 1; i <= n; i++)
+        if (values[i] != "-" && (!at || sign * first(values[i]) < sign * first(values[at]))) at = i
+    return at ? at : 1
+}
+/^(rmse8|relmse|8x8): squared/ { measure = $1; sub(/:/, "", measure) }
+/^\| method \|.*price/ { summary = 1; next }
+/^\| method \|/ { summary = 0; n_scenes = split($0, scene, /\|/); next }
+/^\| (pt|asbdpt) \|/ {
+    split($0, cell, /\|/)
+    for (i in cell) gsub(/^ +| +$/, "", cell[i])
+    if (summary) {
+        mean[cell[2], "rmse8"] = cell[4]; mean[cell[2], "relmse"] = cell[5]; mean[cell[2], "8x8"] = cell[6]
+        next
+    }
+    for (i = 3; i < n_scenes; i++) value[cell[2], measure, i] = cell[i]
+}
+/^\| [a-z-]+ \|.*\*\*.*\[.*\|$/ { # a row of such a table
+    split($0, cell, /\|/)
+    for (i in cell) gsub(/^ +| +$|\*/, "", cell[i])
+    add(cell[2], cell[3], cell[4], cell[5], cell[6])
+}
+/^\| \*\*geometric mean\*\*/ {
+    split($0, cell, /\|/)
+    for (i in cell) gsub(/^ +| +$|\*/, "", cell[i])
+    mean["pt", "rmse8"] = cell[3]; mean["asbdpt", "rmse8"] = cell[4]
+    mean["asbdpt", "relmse"] = cell[5]; mean["asbdpt", "8x8"] = cell[6]
+}
+END {
+    for (i = 3; i < n_scenes; i++) {
+        name = clean(scene[i]); sub(/,.*/, "", name)
+        add(name, value["pt", "rmse8", i], value["asbdpt", "rmse8", i], value["asbdpt", "relmse", i],
+            value["asbdpt", "8x8", i])
+    }
+    if (!n) exit 1
+    print "== table\n| scene | pt, rmse8 | asbdpt, rmse8 | asbdpt, relmse | asbdpt, 8x8 |\n|---|---:|---:|---:|---:|"
+    for (i = 1; i <= n; i++) {
+        bold = rmse8[i]
+        sub(/^[^ ]+/, "**&**", bold)
+        printf "| %s | %s | %s | %s | %s |\n", row[i], pt[i], bold, relmse[i], blocks[i]
+    }
+    bold = mean["asbdpt", "rmse8"]
+    sub(/^[^ ]+/, "**&**", bold)
+    printf "| **geometric mean** | %s | %s | %s | %s |\n", mean["pt", "rmse8"], bold, mean["asbdpt", "relmse"],
+        mean["asbdpt", "8x8"]
+    asbdpt = mean["asbdpt", "rmse8"]
+    i = end_of(rmse8, 1); j = end_of(rmse8, -1); k = end_of(blocks, -1)
+    best = first(rmse8[i]) " (`" row[i] "`)"; worst = first(rmse8[j]) " (`" row[j] "`)"
+    print "== readme"
+    print "**After the same CPU time ASBDPT has " first(asbdpt) " of BDPT's squared error** (geometric mean of " n
+    print "scenes; the best " best ", the worst " worst "): what BDPT reaches in ten"
+    printf "minutes it reaches in %.1f. In means over 8x8 pixels it is %s, the worst %s (`%s`).\n\n",
+        10 * first(asbdpt), first(mean["asbdpt", "8x8"]), first(blocks[k]), row[k]
+    print "| scene | `asbdpt` | of 8x8 pixels | `pt` |\n|---|---:|---:|---:|"
+    for (i = 1; i <= n; i++) {
+        for (j = k = 0; j < n; j++)
+            if (!(j + 1 in done) && (!k || first(rmse8[j + 1]) + 0 < first(rmse8[k]) + 0)) k = j + 1
+        done[k] = 1
+        printf "| `%s` | %s | %s | %s |\n", row[k], short(first(rmse8[k])), short(first(blocks[k])), short(first(pt[k]))
+    }
+    printf "== mean\n%s\n== worst\n%s\n", first(asbdpt), worst
+}
