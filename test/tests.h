@@ -40,6 +40,8 @@ void test_maths(struct test *t);
 void test_walk(struct test *t);
 void test_joint(struct test *t);
 void test_formulas(struct test *t);
+void test_media(struct test *t);
+void test_media_long(struct test *t);
 void test_medium(struct test *t);
 void test_mis(struct test *t);
 void test_options(struct test *t);

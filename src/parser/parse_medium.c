@@ -97,6 +97,7 @@ bool parse_settle_media(struct parser *p)
             source_warn(&p->messages, used, "media are left out, as by pbrt-v3's \"path\"");
         return true;
     }
+    s->camera.medium = p->state.medium[1]; /* pbrt-v3 makes the camera last */
     for (int i = 0; i < s->geo.n_groups; i++)
         if (s->geo.group[i].material < 0 && s->geo.group[i].first_light >= 0)
             parse_media_not(p, used, "where media are an area light needs a material");

@@ -58,7 +58,6 @@ static bool camera(struct parser *p)
     if (!parse_placed(p) || !parse_object(p, &c))
         return false;
     p->scene->camera = c;
-    p->scene->camera.medium = p->state.medium[1];
     parse_name_system(p, "camera", transform_inverse(p->place.ctm));
     return true;
 }

@@ -1,0 +1,77 @@
+/* test_media.c: the scenes of scenes/media by all methods that know media: each has the expectation of bdpt, and of what
+ * is made a little brighter it is seen. test_medium.c has closed forms, test_strategies.c one strategy after another. */
+#include <stdio.h>
+#include <string.h>
+
+#include "helpers.h"
+#include "tests.h"
+
+enum { SIZE = 16, BATCHES = 12 };
+
+/* `spp` of bdpt bring the noise down so far that what is `planted` is seen. Light sub-paths alone do not show what is
+ * behind glass; eye sub-paths do not find a thread of light before long. */
+static const struct {
+    const char *name;
+    int depth, spp;
+    const char *without;
+    double planted;
+} SCENES[] = {{"fog-cornell", 6, 4, "", 0.3}, {"murky-water", 8, 16, "lt", 0.8}, {"laser", 5, 8, "pt", 0.5},
+              {"milk-ball", 8, 8, "lt", 0.25}, {"nested", 6, 4, "", 0.3},       {"inside", 6, 8, "", 0.8}};
+enum { N_SCENES = sizeof SCENES / sizeof SCENES[0] };
+
+/* What is said of a test: how many samples more than SCENES says it takes, of tiles how large, for faults how much
+ * smaller. */
+struct effort {
+    int more, tile;
+    double finer;
+};
+
+static struct batches render(struct test *t, struct scene *scene, int i, const char *way, const struct effort *e)
+{
+    int spp = SCENES[i].spp * e->more * (strcmp(way, "pt") == 0 ? 4 : 1);
+    return render_batches(t, scene, set_method(scene, way), SCENES[i].depth, spp, BATCHES, e->tile,
+                          strcmp(way, "bdpt") == 0 ? 871 : 872);
+}
+
+static void compare(struct test *t, struct scene *scene, int i, const char *way, const struct batches *right,
+                    const struct effort *e)
+{
+    double ratio, planted = SCENES[i].planted / e->finer;
+    struct batches b = render(t, scene, i, way, e);
+    double p = batches_p(&b, right, &ratio);
+    TEST_ACCEPT(t, p, "%s: %s against bdpt, ratio %.4f", SCENES[i].name, way, ratio);
+    batches_scale(&b, 1 + planted);
+    TEST_REJECT(t, batches_p(&b, right, &ratio), "%s: %s made %.0f %% brighter", SCENES[i].name, way, 100 * planted);
+    batches_free(&b);
+}
+
+/* All scenes by these ways, which end with NULL. */
+static void test_all(struct test *t, const char *const *ways, struct effort e)
+{
+    for (int i = 0; i < N_SCENES; i++) {
+        char path[64];
+        struct scene scene;
+        snprintf(path, sizeof path, "scenes/media/%s.pbrt", SCENES[i].name);
+        if (!scene_from_file(t, path, SIZE, SIZE, &scene))
+            continue;
+        struct batches right = render(t, &scene, i, "bdpt", &e);
+        for (int k = 0; ways[k] != NULL; k++)
+            if (strcmp(ways[k], SCENES[i].without) != 0)
+                compare(t, &scene, i, ways[k], &right, &e);
+        batches_free(&right);
+        scene_free(&scene);
+    }
+}
+
+void test_media(struct test *t)
+{
+    static const char *const ways[] = {"pt", "lt", "asbdpt", NULL};
+    test_all(t, ways, (struct effort){1, SIZE, 1});
+}
+
+void test_media_long(struct test *t)
+{
+    static const char *const ways[] = {"pt", "lt", "asbdpt", "asbdpt select=pool", "asbdpt select=vertices", "lvc",
+                                       "cbdpt", "mbdpt", "pssmlt", "mmlt", NULL};
+    test_all(t, ways, (struct effort){16, SIZE / 2, 3});
+}
