@@ -52,11 +52,13 @@ static void test_slab(struct test *t)
         "MakeNamedMedium \"tar\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [.4 .2 .1] \"rgb sigma_s\" [0 0 0]"
         "LookAt 0 0 -5 0 0 0 0 1 0 Camera \"orthographic\" \"float screenwindow\" [-.1 .1 -.1 .1] WorldBegin\n"
         "AttributeBegin AreaLightSource \"diffuse\" \"bool twosided\" \"true\" \"rgb L\" [2 2 2] Material \"matte\"\n"
-        "\"rgb Kd\" [0 0 0] Translate 0 0 4 Shape \"disk\" AttributeEnd Material \"\" AttributeBegin MediumInterface \"ink\" \"\"\n"
+        "\"rgb Kd\" [0 0 0] Translate 0 0 4 Shape \"disk\" AttributeEnd Material \"\"\n"
+        "AttributeBegin MediumInterface \"ink\" \"\"\n"
         "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3  6 5 4 7 6 4] \"point P\" [-1 -1 -1  -1 1 -1  1 1 -1\n"
         "  1 -1 -1  -1 -1 1  -1 1 1  1 1 1  1 -1 1]\n"
         "MediumInterface \"tar\" \"ink\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3  6 5 4 7 6 4]\n"
-        "  \"point P\" [-1 -1 -.5  -1 1 -.5  1 1 -.5  1 -1 -.5  -1 -1 .25  -1 1 .25  1 1 .25  1 -1 .25] AttributeEnd WorldEnd";
+        "  \"point P\" [-1 -1 -.5  -1 1 -.5  1 1 -.5  1 -1 -.5  -1 -1 .25  -1 1 .25  1 1 .25  1 -1 .25]\n"
+        "AttributeEnd WorldEnd";
     const double ink[3] = {0.1, 0.3, 0.9}, tar[3] = {0.4, 0.2, 0.1};
     double wanted = 0;
     for (int c = 0; c < 3; c++)
