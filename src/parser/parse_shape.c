@@ -236,6 +236,14 @@ static bool is_seen(const struct shape_item *item)
     return !empty && (item->group.material != MATERIAL_NONE || item->area.on || bounds);
 }
 
+/* pbrt-v3 turns normals of quadrics under a mirroring transform. Here they stay, but the sides of media are its. */
+static void set_media(struct shape_item *item, const int medium[2])
+{
+    bool turned = !item->is_mesh && transform_swaps_handedness(&item->to_world);
+    item->group.medium[0] = medium[turned];
+    item->group.medium[1] = medium[!turned];
+}
+
 static bool shape(struct parser *p)
 {
     struct object_type types[MOST_TYPES];
@@ -244,12 +252,12 @@ static bool shape(struct parser *p)
         return false;
     struct shape_item item = {.to_world = p->place.ctm, .reverse = p->state.reverse, .area = p->state.area};
     item.group.alpha = item.group.shadow_alpha = item.group.first_light = -1;
-    memcpy(item.group.medium, p->state.medium, sizeof item.group.medium);
     if (p->type.kind < N_QUADRICS)
         parse_fields(p, &item);
     else
         mesh(p, &item);
     item.group.material = parse_changed_material(p);
+    set_media(&item, p->state.medium);
     bool ok = parse_done(p) && parse_placed(p);
     if (ok && is_seen(&item)) {
         if (item.area.on && item.area.group < 0)
