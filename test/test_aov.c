@@ -91,6 +91,41 @@ static void test_wall(struct test *t)
     scene_free(&scene);
 }
 
+/* A layer before the wall, between two interfaces, which nothing shows: depth and place are the wall's. Albedo lacks
+ * what the medium absorbs, and as much of what another scatters. */
+static void test_layer(struct test *t)
+{
+    static const char LAYER[] =
+        "Integrator \"bdpt\" Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 8\n"
+        "PixelFilter \"box\" MakeNamedMedium \"layer\" \"string type\" \"homogeneous\"\n"
+        "\"rgb sigma_a\" [%g %g %g] \"rgb sigma_s\" [%g %g %g]\n"
+        "LookAt 1 2 3  2 2 3  0 0 1  Camera \"orthographic\" WorldBegin\n"
+        "AttributeBegin Material \"\" MediumInterface \"layer\" \"\" Rotate 90 0 1 0\n"
+        "Shape \"disk\" \"float radius\" 50 \"float height\" 4 ReverseOrientation\n"
+        "Shape \"disk\" \"float radius\" 50 \"float height\" 2 AttributeEnd\n"
+        "Material \"matte\" \"rgb Kd\" [.25 .5 .75] Rotate -90 0 1 0\n"
+        "Shape \"disk\" \"float radius\" 50 \"float height\" -5 WorldEnd\n";
+    static const double SIGMA[3][2] = {{0, 0}, {0.4, 0}, {0, 0.4}};
+    for (int i = 0; i < 3; i++) {
+        const double a = SIGMA[i][0], s = SIGMA[i][1], left = exp(-2 * (a + s));
+        char text[1200];
+        struct scene scene;
+        snprintf(text, sizeof text, LAYER, a, a, a, s, s, s);
+        if (!scene_from_text(t, text, &scene))
+            continue;
+        struct pictures p = render_aovs(&scene, AOV_SAMPLES, 2);
+        double sum = 0;
+        for (int k = 0; k < W * H; k++)
+            sum += (double)p.of[AOV_ALBEDO][3 * k + 1] / (W * H);
+        CHECK(t, fabs(sum / (0.5 * left) - 1) < (i == 0 ? 1e-6 : 0.05), "layer %d: albedo %g, not %g", i, sum,
+              0.5 * left);
+        CHECK(t, deviation(p.of[AOV_DEPTH], 0, 4, 0, W) < 1e-6, "layer %d: depth", i);
+        CHECK(t, deviation(p.of[AOV_POSITION], 0, 5, 0, W) < 1e-6, "layer %d: place", i);
+        pictures_free(&p);
+        scene_free(&scene);
+    }
+}
+
 /* A pixel that is half covered: albedo is its mean, depth and position are those of what is there. */
 static void test_edge(struct test *t)
 {
@@ -293,6 +328,7 @@ static void test_ends(struct test *t)
 void test_aov(struct test *t)
 {
     test_wall(t);
+    test_layer(t);
     test_edge(t);
     test_glass(t);
     test_seen(t);

@@ -235,17 +235,19 @@ static void test_every_scene(struct test *t)
 
 /* --- services ----------------------------------------------------------------------------------------- */
 
-/* Each alone, on a method whose choice learns nothing, among many lamps behind walls. */
-static void test_services(struct test *t)
+/* Each alone, on a method whose choice learns nothing, among many lamps behind walls, or in mist. */
+static void test_services(struct test *t, const char *name, int spp)
 {
     static const char *const ways[] = {"lvc guide=on", "lvc emission=0.2", "lvc credit=on", "lvc pilot=on",
                                        "lvc tile=5 spread=3", "asbdpt select=pool guide=off credit=on"};
+    char path[64];
     struct scene scene;
-    if (!scene_from_file(t, "scenes/many-lights.pbrt", 18, 12, &scene))
+    snprintf(path, sizeof path, "scenes/%s.pbrt", name);
+    if (!scene_from_file(t, path, 18, 12, &scene))
         return;
-    struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 8, 16, 8, 53);
+    struct batches bdpt = render_batches(t, &scene, "bdpt", 4, spp, 16, 8, 53);
     for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++)
-        agrees(t, &scene, "many-lights", ways[i], 8, 8, &bdpt);
+        agrees(t, &scene, name, ways[i], spp, 8, &bdpt);
     batches_free(&bdpt);
     scene_free(&scene);
 }
@@ -386,6 +388,7 @@ void test_asbdpt(struct test *t)
     test_one_path(t);
     test_expected_vertices(t);
     test_every_scene(t);
-    test_services(t);
+    test_services(t, "many-lights", 8);
+    test_services(t, "media/inside", 4);
     test_even_sky(t);
 }
