@@ -8,7 +8,7 @@
  *     adjoint;
  *   - no more energy comes out than goes in.
  * The companions that must be rejected: a dropped or doubled cosine, exchanged roughnesses, a wrong index, wrong
- * lobe choice, lost samples not accounted for.
+ * lobe choice, lost samples not accounted for, a medium's asymmetry that is another's, a cosine in a medium.
  */
 #include "material/bsdf.h"
 
@@ -26,6 +26,7 @@ enum {
     COLUMNS = 32,
     CELLS = ROWS * COLUMNS,
     FINE_Z = 40,
+    COARSE_Z = 10,
     FINE_PHI = 5,
     SAMPLES = 30000,
     MAX_LOBES = 4
@@ -192,23 +193,32 @@ struct integral {
     double energy; /* integral of f |cos| (brightest channel) */
 };
 
-/* Rough refraction ends abruptly where facets stand upright, along a parallel of the sphere: hence the finer steps
+/* Rough refraction ends abruptly where facets stand upright, along a parallel of the sphere: hence its finer steps
  * in z. */
+static int steps_in_z(const struct bsdf *b)
+{
+    bool abrupt = false;
+    for (int i = 0; i < b->n_lobes; i++)
+        abrupt = abrupt || b->lobe[i].kind == LOBE_MICROFACET_TRANSMISSION;
+    return abrupt ? FINE_Z : COARSE_Z;
+}
+
 static void integrate(const struct bsdf *b, vec3 wo, enum transport mode, enum fault fault, struct integral *out)
 {
     memset(out, 0, sizeof *out);
-    const double solid_angle = 4 * PI / CELLS / (FINE_Z * FINE_PHI);
-    for (int y = 0; y < ROWS * FINE_Z; y++)
+    const int fine_z = steps_in_z(b);
+    const double solid_angle = 4 * PI / CELLS / (fine_z * FINE_PHI);
+    for (int y = 0; y < ROWS * fine_z; y++)
         for (int x = 0; x < COLUMNS * FINE_PHI; x++) {
             vec3 l =
-                direction((y + 0.5) / (ROWS * FINE_Z) * 2 - 1, ((x + 0.5) / (COLUMNS * FINE_PHI) - 0.5) * 2 * PI);
+                direction((y + 0.5) / (ROWS * fine_z) * 2 - 1, ((x + 0.5) / (COLUMNS * FINE_PHI) - 0.5) * 2 * PI);
             struct bsdf_value v = bsdf_eval(b, wo, to_world(&b->shading, l), mode);
             double pdf = v.pdf * solid_angle;
             if (fault == TIMES_COS)
                 pdf *= 1.5 * fabs(l.z);
             if (fault == PER_COS)
                 pdf *= 0.5 / fabs(l.z);
-            out->expected.cell[y / FINE_Z * COLUMNS + x / FINE_PHI] += SAMPLES * pdf;
+            out->expected.cell[y / fine_z * COLUMNS + x / FINE_PHI] += SAMPLES * pdf;
             out->pdf += pdf;
             out->energy += rgb_max(v.f) * fabs(l.z) * solid_angle;
         }
@@ -291,6 +301,16 @@ static void planted_faults(struct test *t, struct rng *r, const struct fourier_t
     reject(t, r, &glass, &claimed, 0.5, HONEST, "rough glass, wrong lobe choice");
     claimed = mount(&s[0], 0.35);
     reject(t, r, &lambert, &claimed, 0.5, HONEST, "lambert, wrong geometric normal");
+    struct bsdf forward = mount(&s[19], 0), backward = mount(&s[20], 0);
+    static const double WRONG[] = {-0.6, 0.57, 0};
+    for (int i = 0; i < 3; i++) {
+        other = s[19];
+        other.lobe[0].of.g = WRONG[i];
+        claimed = mount(&other, 0);
+        reject(t, r, &forward, &claimed, 0.5, HONEST, "medium, forward, the density of another asymmetry");
+    }
+    reject(t, r, &forward, &forward, 0.5, TIMES_COS, "medium, forward, a cosine, as of a plane");
+    reject(t, r, &backward, &forward, 0.5, HONEST, "medium, backward, a density that is forward");
 }
 
 /* --- pairs of directions ----------------------------------------------------------------------------- */
