@@ -191,6 +191,42 @@ static void trace_all(struct test *t, const struct scene *scene, const char *int
     method_release(&prepared);
 }
 
+/* Where a walk from a pixel's lens by these numbers first hits; the sampler itself stays as it is. */
+static vec3 first_hit(const struct tile_pass *pass, const struct mis_counts *counts, struct sampler sampler)
+{
+    struct vertex path[3];
+    double weight;
+    struct walk w = {pass->job->scene, counts, &pass->work->arena, &sampler, 0};
+    int n = path_eye_pixel(&w, 1, 1, path, 3, &weight);
+    return n > 1 ? path[1].p : vec(0, 0, 0);
+}
+
+/* A sample's end points have numbers of their own: an eye sub-path by these is another than the sample's. */
+static void test_end_points(struct test *t)
+{
+    struct scene scene;
+    struct render_options o = {.integrator = "bdpt", .seed = test_seed(t), .max_depth = 2, .n_threads = 1};
+    struct render_job job;
+    struct error err;
+    struct preparation prepared;
+    if (!scene_from_text(t, FLOOR, &scene) ||
+        !CHECK(t, render_prepare(&scene, &o, render_crop(&scene), &job, &prepared, &err), "%s", err.text))
+        return;
+    const struct mis_counts *counts = &((const struct frozen *)prepared.state)->counts;
+    struct workspace *work = workspaces_new(1, job.max_depth);
+    struct tile_pass pass = {.job = &job, .rect = job.film_rect, .end = 1, .work = work};
+    struct pixel_sample sample = pixel_sample_begin(&pass, counts, 1, 1, 0);
+    struct vertex path[3];
+    int n = pixel_eye_path(&pass, &sample, 0, path, 3);
+    CHECK(t, n > 1 && near3(first_hit(&pass, counts, pixel_sampler(&pass, RNG_EYE, 1, 1, 0)), path[1].p, 0),
+          "an eye sub-path by its own numbers is another");
+    CHECK(t, n > 1 && !near3(first_hit(&pass, counts, sample.sampler), path[1].p, 1e-6),
+          "end points take the numbers of the eye sub-path");
+    workspaces_free(work, 1);
+    method_release(&prepared);
+    scene_free(&scene);
+}
+
 /* --- sub-paths --------------------------------------------------------------------------------------- */
 
 /* Four pixels, two seeds in a row: no sub-path comes twice. */
@@ -216,5 +252,6 @@ static void test_sub_paths(struct test *t)
 void test_streams(struct test *t)
 {
     test_names(t);
+    test_end_points(t);
     test_sub_paths(t);
 }
