@@ -603,16 +603,16 @@ expect 0 '' "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --
 check [ "$(grep -c ', seed ' stderr.txt)" = 0 ]
 # A reference is of the scene, or it is none: another's of the same name is refused, and no reference is not kept quiet.
 mkdir -p bathroom/ref
-printf 'Film "image" "integer xresolution" 160 "integer yresolution" 160 WorldBegin\n' >bathroom/scene.pbrt
+printf 'Film "image" "integer xresolution" 32 "integer yresolution" 32 WorldBegin\n' >bathroom/scene.pbrt
 echo 'LightSource "point" "point from" [0 0 -3] Shape "sphere" WorldEnd' >>bathroom/scene.pbrt
 cp "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.txt" bathroom/ref
 tiny="--seeds 1 --spp 1 --reference-spp 4 --methods bdpt"
-expect 0 'bathroom.pfm.* is of another scene: measured at 160x160 pixels' \
+expect 0 'bathroom.pfm.* is of another scene: measured at 32x32 pixels' \
     "$lab" equal-time bathroom/scene.pbrt $tiny -o foreign
 expect 1 'bathroom.pfm.* is of another scene$' \
     "$lab" equal-time bathroom/scene.pbrt --reference bathroom/ref $tiny --quiet -o foreign
 sed -i.old '/^content/d' bathroom/ref/bathroom.txt
-expect 0 'does not say what scene it is of: measured at 160x160' \
+expect 0 'does not say what scene it is of: measured at 32x32' \
     "$lab" equal-time bathroom/scene.pbrt $tiny -o foreign
 expect 1 'have the same name, bathroom' \
     "$lab" equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign

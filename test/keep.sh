@@ -137,9 +137,9 @@ check [ ! -e x.pfm ]
 no_temporaries "after errors"
 
 # ---- a checkpoint that somebody else has made while this render was under way is not replaced ----
-for interval in 0.2 3600; do # it is asked at each save, and in the end
+for interval in 0.1 3600; do # it is asked at each save, and in the end
     rm -f state
-    "$program" render "$box" --integrator bdpt --res 200x200 --spp 8 --maxdepth 3 --quiet -j 1 --checkpoint state \
+    "$program" render "$box" --integrator bdpt --res 160x160 --spp 8 --maxdepth 3 --quiet -j 1 --checkpoint state \
         --interval $interval -o kept.pfm 2>stderr.txt &
     i=0
     while [ -z "$(find . -name '.asbdpt-*')" ] && [ $i -lt 3000 ]; do
@@ -174,7 +174,7 @@ wait_until() {
     done
 }
 # A render stops between two tile passes, says so at once, and goes on from there to the same bytes.
-stopped="--integrator bdpt --res 200x200 --spp 8 --maxdepth 3 --quiet" end=8000 # passes and thousandths of samples
+stopped="--integrator bdpt --res 160x160 --spp 8 --maxdepth 3 --quiet" end=8000 # passes and thousandths of samples
 check "$program" render "$box" $stopped -o whole.pfm -o whole.part
 rm -f state
 for pair in TERM:143 HUP:129 TERM:143; do
@@ -236,7 +236,7 @@ if heard TERM; then
     no_temporaries "after a signal before the first pass"
     # The picture is there before --aov is made, which ends at a signal, too.
     rm -f first.*
-    "$program" render "$box" --integrator pt --res 160x160 --spp 64 --maxdepth 1 --quiet --aov albedo,variance --seen \
+    "$program" render "$box" --integrator pt --res 160x160 --spp 32 --maxdepth 1 --quiet --aov albedo,variance --seen \
         -o first.pfm 2>stderr.txt &
     wait_until [ -s first.pfm ]
     cp first.pfm early.pfm

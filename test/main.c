@@ -1,6 +1,8 @@
-/* main.c: the test runner: build/test [-l] [--slow] [--once | --first] [--seed N] [--scenes FIRST:END] [NAME...]
- * (--once: doubtful hypotheses fail at once; --first: they do, and the first failure is the end), or build/test
- * --scene N, which prints random scene N; --evil N prints it with numbers that no scene should have.
+/* main.c: the test runner:
+ *   build/test [-l] [--slow] [--once | --first] [--show] [--seed N] [--scenes FIRST:END] [NAME...]
+ *   build/test --scene N    prints random scene N; --evil N: with numbers that no scene should have
+ * --once: doubtful hypotheses fail at once; --first: they do, and the first failure is the end. --show: every p is
+ * printed.
  * Exit status 0 only if every check and every hypothesis came out as it must. The last line is
  * "N passed, N failed". */
 #include <stdio.h>
@@ -88,6 +90,8 @@ int main(int argc, char **argv)
             setting.once = true;
         } else if (strcmp(argv[first], "--first") == 0) {
             setting.once = setting.first = true;
+        } else if (strcmp(argv[first], "--show") == 0) {
+            setting.show = true;
         } else if (strcmp(argv[first], "--seed") == 0 && first + 1 < argc) {
             setting.seed = strtoull(argv[++first], NULL, 10);
         } else if (strcmp(argv[first], "--scenes") == 0 && first + 1 < argc) {
@@ -101,8 +105,8 @@ int main(int argc, char **argv)
             free(scene.text);
             return 0;
         } else {
-            fprintf(stderr, "usage: build/test [-l] [--slow] [--once | --first] [--seed N] [--scenes FIRST:END]"
-                            " [NAME...]\n"
+            fprintf(stderr, "usage: build/test [-l] [--slow] [--once | --first] [--show] [--seed N]"
+                            " [--scenes FIRST:END] [NAME...]\n"
                             "       build/test --scene N | --evil N\n");
             return 2;
         }

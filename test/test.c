@@ -87,6 +87,8 @@ void test_hypothesis(struct test *t, const char *file, int line, bool must_hold,
     if (used > 0 && (size_t)used < sizeof h->text)
         vsnprintf(h->text + used, sizeof h->text - (size_t)used, format, args);
     va_end(args);
+    if (t->set.show)
+        fprintf(t->set.out, "  p = %.3g, %s: %s\n", p, must_hold ? "true" : "planted", h->text);
     if (t->set.first) {
         judge_one(t, h);
         end_at_first(t);

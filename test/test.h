@@ -32,6 +32,7 @@ struct test_setting {
     uint64_t seed;
     bool once;  /* what is doubtful fails */
     bool first; /* with once: the program ends at the first failure, with status 1 */
+    bool show;  /* every p is printed */
     uint64_t first_scene, end_scene; /* of random scenes; both 0: each test's own */
     const char *tmp;                 /* a directory for temporary files; no trailing slash */
     FILE *out;                       /* where failures are written, and in the last line "N passed, N failed" */
