@@ -62,7 +62,7 @@ static void test_scenes_by_reference(struct test *t, bool slow)
         if (scene_from_file(t, path, width, height, &scene)) {
             for (int way = 0; way < N_WAYS; way++)
                 if (ways >> way & 1)
-                    test_way(t, SCENES[i].name, way, &scene, &reference, slow ? SCENES[i].slow_spp : 4);
+                    test_way(t, SCENES[i].name, way, &scene, &reference, slow ? SCENES[i].slow_spp : 2);
             scene_free(&scene);
         }
         batches_free(&reference);

@@ -2,6 +2,7 @@
  * see what one thread does. Jobs of uneven length do not hold up others, and are committed in order. */
 #define _POSIX_C_SOURCE 200809L
 
+#include <string.h>
 #include <time.h>
 
 #include "base/os.h"
@@ -12,17 +13,18 @@
 /* Two parts by four threads are one render by one thread, with whatever is learnt; another seed is another picture. */
 static void test_method(struct test *t, const struct scene *scene, const char *integrator, const char *what)
 {
-    enum { MIDDLE = 32, END = 40 }; /* bins have blocks of 32 */
+    const int middle = strstr(what, "bins") != NULL ? LONGEST_BLOCK : 4, end = middle + 2; /* of bins a block */
     struct film film[3];
     for (int i = 0; i < 3; i++) {
         struct render_options o = {.integrator = integrator, .n_threads = i == 0 ? 1 : 4, .max_depth = 4,
-                                   .seed = test_seed(t) + (i == 2), .end = i == 0 ? END : MIDDLE, .planned = END};
+                                   .seed = test_seed(t) + (i == 2), .end = i == 1 ? middle : end, .planned = end,
+                                   .block = 2};
         struct error err;
         bool ok;
         film_init(&film[i], render_crop(scene), scene->width, scene->height);
-        while ((ok = render_scene(scene, &o, &film[i], &err)) && o.end < END) {
+        while ((ok = render_scene(scene, &o, &film[i], &err)) && o.end < end) {
             o.first = o.end;
-            o.end = END;
+            o.end = end;
         }
         CHECK(t, ok, "%s", err.text);
     }
