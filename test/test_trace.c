@@ -7,7 +7,7 @@
 #include "helpers.h"
 #include "tests.h"
 
-enum { SIZE = 4, SAMPLES = 2 };
+enum { SIZE = 4, SAMPLES = 2, ALL = SIZE * SIZE * SAMPLES };
 
 static const struct {
     const char *name, *integrator, *select;
@@ -95,42 +95,6 @@ static int differing(const struct film *a, const struct film *b)
     return n;
 }
 
-/* Every pixel and sample told one by one gives the film of the render, and half of them do not. */
-static void check_film(struct test *t, const struct scene *scene, int way)
-{
-    const char *name = WAYS[way].name;
-    struct render_options options = options_of(way);
-    struct film rendered, told;
-    struct error err;
-    int halfway = 0, added = 0, longest = 0;
-    film_init(&rendered, render_crop(scene), SIZE, SIZE);
-    film_init(&told, render_crop(scene), SIZE, SIZE);
-    CHECK(t, render_scene(scene, &options, &rendered, &err), "%s", err.text);
-    for (int i = 0; i < SIZE * SIZE * SAMPLES; i++) {
-        struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
-        CHECK(t, trace_render(scene, &options, &trace, &err), "%s", err.text);
-        check_parts(t, name, &trace);
-        check_light_points(t, name, &trace, &rendered);
-        added += trace.n_connections;
-        longest = longest_pair(&trace) > longest ? longest_pair(&trace) : longest;
-        if (2 * i == SIZE * SIZE * SAMPLES)
-            halfway = differing(&rendered, &told);
-        add_trace(scene, &trace, &told);
-        trace_free(&trace);
-    }
-    bool seldom = strcmp(name, "subspaces") == 0; /* less than one draw for a later vertex */
-    CHECK(t, added > SIZE * SIZE * SAMPLES, "%s: only %d connections told", name, added);
-    bool none = way == 0 || way >= N_WAYS - 2; /* pt, and those that share its eye sub-paths */
-    CHECK(t, seldom || longest == (none ? 0 : way == 1 ? 1 : options.max_depth),
-          "%s: no pair is longer than t = %d", name, longest);
-    CHECK(t, differing(&rendered, &told) == 0 && halfway > 0, "%s: %d values differ from what was told, half way %d",
-          name, differing(&rendered, &told), halfway);
-    film_free(&rendered);
-    film_free(&told);
-}
-
-/* --- what brings most -------------------------------------------------------------------------------- */
-
 /* The most that a sample brings to a pixel, by what its witness says. */
 static struct brought most_of_trace(const struct scene *scene, const struct trace *trace)
 {
@@ -155,6 +119,44 @@ static struct brought most_of_trace(const struct scene *scene, const struct trac
     return most;
 }
 
+/* Every pixel and sample told one by one gives the film of the render, and half of them do not. *most: the most that
+ * each brings. */
+static void check_film(struct test *t, const struct scene *scene, int way, struct brought *most)
+{
+    const char *name = WAYS[way].name;
+    struct render_options options = options_of(way);
+    struct film rendered, told;
+    struct error err;
+    int halfway = 0, added = 0, longest = 0;
+    film_init(&rendered, render_crop(scene), SIZE, SIZE);
+    film_init(&told, render_crop(scene), SIZE, SIZE);
+    CHECK(t, render_scene(scene, &options, &rendered, &err), "%s", err.text);
+    for (int i = 0; i < ALL; i++) {
+        struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
+        CHECK(t, trace_render(scene, &options, &trace, &err), "%s", err.text);
+        check_parts(t, name, &trace);
+        check_light_points(t, name, &trace, &rendered);
+        added += trace.n_connections;
+        longest = longest_pair(&trace) > longest ? longest_pair(&trace) : longest;
+        if (2 * i == ALL)
+            halfway = differing(&rendered, &told);
+        add_trace(scene, &trace, &told);
+        most[i] = most_of_trace(scene, &trace);
+        trace_free(&trace);
+    }
+    bool seldom = strcmp(name, "subspaces") == 0; /* less than one draw for a later vertex */
+    CHECK(t, added > ALL, "%s: only %d connections told", name, added);
+    bool none = way == 0 || way >= N_WAYS - 2; /* pt, and those that share its eye sub-paths */
+    CHECK(t, seldom || longest == (none ? 0 : way == 1 ? 1 : options.max_depth),
+          "%s: no pair is longer than t = %d", name, longest);
+    CHECK(t, differing(&rendered, &told) == 0 && halfway > 0, "%s: %d values differ from what was told, half way %d",
+          name, differing(&rendered, &told), halfway);
+    film_free(&rendered);
+    film_free(&told);
+}
+
+/* --- what brings most -------------------------------------------------------------------------------- */
+
 static int by_luminance(const void *a, const void *b)
 {
     const struct brought *x = a, *y = b;
@@ -163,20 +165,14 @@ static int by_luminance(const void *a, const void *b)
 
 static void sort_by_luminance(struct brought *item, int n) { qsort(item, (size_t)n, sizeof *item, by_luminance); }
 
-/* Those that a render finds, on any number of threads, are those of all samples told one by one. */
-static void check_worst(struct test *t, const struct scene *scene, int way)
+/* Those that a render finds, on any number of threads, are those of all samples told one by one, which come in any
+ * order. */
+static void check_worst(struct test *t, const struct scene *scene, int way, struct brought *told)
 {
-    enum { ALL = SIZE * SIZE * SAMPLES, MOST = 10 };
-    struct brought told[ALL];
+    enum { MOST = 10 };
     struct render_options o = options_of(way);
     struct error err;
     int splats = 0;
-    for (int i = 0; i < ALL; i++) {
-        struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
-        CHECK(t, trace_render(scene, &o, &trace, &err), "%s", err.text);
-        told[i] = most_of_trace(scene, &trace);
-        trace_free(&trace);
-    }
     sort_by_luminance(told, ALL);
     for (o.n_threads = 1; o.n_threads <= 3; o.n_threads++) {
         struct worst found = {.most = MOST};
@@ -305,8 +301,9 @@ void test_trace(struct test *t)
     for (int way = 0; way < N_WAYS; way++) {
         if (WAYS[way].select[0] != '\0')
             settings_set(&scene.settings, "select", WAYS[way].select, "test");
-        check_film(t, &scene, way);
-        check_worst(t, &scene, way);
+        struct brought told[ALL];
+        check_film(t, &scene, way, told);
+        check_worst(t, &scene, way, told);
     }
     scene_free(&scene);
 }
