@@ -151,6 +151,50 @@ static void test_stays(struct test *t, const char *integrator)
     scene_free(&scene);
 }
 
+/* --- sub-paths walked again --------------------------------------------------------------------------- */
+
+static bool near_to(double a, double b) { return fabs(a - b) <= 1e-9 * fabs(b); }
+
+/* A light sub-path that goes again through the vertices of one that was walked is that one, whatever its stops know. */
+static void test_follow(struct test *t)
+{
+    enum { PATHS = 500 };
+    struct scene scene;
+    struct bench b;
+    int met = 0;
+    if (!bench_room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "mlt", 0, &b))
+        return;
+    for (uint64_t i = 0; i < PATHS; i++) {
+        struct vertex walked[BENCH_DEPTH + 1], again[BENCH_DEPTH + 1];
+        struct path_stop stop[BENCH_DEPTH + 1];
+        struct sampler sampler = sampler_start(test_seed(t), RNG_TEST, 17, i);
+        struct walk w = {&scene, &b.chain->all->frozen.counts, &b.work->arena, &sampler, 0};
+        int n = path_light(&w, walked, BENCH_DEPTH + 1), smooth = n > 0;
+        while (smooth < n && !walked[smooth].prev_delta && walked[smooth].kind == VERTEX_SURFACE)
+            smooth++;
+        for (int k = 0; k < smooth; k++) {
+            stop[k] = (struct path_stop){.v = walked[k]};
+            if (k > 0) {
+                stop[k].v.length = stop[k].v.pdf_fwd = -1;
+                stop[k].v.beta = rgb_grey(-1);
+            }
+        }
+        if (smooth == 0 || !CHECK(t, follow_light(&w, stop, smooth, again) == smooth, "light does not come again"))
+            continue;
+        for (int k = 1; k < smooth; k++, met++) {
+            CHECK(t, near_to(again[k].length, walked[k].length), "vertex %d: length %g, not %g", k, again[k].length,
+                  walked[k].length);
+            CHECK(t, near_to(again[k].pdf_fwd, walked[k].pdf_fwd) && near_to(again[k].mis_c, walked[k].mis_c),
+                  "vertex %d: density %g, not %g", k, again[k].pdf_fwd, walked[k].pdf_fwd);
+            CHECK(t, near_to(again[k].beta.r, walked[k].beta.r) && near_to(again[k].beta.b, walked[k].beta.b),
+                  "vertex %d: throughput %g, not %g", k, again[k].beta.r, walked[k].beta.r);
+        }
+    }
+    CHECK(t, met > PATHS / 2, "only %d vertices met again", met);
+    bench_free(&b);
+    scene_free(&scene);
+}
+
 /* --- states are bdpt's samples ----------------------------------------------------------------------- */
 
 static rgb heard(const struct chain_state *s)
@@ -339,6 +383,7 @@ static const char *const METHODS[] = {"pssmlt", "mmlt", "mlt", NULL};
 void test_chains(struct test *t)
 {
     test_steps(t);
+    test_follow(t);
     test_samples(t);
     for (int i = 0; METHODS[i] != NULL; i++)
         test_stays(t, METHODS[i]);
