@@ -21,7 +21,7 @@ static void agrees(struct test *t, struct scene *scene, const char *what, const 
 
 /* --- bias -------------------------------------------------------------------------------------------- */
 
-/* Against the stored reference bdpt passes and bins does not. The others, with a quarter of these samples, make the
+/* Against the stored reference bdpt passes and bins does not. The others, with half of these samples, make the
  * picture that bdpt makes of the same eye sub-paths, which is a sharper test. */
 static void test_bias(struct test *t)
 {
@@ -47,8 +47,8 @@ static void test_bias(struct test *t)
         !scene_from_file(t, "scenes/cornell-box.pbrt", width, height, &scene))
         return;
     double ratio;
-    struct batches bdpt = render_batches(t, &scene, "bdpt", DEPTH, 4, 16, 16, 53);
-    struct batches bins = render_batches(t, &scene, set_method(&scene, "asbdpt select=bins"), DEPTH, 4, 16, 16, 53);
+    struct batches bdpt = render_batches(t, &scene, "bdpt", DEPTH, 2, 16, 16, 53);
+    struct batches bins = render_batches(t, &scene, set_method(&scene, "asbdpt select=bins"), DEPTH, 2, 16, 16, 53);
     double p = batches_p(&bdpt, &reference, &ratio), p_bins = batches_p(&bins, &reference, &ratio);
     TEST_ACCEPT(t, p, "Cornell box against its reference, bdpt");
     TEST_REJECT(t, p_bins, "Cornell box against its reference, bins: ratio %.4f", ratio);

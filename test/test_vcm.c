@@ -51,9 +51,9 @@ static void test_even(struct test *t)
     struct scene scene;
     if (!scene_from_text(t, text, &scene))
         return;
-    struct batches even = render_batches(t, &scene, "bdpt", DEPTH, 64, 12, 4, 71);
+    struct batches even = render_batches(t, &scene, "bdpt", DEPTH, 32, 12, 4, 71);
     const char *vcm = set_method(&scene, "vcm radius=.05 alpha=1");
-    struct batches merged = render_batches(t, &scene, vcm, DEPTH, 64, 12, 4, 72);
+    struct batches merged = render_batches(t, &scene, vcm, DEPTH, 32, 12, 4, 72);
     double ratio, p = batches_p(&merged, &even, &ratio);
     TEST_ACCEPT(t, p, "in a sphere that shines vcm is %.5f of bdpt", ratio);
     batches_scale(&merged, 1.02);
