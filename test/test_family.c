@@ -1,6 +1,6 @@
-/* test_family.c: every method but pathgraph, whose bias is known, against pt, to a thousandth of the mean: in six
- * scenes, and in pools of one, two and four light sub-paths; the dissertation's bins, with the same samples, are found
- * out. */
+/* test_family.c: every method but pathgraph, whose bias is known, against pt, to three thousandths of the mean: in
+ * six scenes, and in pools of one, two and four light sub-paths; the dissertation's bins, with the same samples, are
+ * found out. */
 #include <stdio.h>
 #include <string.h>
 
@@ -37,12 +37,12 @@ static void compare(struct test *t, const char *what, const char *way, const str
 static const struct {
     const char *path;
     long pt, spp, states;
-} SCENES[] = {{"doc/mini/rooms.pbrt", 32768, 16384, 1 << 20},
-              {"scenes/cornell-box.pbrt", 4096, 8192, 1 << 20},
-              {"scenes/forest.pbrt", 2048, 2048, 1 << 18},
-              {"scenes/sky.pbrt", 2048, 2048, 1 << 19},
-              {"scenes/test/light-kinds.pbrt", 2048, 2048, 1 << 19},
-              {"scenes/test/all-materials.pbrt", 2048, 2048, 1 << 20}};
+} SCENES[] = {{"doc/mini/rooms.pbrt", 4096, 2048, 1 << 17},
+              {"scenes/cornell-box.pbrt", 512, 1024, 1 << 17},
+              {"scenes/forest.pbrt", 256, 256, 1 << 15},
+              {"scenes/sky.pbrt", 256, 256, 1 << 16},
+              {"scenes/test/light-kinds.pbrt", 256, 256, 1 << 16},
+              {"scenes/test/all-materials.pbrt", 256, 256, 1 << 17}};
 
 static void test_six_scenes(struct test *t)
 {
@@ -58,7 +58,7 @@ static void test_six_scenes(struct test *t)
         struct batches pt = by(t, &scene, "pt", SCENES[i].pt);
         for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++) {
             struct batches b = by(t, &scene, ways[k], SCENES[i].spp);
-            compare(t, path, ways[k], &b, &pt, 0.001);
+            compare(t, path, ways[k], &b, &pt, 0.003);
             batches_free(&b);
         }
         for (size_t k = 0; k < sizeof chains / sizeof chains[0]; k++) {
@@ -66,7 +66,7 @@ static void test_six_scenes(struct test *t)
             long starts = 4 * SCENES[i].states / SCENES[i].spp * test_effort(t);
             snprintf(way, sizeof way, "%s starts=%ld", chains[k], starts);
             struct batches b = by(t, &scene, way, SCENES[i].spp);
-            compare(t, path, way, &b, &pt, 0.001);
+            compare(t, path, way, &b, &pt, 0.003);
             batches_free(&b);
         }
         batches_free(&pt);
@@ -83,15 +83,15 @@ static void test_few_sub_paths(struct test *t)
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 2, 2, &scene))
         return;
-    struct batches pt = by(t, &scene, "pt", 1 << 16);
+    struct batches pt = by(t, &scene, "pt", 1 << 14);
     for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++)
         for (int K = 1; K <= 4; K *= 2) {
             char way[128];
             bool has_records = strstr(ways[k], "records") != NULL;
             snprintf(way, sizeof way, "%s %s=%d", ways[k], has_records ? "subpaths" : "pathpixels",
                      has_records ? K : 4 / K);
-            struct batches b = by(t, &scene, way, 1 << 15);
-            compare(t, "two rooms in four pixels", way, &b, &pt, 0.003);
+            struct batches b = by(t, &scene, way, 1 << 13);
+            compare(t, "two rooms in four pixels", way, &b, &pt, 0.006);
             batches_free(&b);
         }
     batches_free(&pt);
