@@ -20,16 +20,23 @@ enum { MAX_TERMS = 1000000 };      /* sqrt(a) times a few are needed: enough for
 
 /* --- special functions ------------------------------------------------------------------------------- */
 
-/* log Gamma(a) for a > 0. The library's lgamma writes a global sign, so it may not be called by two threads:
- * Stirling's series above 12 is as exact as a double, the recurrence Gamma(a+1) = a Gamma(a) leads there. */
-static double log_gamma(double a)
+/* log Gamma(a) + log *product for a > 0. The library's lgamma writes a global sign, so it may not be called by two
+ * threads: Stirling's series above 12 is as exact as a double, the recurrence Gamma(a+1) = a Gamma(a) leads there. */
+static double log_gamma_times(double a, double *product)
 {
-    double product = 1;
+    const double half_log_2_pi = 0.91893853320467274;
+    *product = 1;
     for (; a < 12; a++)
-        product *= a;
+        *product *= a;
     double r = 1 / (a * a);
     double series = (1.0 / 12 - r * (1.0 / 360 - r * (1.0 / 1260 - r * (1.0 / 1680 - r / 1188)))) / a;
-    return (a - 0.5) * m_log(a) - a + 0.5 * m_log(2 * PI) + series - m_log(product);
+    return (a - 0.5) * m_log(a) - a + half_log_2_pi + series;
+}
+
+static double log_gamma(double a)
+{
+    double product, sum = log_gamma_times(a, &product);
+    return sum - m_log(product);
 }
 
 /* P(a,x) for x < a + 1: x^a e^-x / Gamma(a+1) * sum of x^k / ((a+1)...(a+k)). */
@@ -101,7 +108,9 @@ double stats_beta_i(double a, double b, double x)
         return isnan(x) ? x : 0;
     if (x >= 1)
         return 1;
-    double front = m_exp(log_gamma(a + b) - log_gamma(a) - log_gamma(b) + a * m_log(x) + b * m_log1p(-x));
+    double of_sum, of_a, of_b; /* one logarithm for the three */
+    double gammas = log_gamma_times(a + b, &of_sum) - log_gamma_times(a, &of_a) - log_gamma_times(b, &of_b);
+    double front = m_exp(gammas + m_log(of_a * of_b / of_sum) + a * m_log(x) + b * m_log1p(-x));
     if (x < (a + 1) / (a + b + 2))
         return front * beta_fraction(a, b, x) / a;
     return 1 - front * beta_fraction(b, a, 1 - x) / b;
