@@ -74,9 +74,9 @@ compare() {
     mini 4-light lt 4
 } &
 {
-    mini asbdpt pt 4; mini asbdpt bdpt 3; mini asbdpt bins 3; mini asbdpt pool 1; mini asbdpt vertices 1
+    mini asbdpt pt 4; mini asbdpt bdpt 2; mini asbdpt pool 1; mini asbdpt vertices 1
     SEEDS="1 2 3 4"
-    mini asbdpt subspaces 1
+    mini asbdpt bins 3; mini asbdpt subspaces 1
 } &
 main pt 4 --integrator pt
 main bdpt 3 --integrator bdpt

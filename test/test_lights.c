@@ -144,14 +144,15 @@ static void test_left_out(struct test *t)
 static void make_batches(struct test *t, const struct scene *scene, const char *integrator, int first, int n,
                          uint64_t seed, struct batches *out)
 {
-    enum { BATCHES = 12, SPP = 16 };
+    enum { BATCHES = 12 };
+    const int spp = strcmp(integrator, "lt") == 0 ? 16 : 4; /* splats are few */
     struct batches pixels[GROUPS];
     for (int g = 0; g < n; g++)
         pixels[g] = batches_new(BATCHES, SUMS, false);
     for (int k = 0; k < BATCHES; k++) {
         struct render_options o = {.integrator = integrator, .n_threads = os_cores(), .max_depth = 4,
                                    .seed = (test_seed(t) * 64 + seed) * BATCHES + (uint64_t)k,
-                                   .end = SPP * test_effort(t)};
+                                   .end = spp * test_effort(t)};
         struct film film;
         render_planes(t, scene, &o, GROUPS, false, &film);
         for (int i = 0; i < n * SUMS; i++)
