@@ -217,7 +217,7 @@ static void test_end_points(struct test *t)
     struct tile_pass pass = {.job = &job, .rect = job.film_rect, .end = 1, .work = work};
     struct pixel_sample sample = pixel_sample_begin(&pass, counts, 1, 1, 0);
     struct vertex path[3];
-    int n = pixel_eye_path(&pass, &sample, 0, path, 3);
+    int n = pixel_eye_path(&pass, &sample, path, 3);
     CHECK(t, n > 1 && near3(first_hit(&pass, counts, pixel_sampler(&pass, RNG_EYE, 1, 1, 0)), path[1].p, 0),
           "an eye sub-path by its own numbers is another");
     CHECK(t, n > 1 && !near3(first_hit(&pass, counts, sample.sampler), path[1].p, 1e-6),
