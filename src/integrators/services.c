@@ -105,7 +105,7 @@ static bool free_choice(const struct render_job *job, const struct frozen *f)
 bool services_paths_matter(const struct render_job *job, struct preparation *out)
 {
     const double SAMPLES = 0.2; /* of each pixel, by each of the probe's renders */
-    const double LEAST = 0.3;   /* of the variance, what light sub-paths are to save before they are looked into */
+    const double LEAST = 0.2;   /* of the variance, what light sub-paths are to save before they are looked into */
     struct frozen *f = out->state;
     struct preparation bdpt;
     struct error none;
