@@ -235,19 +235,24 @@ static void test_every_scene(struct test *t)
 
 /* --- services ----------------------------------------------------------------------------------------- */
 
-/* Each alone, on a method whose choice learns nothing, among many lamps behind walls, or in mist. */
-static void test_services(struct test *t, const char *name, int spp)
+/* Each alone, on a method whose choice learns nothing; and what rivals have of them. */
+static const char *const ALONE[] = {"lvc guide=on", "lvc emission=0.2", "lvc credit=on", "lvc pilot=on",
+                                    "lvc tile=5 spread=3", "asbdpt select=pool guide=off credit=on", NULL};
+static const char *const RIVALS[] = {"pcbdpt guide=on emission=0.2 credit=on pilot=on tile=9 spread=2 records=.05",
+                                     "ris emission=0.2 tile=9 spread=2 records=.05",
+                                     "ris2 emission=0.2 tile=9 spread=2 records=.05",
+                                     "restir guide=on emission=0.2 tile=9 spread=2", NULL};
+
+static void test_services(struct test *t, const char *name, int spp, const char *const *ways)
 {
-    static const char *const ways[] = {"lvc guide=on", "lvc emission=0.2", "lvc credit=on", "lvc pilot=on",
-                                       "lvc tile=5 spread=3", "asbdpt select=pool guide=off credit=on"};
     char path[64];
     struct scene scene;
     snprintf(path, sizeof path, "scenes/%s.pbrt", name);
     if (!scene_from_file(t, path, 18, 12, &scene))
         return;
     struct batches bdpt = render_batches(t, &scene, "bdpt", 4, spp, 16, 8, 53);
-    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++)
-        agrees(t, &scene, name, ways[i], spp, 8, &bdpt);
+    for (; *ways != NULL; ways++)
+        agrees(t, &scene, name, *ways, spp, 8, &bdpt);
     batches_free(&bdpt);
     scene_free(&scene);
 }
@@ -388,7 +393,8 @@ void test_asbdpt(struct test *t)
     test_one_path(t);
     test_expected_vertices(t);
     test_every_scene(t);
-    test_services(t, "many-lights", 8);
-    test_services(t, "media/inside", 4);
+    test_services(t, "many-lights", 8, ALONE);
+    test_services(t, "many-lights", 8, RIVALS);
+    test_services(t, "media/inside", 4, ALONE);
     test_even_sky(t);
 }

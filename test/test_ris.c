@@ -179,4 +179,5 @@ void test_ris(struct test *t)
     test_weights(t, "scenes/cornell-box-modified.pbrt", "ris records=.02 rrthreshold=1");
     test_weights(t, "scenes/cornell-box-modified.pbrt", "ris2 records=.02 presampled=30");
     test_weights(t, "scenes/veach-ajar.pbrt", "ris records=.02");
+    test_weights(t, "scenes/many-lights.pbrt", "ris records=.02 emission=0.2");
 }

@@ -236,10 +236,10 @@ static void test_limits(struct test *t)
         double bound;
     } cases[] = {
         {"light-kinds", 1, 4, "mbdpt", "bdpt", "cbdpt connections=2", 0},
-        {"mirror-glass", SIDE, 4, "restir candidates=1 neighbours=0 credit=1", "bdpt",
-         "restir candidates=1 neighbours=9 credit=1", 1e-6},
-        {"light-kinds", SIDE, 4, "restir candidates=1 neighbours=0 credit=1", "bdpt",
-         "restir candidates=2 neighbours=0 credit=1", 1e-6},
+        {"mirror-glass", SIDE, 4, "restir candidates=1 neighbours=0 worth=1", "bdpt",
+         "restir candidates=1 neighbours=9 worth=1", 1e-6},
+        {"light-kinds", SIDE, 4, "restir candidates=1 neighbours=0 worth=1", "bdpt",
+         "restir candidates=2 neighbours=0 worth=1", 1e-6},
         /* without records the choice is uniform; where light sub-paths have two vertices, two draws count like one */
         {"white", SIDE, 2, "pcbdpt records=0 connections=2 subpaths=256", "lvc connections=2",
          "pcbdpt records=.1 connections=2 subpaths=256", 0},

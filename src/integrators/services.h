@@ -17,16 +17,24 @@
 #include "integrators/method.h"
 #include "learning/learn.h"
 
-/* SERVICES: their rows in a method's table of parameters, with these defaults. */
+/* SERVICES: their rows in a method's table of parameters, with these defaults; each for methods that have no use for the
+ * others. */
 #define SERVICES(GUIDE, EMISSION, CREDIT, PILOT, TILE, SPREAD) \
-    {"guide", FIELD_WORD, offsetof(struct frozen, services.guide), GUIDE, 0, 0, \
-     "choose lights by what a region sees, where there are several", OFF_ON}, \
-    {"emission", FIELD_NUMBER, offsetof(struct frozen, services.emission), EMISSION, 1e-6, 1, \
-     "share of light sub-paths that leave lights as if nothing were learnt", NULL}, \
-    {"credit", FIELD_WORD, offsetof(struct frozen, services.credit), CREDIT, 0, 0, \
-     "measure what light that comes straight counts for", OFF_ON}, \
-    {"pilot", FIELD_WORD, offsetof(struct frozen, services.pilot), PILOT, 0, 0, \
-     "choose numbers of samples by what some tiles show", OFF_ON}, \
+    SERVICE_GUIDE(GUIDE), SERVICE_EMISSION(EMISSION), SERVICE_CREDIT(CREDIT), SERVICE_PILOT(PILOT), \
+    SERVICE_TILES(TILE, SPREAD)
+#define SERVICE_GUIDE(DEFAULT) \
+    {"guide", FIELD_WORD, offsetof(struct frozen, services.guide), DEFAULT, 0, 0, \
+     "choose lights by what a region sees, where there are several", OFF_ON}
+#define SERVICE_EMISSION(DEFAULT) \
+    {"emission", FIELD_NUMBER, offsetof(struct frozen, services.emission), DEFAULT, 1e-6, 1, \
+     "share of light sub-paths that leave lights as if nothing were learnt", NULL}
+#define SERVICE_CREDIT(DEFAULT) \
+    {"credit", FIELD_WORD, offsetof(struct frozen, services.credit), DEFAULT, 0, 0, \
+     "measure what light that comes straight counts for", OFF_ON}
+#define SERVICE_PILOT(DEFAULT) \
+    {"pilot", FIELD_WORD, offsetof(struct frozen, services.pilot), DEFAULT, 0, 0, \
+     "choose numbers of samples by what some tiles show", OFF_ON}
+#define SERVICE_TILES(TILE, SPREAD) \
     {"tile", FIELD_INTEGER, offsetof(struct frozen, services.tile), TILE, 1, MAX_TILE_SIZE, \
      "pixels along a side of those that share a pool", NULL}, \
     {"spread", FIELD_INTEGER, offsetof(struct frozen, services.spread), SPREAD, 1, 64, \

@@ -132,7 +132,7 @@ void methods_all(char out[METHODS_TEXT])
                           (*m)->select != NULL ? ":select=" : "", (*m)->select != NULL ? (*m)->select : "");
 }
 
-/* Services are parameters that several methods have, all of them or none: how they are off and on. */
+/* Services are parameters that several methods have, some all of them: how they are off and on. */
 static const struct {
     const char *name, *value[N_HALVES];
 } SERVICES[] = {{"guide", {"off", "on"}}, {"emission", {"1", "0.2"}}, {"credit", {"off", "on"}},
@@ -149,7 +149,7 @@ static void in_half(const char *text, enum half half, char out[METHOD_TEXT])
     set_pairs(text, &s, NULL);
     const struct method *row = method_find(integrator, &s, NULL);
     int n = snprintf(out, METHOD_TEXT, "%s", text);
-    bool serves = row != NULL && method_has(row, "guide") != NULL;
+    bool serves = row != NULL && method_has(row, "tile") != NULL;
     for (size_t i = 0; serves && i < sizeof SERVICES / sizeof SERVICES[0]; i++)
         if (method_has(row, SERVICES[i].name) != NULL && settings_text(&s, SERVICES[i].name, NULL) == NULL &&
             n < METHOD_TEXT)

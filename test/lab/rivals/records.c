@@ -30,7 +30,8 @@ void records_place(struct records *r, const struct tile_pass *pass, const struct
     for (int i = 0; i < n; i++) {
         double u, v, filter_weight;
         sampler_r2((int64_t)iteration * n + i, &u, &v);
-        int x = pass->rect.x0 + (int)(u * width), y = pass->rect.y0 + (int)(v * height);
+        int x = pass->rect.x0 + (int)(u * width) * (pass->rect.skip_x + 1);
+        int y = pass->rect.y0 + (int)(v * height) * (pass->rect.skip_y + 1);
         struct sampler sampler = pixel_sampler(pass, RNG_RECORD, x, y, iteration);
         struct walk walk = {job->scene, &f->counts, &r->arena, &sampler, job->rr_threshold};
         struct vertex *eye = arena_alloc(&r->arena, (size_t)longest * sizeof *eye);

@@ -14,13 +14,15 @@
  * other strategies are BDPT's, with the pixel's own light sub-path. With M = 1, N = 0 and no credit the method is BDPT
  * but for the order in which it adds.
  *
- * Densities cancel in f / p, so p is never asked for: f stands for f / p below.
+ * Densities cancel in f / p, so p is never asked for: f stands for f / p below, p being that of the pixel that drew y. A
+ * guide (services.h) may have another p in each. How many light points there are is M, so no pilot chooses it.
  *
  * Tests: test_rivals.c.
  */
 #include <stddef.h>
 
 #include "caustics/surfaces.h"
+#include "rivals/plain.h"
 #include "rivals/together.h"
 
 struct restir_state {
@@ -113,8 +115,7 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
 static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct restir_state *s = out->state;
-    (void)job;
-    out->size.tile = MAX_TILE_SIZE;
+    plain_prepare(job, out);
     s->frozen.lights = 0;
     s->frozen.counts.direct[FIRST_HIT] = s->frozen.counts.delta[FIRST_HIT] = s->credit;
 }
@@ -124,7 +125,8 @@ static const struct field PARAMETERS[] = {
     {"candidates", FIELD_INTEGER, AT(candidates), 16, 1, 1024, "light points of which a pixel keeps one", NULL},
     {"neighbours", FIELD_INTEGER, AT(neighbours), 5, 0, MOST_NEIGHBOURS, "pixels whose light points it shares",
      NULL},
-    {"credit", FIELD_NUMBER, AT(credit), 4, 1e-3, 1e6, "samples that one kept counts for in the weights", NULL},
+    {"worth", FIELD_NUMBER, AT(credit), 4, 1e-3, 1e6, "samples that one kept counts for in the weights", NULL},
+    SERVICE_GUIDE(false), SERVICE_EMISSION(1), SERVICE_TILES(MAX_TILE_SIZE, 1),
     {.name = NULL}};
 
 static void render(const struct preparation *m, const struct tile_pass *pass)

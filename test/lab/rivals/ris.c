@@ -15,13 +15,15 @@
  * K sub-paths of a tile are drawn from; all are for t = 1. Unlike in the paper they and the records are a tile's, not
  * the picture's, and s = 1 takes light points of its own. A light sub-path is splat in any tile, so t = 1 has mis.h's
  * weight, with lvc.c's count of connections, and the others share what that leaves. In the first iteration the paper
- * takes its own Q, which is biased; here an iteration is made up before it.
+ * takes its own Q, which is biased; here an iteration is made up before it. Of the services (integrators/services.h) it has
+ * those that its weights know of.
  *
  * `weights = counts` draws the same and has the weights of pcbdpt.c, whose draws by place alone it is to the byte.
  *
  * Tests: test_ris.c, test_rivals.c.
  */
 #include "caustics/surfaces.h"
+#include "rivals/plain.h"
 #include "rivals/ris.h"
 #include "rivals/together.h"
 
@@ -414,10 +416,10 @@ void ris_scratch_free(void *scratch)
 void ris_prepare(const struct render_job *job, struct preparation *out)
 {
     struct ris_state *s = out->state;
-    out->size.tile = RECORDS_TILE;
+    int M = s->sub_paths;
+    plain_prepare(job, out);
     if (!s->nabata)
         return;
-    int M = s->sub_paths;
     s->vertices = light_vertices_expected(job);
     for (int end = 0; end < EYE_ENDS; end++)
         s->frozen.counts.connect[end] = M / ((M - 1) * s->vertices + 1);
@@ -429,6 +431,7 @@ static const struct field PARAMETERS[] = {
     {"subpaths", FIELD_INTEGER, AT(sub_paths), RECORDS_SUB_PATHS, 1, 1e6, "light sub-paths that are drawn from",
      NULL},
     {"records", FIELD_NUMBER, AT(records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
+    RIS_SERVICES,
     {.name = NULL}};
 
 const struct method method_ris = {

@@ -2,6 +2,7 @@
 #ifndef ASBDPT_RIS_H
 #define ASBDPT_RIS_H
 
+#include "integrators/services.h"
 #include "rivals/records.h"
 
 struct ris;
@@ -53,5 +54,8 @@ double ris_worth(const struct ris *r, const struct vertex *y, const struct verte
 void ris2_presample(struct ris *r, const struct tile_pass *pass, long iteration);
 
 extern const char *const RIS_WEIGHTS[];
+
+/* RIS_SERVICES: of the tables of ris and ris2. */
+#define RIS_SERVICES SERVICE_EMISSION(1), SERVICE_TILES(RECORDS_TILE, 1)
 
 #endif

@@ -44,6 +44,7 @@ static const struct field PARAMETERS[] = {
     {"presampled", FIELD_INTEGER, AT(presampled), 200, 1, 100000, "light vertices left by the first stage", NULL},
     {"subpaths", FIELD_INTEGER, AT(sub_paths), 10000, 1, 1e6, "light sub-paths that are drawn from", NULL},
     {"records", FIELD_NUMBER, AT(records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
+    RIS_SERVICES,
     {.name = NULL}};
 
 const struct method method_ris2 = {
