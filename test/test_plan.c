@@ -47,7 +47,8 @@ static void test_halves_of_family(struct test *t)
 {
     struct methods m = {.n = 0};
     struct error err = {.text = ""};
-    CHECK(t, methods_add_halves("bdpt,lvc:guide=on,restirgi", 3, &m, &err) && m.n == 4, "%d methods: %s", m.n, err.text);
+    CHECK(t, methods_add_halves("bdpt,lvc:guide=on,restirgi", 3, &m, &err) && m.n == 4, "%d methods: %s", m.n,
+          err.text);
     int with = methods_find_half(&m, "lvc:guide=on", HALF_SERVICES);
     int without = methods_find_half(&m, "lvc:guide=on", HALF_CHOICE);
     CHECK(t, with >= 0 && without >= 0 && with != without && m.item[with].halves == 2 && m.item[without].halves == 1 &&
@@ -55,7 +56,7 @@ static void test_halves_of_family(struct test *t)
           without);
     CHECK(t, strstr(m.item[without].text, "guide=on:emission=1:") != NULL, "what was given stays: %s",
           m.item[without].text);
-    CHECK(t, m.item[0].halves == 3 && methods_find_half(&m, "restirgi", HALF_SERVICES) == 2, "bdpt and restirgi in both");
+    CHECK(t, m.item[0].halves == 3 && methods_find_half(&m, "restirgi", HALF_SERVICES) == 2, "bdpt, restirgi in both");
     CHECK(t, methods_add_halves("bdpt,lvc", 1, &m, &err) && m.n == 2, "one half: %d methods", m.n);
 }
 

@@ -17,8 +17,8 @@
 #include "integrators/method.h"
 #include "learning/learn.h"
 
-/* SERVICES: their rows in a method's table of parameters, with these defaults; each for methods that have no use for the
- * others. */
+/* SERVICES: their rows in a method's table of parameters, with these defaults; and single ones, for methods that have
+ * no use for the others. */
 #define SERVICES(GUIDE, EMISSION, CREDIT, PILOT, TILE, SPREAD) \
     SERVICE_GUIDE(GUIDE), SERVICE_EMISSION(EMISSION), SERVICE_CREDIT(CREDIT), SERVICE_PILOT(PILOT), \
     SERVICE_TILES(TILE, SPREAD)

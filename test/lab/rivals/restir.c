@@ -11,11 +11,11 @@
  *     since y could have come from any k that sees it. All N + 1 terms of m are tested for visibility, so X is exact;
  *     without that what neighbours do not see comes out too dark.
  * Given the weights w, E[X] = integral of w F_c; they are BDPT's, but that s = 1, t = 2 counts for several samples. All
- * other strategies are BDPT's, with the pixel's own light sub-path. With M = 1, N = 0 and no credit the method is BDPT
- * but for the order in which it adds.
+ * other strategies are BDPT's, with the pixel's own light sub-path. With M = 1, N = 0 and a worth of 1 the method is
+ * BDPT but for the order in which it adds.
  *
- * Densities cancel in f / p, so p is never asked for: f stands for f / p below, p being that of the pixel that drew y. A
- * guide (services.h) may have another p in each. How many light points there are is M, so no pilot chooses it.
+ * Densities cancel in f / p, so p is never asked for: f stands for f / p below, p being that of the pixel that drew y.
+ * A guide (services.h) may have another p in each. How many light points there are is M, so no pilot chooses it.
  *
  * Tests: test_rivals.c.
  */

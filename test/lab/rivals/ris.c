@@ -15,8 +15,8 @@
  * K sub-paths of a tile are drawn from; all are for t = 1. Unlike in the paper they and the records are a tile's, not
  * the picture's, and s = 1 takes light points of its own. A light sub-path is splat in any tile, so t = 1 has mis.h's
  * weight, with lvc.c's count of connections, and the others share what that leaves. In the first iteration the paper
- * takes its own Q, which is biased; here an iteration is made up before it. Of the services (integrators/services.h) it has
- * those that its weights know of.
+ * takes its own Q, which is biased; here an iteration is made up before it. Of the services (services.h) it has those
+ * that its weights know of.
  *
  * `weights = counts` draws the same and has the weights of pcbdpt.c, whose draws by place alone it is to the byte.
  *
