@@ -2,6 +2,18 @@
 # slides.sh OUT.html: the figures of the tour as slides in one file, with each page's question. Arrow keys, space or a
 # click turn. Run from the top.
 out=$1
+
+# side_by_side PARTS WIDTH HEIGHT: a figure that is taller than a slide, cut into equal parts; its address is read.
+side_by_side() {
+    awk -v n="$1" -v width="$2" -v height="$3" '{
+        printf "<div style=\"--f:url(%s)\">", $0
+        for (i = 0; i < n; i++)
+            printf "<i style=\"aspect-ratio:%g;background-size:100%% %d%%;background-position:0 %g%%\"></i>",
+                width / height * n, 100 * n, 100 * i / (n - 1)
+        print "</div>"
+    }'
+}
+
 mkdir -p "$(dirname "$out")" || exit 1
 {
     cat <<'HEAD'
@@ -12,6 +24,7 @@ section { display: none; box-sizing: border-box; height: 100vh; padding: 4vmin; 
 section.on { display: flex; justify-content: center; }
 h1 { font-size: 5vmin; margin: 0; } p { margin: 0; }
 img { flex: 1; min-height: 0; max-width: 92vw; object-fit: contain; image-rendering: auto; width: 92vw; }
+div { flex: 1; display: flex; gap: 2vw; width: 92vw; align-items: center; } i { flex: 1; background-image: var(--f); }
 </style>
 HEAD
     for page in doc/tour/[01]*.md; do
@@ -21,8 +34,14 @@ HEAD
         grep -o '!\[[^]]*\](figures/[^)]*)' "$page" | sed 's/^!\[\(.*\)\](\(.*\))$/\2|\1/' |
             while IFS='|' read -r file words; do
                 case $file in *.svg) type=svg+xml ;; *) type=png ;; esac
-                printf '<section><p>%s</p><img alt="" src="data:image/%s;base64,%s"></section>\n' "$words" $type \
-                    "$(base64 <"doc/tour/$file" | tr -d '\n')"
+                data="data:image/$type;base64,$(base64 <"doc/tour/$file" | tr -d '\n')"
+                printf '<section><p>%s</p>' "$words"
+                case $file in
+                */alias.svg) printf '%s\n' "$data" | side_by_side 3 410 1140 ;;
+                */pyramid.png) printf '%s\n' "$data" | side_by_side 2 568 920 ;;
+                *) printf '<img alt="" src="%s">\n' "$data" ;;
+                esac
+                echo '</section>'
             done
     done
     cat <<'TAIL'
