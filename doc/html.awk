@@ -21,7 +21,7 @@ function formula(s, inline,    out, base, index_, mark) {
     s = word(s, "delta", "\\&delta;"); s = word(s, "kappa", "\\&kappa;")
     gsub(/\003/, "", s)
     s = word(s, "sum_", "\\&Sigma;_"); s = word(s, "beta", "\\&beta;"); s = word(s, "theta", "\\&theta;")
-    s = word(s, "eta", "\\&eta;"); s = word(s, "pi", "\\&pi;")
+    s = word(s, "eta", "\\&eta;"); s = word(s, "pi", "\\&pi;"); s = word(s, "sigma", "\\&sigma;")
     while (match(s, /[A-Za-z*;)][_^](\([^()]*\)|[A-Za-z0-9]+)/)) {
         base = substr(s, RSTART, 1)
         mark = substr(s, RSTART + 1, 1) == "_" ? "sub" : "sup"

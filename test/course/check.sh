@@ -14,6 +14,12 @@ check() {
             ${CC:-cc} -std=c99 -I"$dir/src" -c -o "$dir/object.o" "$dir/$file" || wrong "$file has no body left"
         done
     done
+    for n in $(names assignment); do
+        for call in $(calls "$n"); do
+            grep -qw "$call" "doc/course/$n.md" doc/course/README.md ||
+                wrong "doc/course/$n.md says nothing of $call, which the solution calls"
+        done
+    done
     for name in $(names exercise); do
         grep -q "^$name " test/mutants/list.txt || wrong "there is no mutant $name"
     done
@@ -38,6 +44,14 @@ $(asked | grep -c .) exercises"
 
 plants=test/course/plants.txt
 planted() { awk '/^[0-9a-z]+-/ { print $1 }' $plants; }
+
+# calls NAME: the functions, but for C's own, that the solution of an assignment calls.
+calls() {
+    get "$1" hole | while read -r file function stub; do
+        awk -v name="$function" '$0 ~ "^[a-z].*[ *]" name "\\(" && !/;$/ { on = 1 } on; on && /^[}]/ { exit }' "$file" |
+            sed '1d; s|/\*.*||' | grep -oE '[a-z_0-9]+[(]' | tr -d '('
+    done | sort -u | grep -vxE 'if|while|for|return|sizeof|switch|sqrt|fabs'
+}
 
 # plants_of DIR: those that do not apply.
 plants_of() {
