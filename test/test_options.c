@@ -34,7 +34,7 @@ static const struct option TABLE[] = {
     {"--time", "TIME", OPTION_TIME, offsetof(struct target, time), 0.5, 7200, .with = "--on", .help = "a duration"},
     {"--window", "X0 X1 Y0 Y1", OPTION_WINDOW, offsetof(struct target, window), 0, 1, .help = "a window"},
     {"--range", "FIRST:END", OPTION_RANGE, offsetof(struct target, range), 0, 100, .help = "a range"},
-    {"--size", "WIDTHxHEIGHT", OPTION_SIZE, offsetof(struct target, size), 1, 65536, .help = "a size"},
+    {"--size", "WIDTH[xHEIGHT]", OPTION_WIDTH, offsetof(struct target, size), 1, 65536, .help = "a size"},
     {"--width", "WIDTH[xHEIGHT]", OPTION_WIDTH, offsetof(struct target, width), 1, 65536, .help = "a width"},
     {"--text", "TEXT", OPTION_TEXT, offsetof(struct target, text), .alias = "-t", .help = "a text"},
     {"--texts", "TEXT", OPTION_TEXTS, offsetof(struct target, texts), .help = "texts"},
@@ -117,10 +117,10 @@ static void check_refused(struct test *t)
         {"--window 0,,0,1", "expected X0 X1 Y0 Y1"},
         {"--window 0 1 0 nan", "expected X0 X1 Y0 Y1, numbers from 0 to 1"},
         {"--window 0.5 0.5 0 1", "--window: there is nothing between"},
-        {"--size 10", "expected WIDTHxHEIGHT, integers from 1 to 65536"},
-        {"--size 10x", "expected WIDTHxHEIGHT"},
-        {"--size 4x18446744073709551617", "expected WIDTHxHEIGHT"},
-        {"--size 0x10", "expected WIDTHxHEIGHT"},
+        {"--size 0", "expected WIDTH[xHEIGHT], integers from 1 to 65536"},
+        {"--size 10x", "expected WIDTH[xHEIGHT]"},
+        {"--size 4x18446744073709551617", "expected WIDTH[xHEIGHT]"},
+        {"--size 0x10", "expected WIDTH[xHEIGHT]"},
         {"--size 60000x60000", "60000 x 60000 pixels are too many"},
         {"--width 65537", "expected WIDTH[xHEIGHT]"},
         {"--width 4x0", "expected WIDTH[xHEIGHT]"},
@@ -174,7 +174,6 @@ static size_t target_size(const struct option *o, char *value, size_t size)
     case OPTION_NUMBER:
     case OPTION_TIME: return sizeof(double);
     case OPTION_PIXEL: strcpy(value, "4,3"); return 2 * sizeof(int);
-    case OPTION_SIZE:
     case OPTION_WIDTH: strcpy(value, "4x3"); return 2 * sizeof(int);
     case OPTION_RANGE: strcpy(value, "3:7"); return 2 * sizeof(int);
     case OPTION_LENGTHS: strcpy(value, "3:7"); return 2 * sizeof(double);

@@ -74,9 +74,8 @@ enum { MOST_NUMBERS = 4 };
 static const struct numbers NUMBERS[] = {
     [OPTION_INTEGER] = {1, 1, '\0', false, false}, [OPTION_NUMBER] = {1, 1, '\0', true, false},
     [OPTION_TIME] = {1, 1, '\0', true, false},     [OPTION_PIXEL] = {2, 2, ',', false, false},
-    [OPTION_SIZE] = {2, 2, 'x', false, false},     [OPTION_WIDTH] = {2, 1, 'x', false, false},
-    [OPTION_RANGE] = {2, 2, ':', false, true},     [OPTION_LENGTHS] = {2, 2, ':', true, true},
-    [OPTION_WINDOW] = {4, 4, ',', true, true}};
+    [OPTION_WIDTH] = {2, 1, 'x', false, false},    [OPTION_RANGE] = {2, 2, ':', false, true},
+    [OPTION_LENGTHS] = {2, 2, ':', true, true},    [OPTION_WINDOW] = {4, 4, ',', true, true}};
 
 /* The number at the beginning of *text, which moves behind it. False if there is none, or if it is out of range, as NaN
  * is of every range, and what overflows of every one with an end. */

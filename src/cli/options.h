@@ -24,8 +24,7 @@ enum option_kind {
     OPTION_NUMBER,  /* double */
     OPTION_TIME,    /* double: seconds, or with a unit: 90s, 5m, 1h */
     OPTION_PIXEL,   /* int[2]: X,Y */
-    OPTION_SIZE,    /* int[2]: WIDTHxHEIGHT, of a picture that can be */
-    OPTION_WIDTH,   /* int[2]: the same, but xHEIGHT may be left out, and is 0 then */
+    OPTION_WIDTH,   /* int[2]: WIDTHxHEIGHT, of a picture that can be; xHEIGHT may be left out, and is 0 then */
     OPTION_RANGE,   /* int[2]: FIRST:END, the first less than the second */
     OPTION_LENGTHS, /* double[2]: so, too */
     OPTION_WINDOW,  /* double[4]: X0 X1 Y0 Y1 in four arguments, or with commas between; pairs, each the lesser first */

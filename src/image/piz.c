@@ -28,7 +28,6 @@ enum {
     HEAD = 20,
     SYMBOLS = 65537,
     MAX_BITS = 57, /* longest code; a longer one needs more than 10^11 numbers */
-    FAST_BITS = 12,
     SHORT_RUN = 59, /* lengths 59..62: a run of 2..5 zeros; 63: of 6 and what the next 8 bits say */
     LONG_RUN = 63
 };
@@ -70,7 +69,6 @@ struct code {
     uint64_t first[MAX_BITS + 1];  /* first code of each length */
     uint32_t place[MAX_BITS + 1];  /* of its symbol in symbol[] */
     uint32_t symbol[SYMBOLS];      /* by length, then in order */
-    uint32_t fast[1 << FAST_BITS]; /* by the next bits: symbol * 64 + length, 0 if the code is longer */
 };
 
 /* The lengths of symbols first to last. */
@@ -106,15 +104,8 @@ static bool build(struct code *c, uint32_t first, uint32_t last)
     }
     for (uint32_t i = first; i <= last; i++) {
         unsigned l = c->length[i];
-        if (l == 0)
-            continue;
-        uint32_t at = next[l]++;
-        c->symbol[at] = i;
-        if (l > FAST_BITS)
-            continue;
-        size_t from = (size_t)(c->first[l] + at - c->place[l]) << (FAST_BITS - l);
-        for (size_t k = 0; k < (size_t)1 << (FAST_BITS - l); k++)
-            c->fast[from + k] = i * 64 + l;
+        if (l > 0)
+            c->symbol[next[l]++] = i;
     }
     return true;
 }
@@ -123,12 +114,7 @@ static bool build(struct code *c, uint32_t first, uint32_t last)
 static uint32_t decode(const struct code *c, struct bit_reader *in)
 {
     refill(in);
-    uint32_t entry = c->fast[in->bits >> (64 - FAST_BITS)];
-    if (entry != 0) {
-        skip_bits(in, entry & 63);
-        return entry >> 6;
-    }
-    for (unsigned l = FAST_BITS + 1; l <= MAX_BITS; l++) {
+    for (unsigned l = 1; l <= MAX_BITS; l++) {
         uint64_t value = in->bits >> (64 - l);
         if (value < c->first[l])
             continue;
