@@ -183,8 +183,8 @@ measure() {
         return 1
     done
     $work/original/asbdpt-lab compare "$3/yours-1.pfm" "$kept/before.pfm" --heatmap "$3/difference.png" >/dev/null
-    $work/original/asbdpt-lab convert "$kept/before.pfm" -o "$3/original.png" >/dev/null
-    $work/original/asbdpt-lab convert "$3/yours-1.pfm" -o "$3/changed.png" >/dev/null
+    $work/original/asbdpt-lab convert "$kept/before.pfm" -o "$3/original.png" >/dev/null 2>&1
+    $work/original/asbdpt-lab convert "$3/yours-1.pfm" -o "$3/changed.png" >/dev/null 2>&1
     $work/original/asbdpt-lab verify doc/mini/rooms.pbrt --tile 8 --quiet \
         --files "$3"/yours-?.pfm --against "$kept"/original-?.pfm >"$3/verify.txt" 2>&1
     awk -v before="$(noise "$kept/original")" -v after="$(noise "$3/yours")" '
