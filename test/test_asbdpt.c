@@ -21,7 +21,7 @@ static void agrees(struct test *t, struct scene *scene, const char *what, const 
 
 /* --- bias -------------------------------------------------------------------------------------------- */
 
-/* Against the stored reference bdpt passes and bins does not. The others, with half of these samples, make the
+/* Against the stored reference bdpt passes and bins does not. The others, with an eighth of these samples, make the
  * picture that bdpt makes of the same eye sub-paths, which is a sharper test. */
 static void test_bias(struct test *t)
 {
@@ -54,11 +54,14 @@ static void test_bias(struct test *t)
     TEST_REJECT(t, p_bins, "Cornell box against its reference, bins: ratio %.4f", ratio);
     batches_free(&bins);
     batches_free(&bdpt);
+    scene_free(&scene);
+    batches_free(&reference);
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", width / 2, height / 2, &scene))
+        return;
     bdpt = render_batches(t, &scene, set_method(&scene, "bdpt"), 4, 1, 16, 16, 53);
     for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++)
         agrees(t, &scene, "Cornell box", ways[i], 1, 16, &bdpt);
     batches_free(&bdpt);
-    batches_free(&reference);
     scene_free(&scene);
 }
 

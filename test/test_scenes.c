@@ -344,15 +344,16 @@ static void test_four(struct test *t, const char *name, int spp, double planted)
     batches_free(&pt);
 }
 
-static void test_noisy(struct test *t, int spp, size_t step, double planted)
+/* Light through something, or to another camera, takes `many` samples. */
+static void test_noisy(struct test *t, int spp, int many, size_t step, double planted)
 {
     static const char *const names[] = {"light-slides", "orthographic", "environment"};
     test_light_pairs(t, spp, step);
     test_mirrored(t, 2 * spp);
     test_agreement(t, spp);
-    test_four(t, "pass-through", 2 * spp, 0.05); /* see-through lamps, one of them around a ball */
+    test_four(t, "pass-through", many, 0.05); /* see-through lamps, one of them around a ball */
     for (int i = 0; i < 3; i++)
-        test_four(t, names[i], 2 * spp, planted);
+        test_four(t, names[i], many, planted);
 }
 
 void test_scenes(struct test *t)
@@ -364,7 +365,7 @@ void test_scenes(struct test *t)
     test_holes(t);
     test_partials(t);
     test_filter_spot(t);
-    test_noisy(t, 8, 2, 0.1);
+    test_noisy(t, 4, 16, 2, 0.1);
 }
 
-void test_scenes_long(struct test *t) { test_noisy(t, 200, 1, 0.05); }
+void test_scenes_long(struct test *t) { test_noisy(t, 200, 400, 1, 0.05); }
