@@ -83,14 +83,14 @@ static void test_few_sub_paths(struct test *t)
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 2, 2, &scene))
         return;
-    struct batches pt = by(t, &scene, "pt", 1 << 14);
+    struct batches pt = by(t, &scene, "pt", 1 << 13);
     for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++)
         for (int K = 1; K <= 4; K *= 2) {
             char way[128];
             bool has_records = strstr(ways[k], "records") != NULL;
             snprintf(way, sizeof way, "%s %s=%d", ways[k], has_records ? "subpaths" : "pathpixels",
                      has_records ? K : 4 / K);
-            struct batches b = by(t, &scene, way, 1 << 13);
+            struct batches b = by(t, &scene, way, 1 << 12);
             compare(t, "two rooms in four pixels", way, &b, &pt, 0.006);
             batches_free(&b);
         }
