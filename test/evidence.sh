@@ -11,6 +11,7 @@
 # What is stored, doc/measured/NAME.txt, has a head of lines "key: value" and sections "== SECTION". A document shows
 # one between <!-- measured: NAME.SECTION --> and <!-- end -->: both on lines of their own, or both in a line of text.
 set -u
+export LC_ALL=C
 stored=doc/measured
 list=$stored/list.txt
 dir=$(mktemp -d) || exit 1
@@ -99,8 +100,10 @@ notes() {
         if [ ! -f "$file" ]; then echo "$name *Not measured yet: \`sh test/evidence.sh run $name\`.*"; continue; fi
         said=$(awk -F ': ' -v name="$name" '/^== / { exit } { of[$1] = substr($0, length($1) + 3) }
             END {
-                print "*" of["samples"] "; estimator " of["estimator"] ", commit " of["commit"] ", " of["date"] "; " \
-                    of["machine"] "; CPU minutes: " of["minutes"] "; `sh test/evidence.sh run " name "`.*"
+                if (of["of"] ~ /^tree/) print "*" of["samples"] ": `sh test/evidence.sh run " name "`.*"
+                else
+                    print "*" of["samples"] "; estimator " of["estimator"] ", commit " of["commit"] ", " of["date"] \
+                        "; " of["machine"] "; CPU minutes: " of["minutes"] "; `sh test/evidence.sh run " name "`.*"
             }' "$file")
         if old "$file" "$name"; then
             was=$(head_of "$file" estimator)
@@ -150,6 +153,7 @@ filled() {
             line = $0; out = ""
             while (match(line, /<!-- measured: [a-z0-9.-]+ -->[^<]*<!-- end -->/)) {
                 mark = substr(line, RSTART, RLENGTH); text = section(mark)
+                if (text == "") text = "(not measured yet)"
                 out = out substr(line, 1, RSTART - 1) substr(mark, 1, index(mark, "-->") + 2) text \
                     (name "+" in note ? " " note[name "+"] : "") "<!-- end -->"
                 line = substr(line, RSTART + RLENGTH)

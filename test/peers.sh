@@ -1,0 +1,129 @@
+#!/bin/sh
+# peers.sh: bdpt of this program beside that of others, on the same scenes.
+#   PEERS=DIR sh test/peers.sh build         fetches and builds, in DIR, what is not there; says what cannot be had
+#   PEERS=DIR PUBLISHED=DIR sh test/peers.sh measure OUT
+#       CPU time of a sample path, gain of two threads, memory, into OUT/peers.txt; what is there is not measured again
+#   sh test/peers.sh table <OUT/peers.txt    as a table
+# DIR/pbrt-v3 and DIR/SmallVCM are their repositories; a program DIR/pbrt or DIR/smallvcm is taken as it is. PUBLISHED
+# has the published scenes in pbrt-v3's format; the room of SmallVCM is scenes/test/smallvcm-1.pbrt. SCENES: fewer.
+# A sample path costs what more samples cost, so that reading and building are not in it: the least of ROUNDS runs, of
+# all programs in turn.
+set -u
+absolute() { case $1 in /* | "") echo "$1" ;; *) echo "$PWD/$1" ;; esac; }
+PEERS=$(absolute "${PEERS-}")
+PUBLISHED=$(absolute "${PUBLISHED-}")
+SCENES=${SCENES:-cornell-box cornell-box-modified veach-ajar bathroom living-room smallvcm-1}
+ROUNDS=${ROUNDS:-2}
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+pbrt=$PEERS/pbrt
+[ -x "$pbrt" ] || pbrt=$PEERS/pbrt-v3/build/pbrt
+smallvcm=$PEERS/smallvcm
+[ -x "$smallvcm" ] || smallvcm=$PEERS/SmallVCM/smallvcm
+
+# fetch NAME URL: its repository, if it is not there.
+fetch() {
+    [ -d "$PEERS/$1" ] || GIT_TERMINAL_PROMPT=0 git clone -q --recursive "$2" "$PEERS/$1" 2>"$dir/log" ||
+        { echo "$1: $2 is not reachable"; return 1; }
+}
+build() {
+    mkdir -p "$PEERS"
+    if [ ! -x "$pbrt" ] && fetch pbrt-v3 https://github.com/mmp/pbrt-v3; then
+        { cmake -S "$PEERS/pbrt-v3" -B "$PEERS/pbrt-v3/build" -DCMAKE_BUILD_TYPE=Release &&
+            cmake --build "$PEERS/pbrt-v3/build" --target pbrt_exe -j 2; } >"$PEERS/pbrt-v3.log" 2>&1 ||
+            echo "pbrt-v3 does not build: $PEERS/pbrt-v3.log"
+    fi
+    if [ ! -x "$smallvcm" ] && fetch SmallVCM https://github.com/SmallVCM/SmallVCM; then
+        make -C "$PEERS/SmallVCM" >"$PEERS/SmallVCM.log" 2>&1 || echo "SmallVCM does not build: $PEERS/SmallVCM.log"
+    fi
+    for program in "$pbrt" "$smallvcm"; do [ ! -x "$program" ] || echo "$program is there"; done
+}
+
+# cpu COMMAND...: seconds of CPU of a command and its threads.
+cpu() {
+    ("$@" >"$dir/said" 2>&1 </dev/null || { echo "fails: $*" >&2; cat "$dir/said" >&2; }
+    times) | awk 'NR == 2 { for (i = 1; i <= 2; i++) { split($i, t, "m"); s += 60 * t[1] + t[2] } print s }'
+}
+# peak COMMAND...: MiB, where the system can tell.
+peak() {
+    if [ -x /usr/bin/time ] && /usr/bin/time -f %M -o "$dir/peak" "$@" >/dev/null 2>&1 </dev/null; then
+        awk '{ printf "%.0f\n", $1 / 1024 }' "$dir/peak"
+    else
+        echo -
+    fi
+}
+# The commands: theirs and ours, with SAMPLES and THREADS. job has SCENE, its size and depth, and where it lies.
+pbrt_run() {
+    sed -E -e "s/^Integrator .*/Integrator \"bdpt\" \"integer maxdepth\" $depth/" \
+        -e "s/^Sampler .*/Sampler \"random\" \"integer pixelsamples\" $1/" -e 's/^PixelFilter .*/PixelFilter "box"/' \
+        -e "s/^Film .*/Film \"image\" \"string filename\" \"x.exr\"/" \
+        -e "/^Film/s/\$/ \"integer xresolution\" $width \"integer yresolution\" $height/" \
+        "$PUBLISHED/$scene/scene.pbrt" >"$dir/$scene/run.pbrt"
+    (cd "$dir/$scene" && "$3" "$pbrt" --quiet --nthreads="$2" run.pbrt)
+}
+small_run() { (cd "$dir" && OMP_NUM_THREADS=$2 "$3" "$smallvcm" -s 1 -a bpt -i "$1" -o x.bmp); }
+ours_run() {
+    "$3" ./asbdpt render "$file" --integrator bdpt --filter box --spp "$1" --maxdepth "$depth" \
+        --res "${width}x$height" -j "$2" --quiet -o "$dir/x.pfm"
+}
+# costs RUN FEW MORE: of theirs and of ours: microseconds of CPU for a path with one thread, with two; MiB.
+costs() {
+    for threads in 1 2; do
+        round=0
+        while [ $round -lt "$ROUNDS" ]; do
+            for run in "$1" ours_run; do echo "$run $threads $($run "$2" $threads cpu) $($run "$3" $threads cpu)"; done
+            round=$((round + 1))
+        done
+    done >"$dir/costs"
+    for run in "$1" ours_run; do
+        awk -v run="$run" -v paths=$((width * height * ($3 - $2))) '
+            $1 == run && (!($2 in few) || $3 < few[$2]) { few[$2] = $3 }
+            $1 == run && (!($2 in more) || $4 < more[$2]) { more[$2] = $4 }
+            function cost(n) { return 1e6 * (more[n] - few[n]) / paths }
+            END { printf "%.3g %.3g ", cost(1), cost(2) }' "$dir/costs"
+        $run "$2" 1 peak
+    done
+}
+# compare PEER RUN FEW MORE: a line of peers.txt.
+compare() {
+    grep -q "^$1 $scene " "$out" && return
+    echo "$1 $scene ${width}x$height $depth "$(costs "$2" "$3" "$4") >>"$out"
+}
+measure() {
+    out=$1/peers.txt
+    mkdir -p "$1"
+    touch "$out"
+    while read -r scene width height depth; do
+        file=$PUBLISHED/$scene/scene.pbrt
+        case " $SCENES " in *" $scene "*) ;; *) continue ;; esac
+        [ -x "$pbrt" ] && [ -f "$file" ] || { echo "pbrt-v3, $scene: not there" >&2; continue; }
+        mkdir -p "$dir/$scene"
+        for entry in "$PUBLISHED/$scene"/*; do ln -s "$entry" "$dir/$scene/"; done
+        compare pbrt-v3 pbrt_run 1 9
+    done <<SCENES
+cornell-box 128 128 6
+cornell-box-modified 128 128 6
+veach-ajar 160 90 8
+bathroom 128 128 8
+living-room 160 90 8
+SCENES
+    scene=smallvcm-1 width=512 height=512 depth=9 file=scenes/test/smallvcm-1.pbrt
+    case " $SCENES " in *" $scene "*)
+        if [ -x "$smallvcm" ]; then compare SmallVCM small_run 1 3; else echo "SmallVCM: not there" >&2; fi
+        ;;
+    esac
+    table <"$out"
+}
+table() {
+    echo '| scene | peer | its us | ours, us | ours / its | gain of two threads: its | ours | its MiB | ours |'
+    echo '|---|---|---:|---:|---:|---:|---:|---:|---:|'
+    awk '{ printf "| %s, %s, depth %s | %s | %s | %s | %.2f | %.2f | %.2f | %s | %s |\n", $2, $3, $4, $1, $5, $8,
+        $8 / $5, 2 * $5 / $6, 2 * $8 / $9, $7, $10 }'
+}
+
+case ${1-} in
+build) build ;;
+measure) measure "$2" ;;
+table) table ;;
+*) sed -n '2,6s/^# *//p' "$0"; exit 2 ;;
+esac
