@@ -1,0 +1,25 @@
+# parts.awk: what each part of the method buys, from tune.md of test/lab/tune.sh: variants that leave out pieces of a
+# part are put together.
+BEGIN {
+    FS = " *\\| *"
+    n = split("the worth of a light vertex is another for everybody who asks:no-eye-regions|" \
+        "regions on four levels; split by sides; shifted:no-levels,no-faces,no-shift|" \
+        "grids that lie where vertices are:no-extent|credits of what comes straight:no-credit|" \
+        "emission:no-emission|lights that a region sees:no-guide|" \
+        "the pilot: numbers; noise in blocks; none in the open (CPU):no-optimum,no-blocks,no-corner", part, "|")
+}
+NF > 10 { error[$2] = $4; cpu[$2] = $8; worst[$2] = $10; gsub(/\*/, "", error[$2]) }
+END {
+    print "== parts\n| part | without it | worst |\n|---|---:|---|"
+    for (i = 1; i <= n; i++) {
+        text = part[i]; sub(/:[^:]*$/, "", text); sub(/.*:/, "", part[i])
+        m = split(part[i], variant, ","); said = ""; most = 0
+        for (j = 1; j <= m; j++) {
+            v = variant[j]
+            if (!(v in error)) continue
+            said = said (said == "" ? "" : "; ") (v == "no-corner" ? cpu[v] : error[v])
+            if (worst[v] + 0 > most) { most = worst[v] + 0; where = worst[v] }
+        }
+        if (said != "") printf "| %s | %s | %s |\n", text, said, where
+    }
+}
