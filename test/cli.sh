@@ -114,14 +114,17 @@ for method in path asbdpt; do
         "$program" render known.pbrt --res 16x16 --spp 2 -o x.pfm
 done
 check grep -q '^asbdpt: warning: known.pbrt: there are no lights, so the picture is black' stderr.txt
-# Then nothing is rendered, whatever is asked for: a million samples of each of two million pixels.
+# Then nothing is rendered, whatever is asked for: a million samples of each of two million pixels, in no time.
 printf 'WorldBegin Shape "sphere" WorldEnd\n' >dark.pbrt
+printf 'WorldBegin WorldEnd\n' >empty.pbrt
 for method in pt lt bdpt asbdpt; do
     expect 0 '1920x1080, 1000000 spp' "$program" render dark.pbrt --integrator $method --res 1920x1080 --spp 1000000 \
-        --aov variance -o dark.ppm
+        --time 5 --aov variance -o dark.ppm
 done
 check [ "$(tail -c +18 dark.ppm | tr -d '\000' | wc -c)" = 0 ]
 expect 0 '' "$program" render dark.pbrt --res 16x16 --spp 4 --alpha --quiet -o dark.png # but what the lens sees
+expect 0 '' "$program" render empty.pbrt --res 16x16 --spp 4 --alpha --quiet -o empty.png
+check test -n "$(cmp dark.png empty.png 2>&1)"
 expect 0 '' "$program" render dark.pbrt --res 16x16 --spp 4 --samples 1:3 --quiet -o dark.part
 check grep -aq '^done 2 0$' dark.part
 for strategy in spatial power uniform; do
