@@ -13,7 +13,7 @@ absolute() { case $1 in /* | "") echo "$1" ;; *) echo "$PWD/$1" ;; esac; }
 PEERS=$(absolute "${PEERS-}")
 PUBLISHED=$(absolute "${PUBLISHED-}")
 SCENES=${SCENES:-cornell-box cornell-box-modified veach-ajar bathroom living-room smallvcm-1}
-ROUNDS=${ROUNDS:-2}
+ROUNDS=${ROUNDS:-1}
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 pbrt=$PEERS/pbrt

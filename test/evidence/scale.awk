@@ -87,7 +87,7 @@ function panel(axis,    k, part, i, y, m, c, d, name, j) {
         y = exp(j * log(10))
         if (y < least || y > most) continue
         printf "<path d='M%d %.1fH%d' stroke='#ddd'/>", left + 20, Y(y), left + 210
-        printf "<text x='%d' y='%.1f' text-anchor='end'>%s</text>\n", left + 16, Y(y) + 4, j < 0 || j > 4 ? "1e" j : y
+        printf("<text x='%d' y='%.1f' text-anchor='end'>%s</text>\n", left + 16, Y(y) + 4, j < 0 || j > 4 ? "1e" j : y)
     }
     for (i = 1; i <= sizes[axis]; i++)
         if (i == 1 || i == sizes[axis] || sizes[axis] < 5)
