@@ -1,5 +1,6 @@
-# equal.awk: sections of doc/measured from equal-time.md of `asbdpt-lab equal-time`, or from such a table as it makes
-# itself. table: a row for each scene; readme: in words, and sorted; mean, worst: these two alone.
+# equal.awk: sections of doc/measured from equal-time.md of `asbdpt-lab equal-time`, from family.md of `asbdpt-lab family`,
+# where the default is called subspaces, or from such a table as it makes itself. table: a row for each scene; readme: in
+# words, and sorted; mean, worst: these two alone.
 function clean(s) { gsub(/[ *]/, "", s); return s }
 function first(s) { sub(/ .*/, "", s); return s }
 function add(scene, a, b, c, d) { row[++n] = scene; pt[n] = a; rmse8[n] = b; relmse[n] = c; blocks[n] = d }
@@ -13,7 +14,8 @@ function end_of(values, sign,    i, at) {
 /^(rmse8|relmse|8x8): squared/ { measure = $1; sub(/:/, "", measure) }
 /^\| method \|.*price/ { summary = 1; next }
 /^\| method \|/ { summary = 0; n_scenes = split($0, scene, /\|/); next }
-/^\| (pt|asbdpt) \|/ {
+/^\| (pt|asbdpt|subspaces) \|/ {
+    sub(/^\| subspaces /, "| asbdpt ")
     split($0, cell, /\|/)
     for (i in cell) gsub(/^ +| +$/, "", cell[i])
     if (summary) {
