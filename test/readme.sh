@@ -27,7 +27,8 @@ why() {
     case $1 in
     "make test" | "make check"* | "make mutants" | "make san" | "make tsan" | *run.sh*) echo "other tests" ;;
     *course.sh*) echo "other tests" ;;
-    "make portability" | "make ref" | "make experiments" | "make web" | "make inject" | "make evidence"*) echo "over a minute" ;;
+    "make portability" | "make ref" | "make experiments" | "make web" | "make inject" | \
+        "make evidence"*) echo "over a minute" ;;
     "make install"* | "make clean") echo "changes the system or the tree" ;;
     *"equal-time"* | *"tune.sh"* | *"ajar.pbrt -o out/ajar.png "*) echo "over a minute" ;;
     *"verify --images A"*) echo "placeholder" ;;
