@@ -1,6 +1,6 @@
-# equal.awk: sections of doc/measured from equal-time.md of `asbdpt-lab equal-time`, from family.md of `asbdpt-lab family`,
-# where the default is called subspaces, or from such a table as it makes itself. table: a row for each scene; readme: in
-# words, and sorted; mean, worst: these two alone.
+# equal.awk: sections of doc/measured from equal-time.md of `asbdpt-lab equal-time`, from family.md of `asbdpt-lab
+# family`, where the default is called subspaces, or from such a table as it makes itself. table: a row for each scene;
+# readme: in words, and sorted; mean, worst: these two alone.
 function clean(s) { gsub(/[ *]/, "", s); return s }
 function first(s) { sub(/ .*/, "", s); return s }
 function add(scene, a, b, c, d) { row[++n] = scene; pt[n] = a; rmse8[n] = b; relmse[n] = c; blocks[n] = d }
