@@ -75,12 +75,12 @@ compare() {
 } &
 {
     mini asbdpt pt 4; mini asbdpt bdpt 2; mini asbdpt pool 1; mini asbdpt vertices 1
+    mini asbdpt bins 3
     SEEDS="1 2 3 4"
-    mini asbdpt bins 3; mini asbdpt subspaces 1
+    mini asbdpt subspaces 1
 } &
 main pt 4 --integrator pt
 main bdpt 3 --integrator bdpt
-SEEDS="1 2 3 4"
 main bins 3 --integrator asbdpt -P select=bins
 wait
 compare 2-paths-pt main-bdpt agree 32 # of so few finds the means of small squares are no normal numbers
