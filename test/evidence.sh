@@ -73,6 +73,7 @@ missing() {
     for need in $(field "$1" needs); do
         case $need in
         published) [ -f "${PUBLISHED-}/cornell-box/scene.pbrt" ] || echo "PUBLISHED=DIR, the five published scenes" ;;
+        others) [ -d "${OTHERS-}" ] || echo "OTHERS=DIR, scenes by others" ;;
         references) [ -d "${REFERENCES-}" ] || echo "REFERENCES=DIR, their references" ;;
         peers) [ -d "${PEERS-}" ] || echo "PEERS=DIR, made by sh test/peers.sh build" ;;
         *) [ -e "$need" ] || echo "$need" ;;

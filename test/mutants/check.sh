@@ -1,6 +1,6 @@
 #!/bin/sh
-# check.sh: does every fault of list.txt still apply? The text to be replaced must occur in its file exactly once, no
-# two faults may have the same name, and doc/mutants.md must be the list as a table.
+# check.sh: does every fault of list.txt, and every variant of test/lab/tune.txt, still apply? The text to be replaced
+# must occur in its file exactly once, no two may have the same name, and doc/mutants.md must be the list as a table.
 #   sh test/mutants/check.sh renew    writes doc/mutants.md
 page=doc/mutants.md
 table() {
@@ -42,7 +42,9 @@ awk '
             bad++
         }
     }
+    FNR == 1 { check(); name = ""; lists++ }
     /^#/ { next }
     /^[^-+ \t]/ && NF > 3 { check(); name = $1; file = $2; old = ""; next }
     /^-/ { old = old (old == "" ? "" : "\n") substr($0, 3) }
-    END { check(); print "mutants: " n - bad " of " n " apply"; exit bad > 0 || n == 0 }' test/mutants/list.txt
+    END { check(); print "mutants and variants: " n - bad " of " n " apply"; exit bad > 0 || n == 0 || lists != 2 }' \
+    test/mutants/list.txt test/lab/tune.txt
