@@ -1,5 +1,6 @@
 # family.awk: sections of doc/measured from family.md of `asbdpt-lab family`. Of each half, choice and services:
-# HALF, the table of means; HALF-rmse8, HALF-relmse, HALF-8x8, of all scenes; HALF-claims. bring: what services bring.
+# HALF, the table of means; HALF-rmse8, HALF-relmse, HALF-8x8, of all scenes; HALF-claims. bring: of each method that can
+# have services, the means of the choice alone, and what services bring it.
 function begin(name) { section = name; open = 0 }
 /^## The choice alone/ { half = "choice" }
 /^## With all services/ { half = "services" }
@@ -7,6 +8,16 @@ function begin(name) { section = name; open = 0 }
 /^(rmse8|relmse|8x8): squared error over/ { measure = $1; sub(/:/, "", measure); begin(half "-" measure) }
 /^Claims:/ { begin(half "-claims") }
 /^What services bring/ { begin("bring") }
+/^\|/ && section == "choice" { split($0, cell, / *\| */); alone[cell[2]] = cell[4] " | " cell[5] " | " cell[6] }
+/^\|/ && section == "bring" {
+    split($0, cell, / *\| */)
+    if (cell[2] == "method") {
+        print "== bring\n| method | the choice alone: rmse8 | relmse | 8x8 | services bring: rmse8 | relmse | 8x8 |"
+        print "|---|---:|---:|---:|---:|---:|---:|"
+    } else if (cell[2] in alone && cell[2] !~ /^-/)
+        print "| " cell[2] " | " alone[cell[2]] " | " cell[3] " | " cell[4] " | " cell[5] " |"
+    next
+}
 /^\|/ && section != "" {
     if (!open++) print "== " section
     print

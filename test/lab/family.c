@@ -177,7 +177,7 @@ void family_tables(FILE *f, const struct results *e)
 
 /* --- the figure -------------------------------------------------------------------------------------- */
 
-enum { LEFT = 96, TOP = 156, ROW = 20, COLUMN = 72, PANEL = 64, LEAST_WIDTH = 680, BELOW = 60 };
+enum { LEFT = 152, TOP = 132, ROW = 20, COLUMN = 72, PANEL = 64, LEAST_WIDTH = 680, BELOW = 60 };
 static const double LEAST = 0.05, MOST = 20; /* ratios outside stand at the edge */
 
 static double place(const struct plot_axis *a, int column, double ratio)
@@ -224,7 +224,7 @@ static void write_figure(FILE *f, const struct results *e, enum half half)
     struct view view = view_of(e, half);
     struct plot_axis axis = axis_make(true, LEAST, MOST);
     int bottom = TOP + ROW * (view.n - 1);
-    int width = LEFT + 110 + COLUMN * e->plan->n_scenes;
+    int width = LEFT + 56 + COLUMN * e->plan->n_scenes;
     width = width < LEAST_WIDTH ? LEAST_WIDTH : width;
     xml_print(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" "
               "role=\"img\" aria-labelledby=\"t\" font-family=\"system-ui,sans-serif\" font-size=\"12\">\n<title "
