@@ -56,8 +56,10 @@ static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct lvc_state *s = out->state;
     double l = light_vertices_expected(job);
+    bool chosen = s->connections == 1; /* if there is a pilot */
     if (s->connections == 0)
         s->connections = int_within(ceil(l), 1, 1024);
+    s->frozen.given.connections = chosen ? 0 : s->connections;
     for (int end = 0; end < EYE_ENDS; end++) {
         s->frozen.draws[end] = s->connections;
         s->frozen.counts.connect[end] = l > 0 ? s->connections / l : s->connections;
