@@ -9,7 +9,8 @@ measure == "" { next }
     for (i = 3; i <= n; i++) value[file, measure, i, cell[2]] = cell[i] + 0
 }
 END {
-    print "== better\n| scene | 16: rmse8 | relmse | 8x8 | 64: rmse8 | relmse | 8x8 |\n|---|---:|---:|---:|---:|---:|---:|"
+    print "== better\n| scene | 16: rmse8 | relmse | 8x8 | 64: rmse8 | relmse | 8x8 |"
+    print "|---|---:|---:|---:|---:|---:|---:|"
     split("rmse8 relmse 8x8", name, " ")
     mean = "| **geometric mean** |"
     for (i = 3; i <= n; i++) {

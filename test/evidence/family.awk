@@ -1,6 +1,6 @@
 # family.awk: sections of doc/measured from family.md of `asbdpt-lab family`. Of each half, choice and services:
-# HALF, the table of means; HALF-rmse8, HALF-relmse, HALF-8x8, of all scenes; HALF-claims. bring: of each method that can
-# have services, the means of the choice alone, and what services bring it.
+# HALF, the table of means; HALF-rmse8, HALF-relmse, HALF-8x8, of all scenes; HALF-claims. bring: of each method that
+# can have services, the means of the choice alone, and what services bring it.
 function begin(name) { section = name; open = 0 }
 /^## The choice alone/ { half = "choice" }
 /^## With all services/ { half = "services" }

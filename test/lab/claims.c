@@ -24,7 +24,7 @@ static const struct claim CLAIMS[] = {
     {"asbdpt:select=subspaces", "bdpt", 1, NULL, "better than BDPT; this tree's"},
     {"asbdpt:select=subspaces", "lvc", 1, NULL, "better than LVC; this tree's"},
     {"asbdpt:select=subspaces", "lvc:connections=0", 1, NULL, "better than LVC as in its paper; this tree's"},
-    {"asbdpt:select=subspaces", "cbdpt:connections=1", 1, NULL, "better than BDPT with the services it can have; this tree's"},
+    {"asbdpt:select=subspaces", "cbdpt:connections=1", 1, NULL, "better than BDPT with services; this tree's"},
     {"asbdpt:select=subspaces", "pcbdpt", 1, NULL, "better than PCBDPT, of which ours lacks the bound; this tree's"},
     {"asbdpt:select=subspaces", "ris", 1, NULL, "better than RIS; this tree's"},
 };
