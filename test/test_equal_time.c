@@ -111,13 +111,13 @@ static void check_ratios(struct test *t, const struct results *r)
     CHECK(t, near(s.best, 0.5) && near(s.worst, 4), "best %g, worst %g", s.best, s.worst);
     CHECK(t, strcmp(s.best_scene, "a") == 0 && strcmp(s.worst_scene, "b") == 0, "in their scenes");
     int n;
-    i = equal_bootstrap(r, 1, 0, SQUARE_BLOCKS, NULL, &n);
+    i = equal_bootstrap(r, 1, 0, SQUARE_BLOCKS, AT_EQUAL_TIME, NULL, &n);
     CHECK(t, n == 3 && near(i.value, cbrt(2)) && i.low < 0.5 && i.high > 4, "three unlike scenes: %g [%g, %g]",
           i.value, i.low, i.high);
-    i = equal_bootstrap(r, 2, 1, SQUARE_BLOCKS, "a", &n);
+    i = equal_bootstrap(r, 2, 1, SQUARE_BLOCKS, AT_EQUAL_TIME, "a", &n);
     one = equal_ratio(&r->scene[0], 2, 1, SQUARE_BLOCKS);
     CHECK(t, n == 1 && near(i.value, 0.5) && i.low == one.low, "one scene, over another method: %g", i.value);
-    i = equal_bootstrap(r, 2, 1, SQUARE_BLOCKS, "no-such", &n);
+    i = equal_bootstrap(r, 2, 1, SQUARE_BLOCKS, AT_EQUAL_TIME, "no-such", &n);
     CHECK(t, n == 0 && isnan(i.value), "no scene has a ratio");
 }
 
@@ -151,7 +151,7 @@ static void check_coverage(struct test *t)
                 }
             }
         }
-        struct interval i = equal_bootstrap(&r, 1, 0, SQUARE_RELMSE, NULL, &n);
+        struct interval i = equal_bootstrap(&r, 1, 0, SQUARE_RELMSE, AT_EQUAL_TIME, NULL, &n);
         held += i.low <= 1 && 1 <= i.high;
         wrong += i.low <= 2 && 2 <= i.high;
     }
@@ -168,13 +168,17 @@ static void check_claims(struct test *t, struct results *r)
         struct claim claim;
         enum verdict_of verdict;
         int scenes;
-    } cases[] = {{{"lvc", "bdpt", 0.5, NULL, ""}, CLAIM_FOUND, 3},
-                 {{"lvc", "bdpt", 0.1, NULL, ""}, CLAIM_NOT_FOUND, 3},
-                 {{"asbdpt", "bdpt", 1, NULL, ""}, CLAIM_OPEN, 3},
-                 {{"asbdpt", "bdpt", 1, "b", ""}, CLAIM_NOT_FOUND, 1},
-                 {{"asbdpt", "bdpt", 1, "a", ""}, CLAIM_FOUND, 1},
-                 {{"pt", "bdpt", 1, NULL, ""}, CLAIM_UNMEASURED, 0},
-                 {{"lvc", "bdpt", 1, "no-such", ""}, CLAIM_UNMEASURED, 0}};
+    } cases[] = {{{.method = "lvc", .over = "bdpt", .below = 0.5}, CLAIM_FOUND, 3},
+                 {{.method = "lvc", .over = "bdpt", .below = 0.1}, CLAIM_NOT_FOUND, 3},
+                 {{.method = "asbdpt", .over = "bdpt", .below = 1}, CLAIM_OPEN, 3},
+                 {{.method = "asbdpt", .over = "bdpt", .below = 1, .where = "b"}, CLAIM_NOT_FOUND, 1},
+                 {{.method = "asbdpt", .over = "bdpt", .below = 1, .where = "a"}, CLAIM_FOUND, 1},
+                 {{.method = "asbdpt", .over = "bdpt", .below = 0.4, .where = "a"}, CLAIM_NOT_FOUND, 1},
+                 {{.method = "asbdpt", .over = "bdpt", .below = 0.4, .where = "a", .at = AT_EQUAL_SAMPLES},
+                  CLAIM_FOUND, 1},
+                 {{.method = "lvc", .over = "bdpt", .below = 0.5, .lacks = "a part"}, CLAIM_NOT_JUDGED, 3},
+                 {{.method = "pt", .over = "bdpt", .below = 1, .lacks = "a part"}, CLAIM_UNMEASURED, 0},
+                 {{.method = "lvc", .over = "bdpt", .below = 1, .where = "no-such"}, CLAIM_UNMEASURED, 0}};
     struct interval ratio[N_SQUARES];
     int n;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {

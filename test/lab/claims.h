@@ -1,29 +1,33 @@
 /* claims.h: what the papers claim of their methods, and whether it is so here: verdicts that are computed.
  *
- * A claim says that the squared error of a method after the same CPU time is below so much of another's, in all scenes
- * or in those of a name. It is
+ * A claim says that the squared error of a method is below so much of another's, after the same CPU time or the same
+ * samples, as its paper has it, in all scenes or in those of a name. It is
  *     found        if the 95 % interval (equal_bootstrap: over scenes and seeds) of the ratio lies below, by rmse8, by
  *                  relmse and by 8x8,
  *     not found    if one of the three lies above,
- *     cannot tell  otherwise.
- * Three intervals are looked at and all must agree, so a false `found` is rarer than one in forty. [Popov 2015] has no
- * verdict: its bound of the variance is missing here.
+ *     cannot tell  otherwise,
+ *     not judged   where what is here is not the paper's method; the ratio is shown all the same.
+ * Three intervals are looked at and all must agree, so a false `found` is rarer than one in forty. [Popov 2015] makes
+ * no claim here: its bound of the variance is missing.
  *
  * Tests: test_equal_time.c.
  */
 #ifndef ASBDPT_LAB_CLAIMS_H
 #define ASBDPT_LAB_CLAIMS_H
 
-#include "lab/results.h"
+#include "lab/equal.h"
 
 struct claim {
     const char *method, *over; /* as methods_all names them */
     double below;
+    enum basis at;
+    bool alone;        /* judged by the choice alone whatever half is asked for: its services are not all built */
     const char *where; /* scenes whose names begin so; NULL: all */
+    const char *lacks; /* why it is not judged; NULL: it is */
     const char *text;  /* what is claimed, and by whom */
 };
 
-enum verdict_of { CLAIM_FOUND, CLAIM_NOT_FOUND, CLAIM_OPEN, CLAIM_UNMEASURED };
+enum verdict_of { CLAIM_FOUND, CLAIM_NOT_FOUND, CLAIM_OPEN, CLAIM_NOT_JUDGED, CLAIM_UNMEASURED };
 
 /* claim_judge: one claim, in one half of the family (methods.h).
  *   ratio  out: by rmse8, relmse, 8x8;  n  out: scenes

@@ -32,20 +32,20 @@ long equal_samples(const struct scene_results *s, int method)
     return n >= 1 ? (long)fmin(n, MOST_SAMPLES) : 1;
 }
 
-void equal_squares(const struct scene_results *s, int method, enum square which, double *out)
+void equal_squares(const struct scene_results *s, int method, enum square which, enum basis basis, double *out)
 {
     double n = equal_afforded(s, method);
     for (int i = 0; i < s->plan->n_seeds; i++) {
         const struct run_step *r = &s->run[method][i].step[0];
-        out[i] = n >= 1 ? r->square[which] * (double)r->spp / n : NAN;
+        out[i] = n >= 1 ? r->square[which] * (double)r->spp / (basis == AT_EQUAL_TIME ? n : 1) : NAN;
     }
 }
 
 struct interval equal_ratio(const struct scene_results *s, int method, int over, enum square which)
 {
     double x[PLAN_MAX_SEEDS], y[PLAN_MAX_SEEDS];
-    equal_squares(s, method, which, x);
-    equal_squares(s, over, which, y);
+    equal_squares(s, method, which, AT_EQUAL_TIME, x);
+    equal_squares(s, over, which, AT_EQUAL_TIME, y);
     return results_ratio(x, s->plan->n_seeds, y, s->plan->n_seeds);
 }
 
@@ -87,11 +87,10 @@ static double drawn_log(struct rng *rng, const double *x, int n, double all)
     return m_log(fmax(sum / n, 1e-3 * all));
 }
 
-struct interval equal_bootstrap(const struct results *r, int method, int over, enum square which, const char *wanted,
-                                int *n)
+struct interval equal_bootstrap(const struct results *r, int method, int over, enum square which, enum basis basis,
+                                const char *wanted, int *n)
 {
     static const struct interval none = {NAN, NAN, NAN};
-    const struct scene_results *one = NULL;
     double x[MOST_SCENES][2][PLAN_MAX_SEEDS], all[MOST_SCENES][2], deviation[DRAWS], value = 0;
     int seeds = r->plan->n_seeds, k = 0;
     struct rng rng = rng_stream(0, RNG_TEST, 0, 0);
@@ -100,11 +99,10 @@ struct interval equal_bootstrap(const struct results *r, int method, int over, e
         if (wanted != NULL && strncmp(s->name, wanted, strlen(wanted)) != 0)
             continue;
         for (int side = 0; side < 2; side++) {
-            equal_squares(s, side == 0 ? method : over, which, x[k][side]);
+            equal_squares(s, side == 0 ? method : over, which, basis, x[k][side]);
             all[k][side] = sum_of(x[k][side], seeds) / seeds;
         }
         value += m_log(all[k][0] / all[k][1]);
-        one = s;
         k++;
     }
     *n = k;
@@ -112,7 +110,7 @@ struct interval equal_bootstrap(const struct results *r, int method, int over, e
     if (k == 0 || !isfinite(value))
         return none;
     if (k == 1)
-        return equal_ratio(one, method, over, which);
+        return results_ratio(x[0][0], seeds, x[0][1], seeds);
     for (int d = 0; d < DRAWS; d++) {
         double sum = 0;
         for (int i = 0; i < k; i++) {
@@ -173,9 +171,9 @@ void equal_verdict(FILE *f, const struct results *r)
     for (int v = 1; v < p->methods.n; v++) {
         fprintf(f, "Squared error of %s over that of %s after the same time, per pixel: ", p->methods.item[v].text,
                 p->methods.item[0].text);
-        say(f, r, equal_bootstrap(r, v, 0, SQUARE_RELMSE, NULL, &n));
+        say(f, r, equal_bootstrap(r, v, 0, SQUARE_RELMSE, AT_EQUAL_TIME, NULL, &n));
         fputs("In means over 8x8 pixels, where errors that neighbours share do not hide: ", f);
-        say(f, r, equal_bootstrap(r, v, 0, SQUARE_BLOCKS, NULL, &n));
+        say(f, r, equal_bootstrap(r, v, 0, SQUARE_BLOCKS, AT_EQUAL_TIME, NULL, &n));
     }
     fprintf(f, "Measured with %d seed%s on", p->n_seeds, p->n_seeds == 1 ? "" : "s");
     for (int i = 0; i < p->n_scenes; i++)

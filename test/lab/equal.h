@@ -17,10 +17,12 @@
 double equal_afforded(const struct scene_results *s, int method);
 long equal_samples(const struct scene_results *s, int method);
 
-/* equal_squares: of all seeds, the squared errors at T, into out [PLAN_MAX_SEEDS]; NaN where not even one sample can be
- * afforded. equal_ratio: their mean over that of another method, with the interval of results_ratio. */
+/* equal_squares: of all seeds, the squared errors at T, or of one sample, into out [PLAN_MAX_SEEDS]; NaN where not even
+ * one sample can be afforded. equal_ratio: their mean at T over that of another method, with the interval of
+ * results_ratio. */
+enum basis { AT_EQUAL_TIME, AT_EQUAL_SAMPLES };
 extern const char *const EQUAL_NAMES[N_SQUARES];
-void equal_squares(const struct scene_results *s, int method, enum square which, double *out);
+void equal_squares(const struct scene_results *s, int method, enum square which, enum basis basis, double *out);
 struct interval equal_ratio(const struct scene_results *s, int method, int over, enum square which);
 
 /* equal_ends: the smallest and the largest ratio of a method over the first, and their scenes; NaN and "-" if there is
@@ -36,10 +38,10 @@ double equal_price(const struct results *r, int method);
 
 /* equal_bootstrap: the geometric mean over scenes of a method's ratio to another, with a 95 % interval: scenes are
  * drawn again with replacement, and in each the seeds of both methods; deviations are widened by sqrt(k/(k-1)), k the
- * number of scenes. Of one scene it is equal_ratio. NaN where a scene has no ratio.
+ * number of scenes. Of one scene it is that of results_ratio. NaN where a scene has no ratio.
  *   wanted  only scenes whose name begins so; NULL: all;  n  out: how many these are */
-struct interval equal_bootstrap(const struct results *r, int method, int over, enum square which, const char *wanted,
-                                int *n);
+struct interval equal_bootstrap(const struct results *r, int method, int over, enum square which, enum basis basis,
+                                const char *wanted, int *n);
 
 /* equal_seconds: CPU seconds of one seed of all methods, by their prices. */
 double equal_seconds(const struct scene_results *s);

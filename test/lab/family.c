@@ -71,7 +71,7 @@ static void summary_table(FILE *f, const struct results *e, enum half half)
         table_add(&t, NAN, "%s", label(e, v));
         table_add(&t, equal_price(e, v), "%.2f", equal_price(e, v));
         for (int k = 0; k < N_SQUARES; k++)
-            table_add_interval(&t, equal_bootstrap(e, v, 0, (enum square)k, NULL, &n));
+            table_add_interval(&t, equal_bootstrap(e, v, 0, (enum square)k, AT_EQUAL_TIME, NULL, &n));
         add_of(&t, s.best, s.best_scene);
         add_of(&t, s.worst, s.worst_scene);
     }
@@ -144,7 +144,7 @@ static void services_table(FILE *f, const struct results *e)
             if (strcmp(m->item[v].label, m->item[with].label) == 0) {
                 table_add(&t, NAN, "%s", m->item[v].label);
                 for (int k = 0; k < N_SQUARES; k++)
-                    table_add_interval(&t, equal_bootstrap(e, with, v, (enum square)k, NULL, &n));
+                    table_add_interval(&t, equal_bootstrap(e, with, v, (enum square)k, AT_EQUAL_TIME, NULL, &n));
             }
     table_markdown(f, &t);
     table_free(&t);

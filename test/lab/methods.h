@@ -36,7 +36,9 @@ struct methods {
 #define METHODS_BENCH "pt", "bdpt", "asbdpt"
 #define SWEEPS_FULL "asbdpt:select=bins:binpaths=4/8/16/32", "asbdpt:select=bins:restart=0/8/16/32"
 #define SWEEPS_QUICK "asbdpt:select=bins:binpaths=8/32", "asbdpt:select=bins:restart=0/32"
-#define METHODS_ALSO ",ris:weights=counts,lvc:connections=0,mbdpt:key=throughput,cbdpt:connections=1" /* family */
+#define METHODS_ALSO \
+    ",ris:weights=counts,lvc:connections=0,mbdpt:key=throughput,cbdpt:connections=1," \
+    "asbdpt:select=subspaces:connections=1:pathpixels=1" /* family */
 #define METHOD_REFERENCE "bdpt"         /* renders references */
 #define METHOD_PARTNER "asbdpt"         /* of METHOD_REFERENCE in verify, if the scene names no other */
 #define METHOD_PRINTED "asbdpt:select=bins" /* the dissertation's asbdpt; its bdpt is METHOD_REFERENCE */
