@@ -1,4 +1,4 @@
-/* test_family.c: every method but pathgraph, whose bias is known, against pt, to three thousandths of the mean: in
+/* test_family.c: every selection and chain, restir and restirgi against pt, to three thousandths of the mean: in
  * six scenes, and in pools of one, two and four light sub-paths; the dissertation's bins, with the same samples, are
  * found out. */
 #include <stdio.h>

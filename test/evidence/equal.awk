@@ -1,6 +1,7 @@
 # equal.awk: sections of doc/measured from equal-time.md of `asbdpt-lab equal-time`, from family.md of `asbdpt-lab
 # family`, where the default is called subspaces, or from such a table as it makes itself. table: a row for each scene;
-# readme: in words, and sorted; mean, worst: these two alone.
+# readme: in words, and sorted; mean, worst: these two alone; beside: the mean without the best scene, and over the
+# better of bdpt and pt.
 function clean(s) { gsub(/[ *]/, "", s); return s }
 function first(s) { sub(/ .*/, "", s); return s }
 function add(scene, a, b, c, d) { row[++n] = scene; pt[n] = a; rmse8[n] = b; relmse[n] = c; blocks[n] = d }
@@ -68,4 +69,14 @@ END {
         printf "| `%s` | %s | %s | %s |\n", row[k], short(first(rmse8[k])), short(first(blocks[k])), short(first(pt[k]))
     }
     printf "== mean\n%s\n== worst\n%s\n", first(asbdpt), worst
+    at = end_of(rmse8, 1)
+    for (i = 1; i <= n; i++) {
+        q = log(first(rmse8[i])); p = log(first(pt[i]))
+        rest += i == at ? 0 : q
+        beside += p < 0 ? q - p : q
+        if (q > (p < 0 ? p : 0)) losses++
+    }
+    print "== beside"
+    printf "Without `%s` the mean is %.2f; over the better of `bdpt` and `pt` it is %.2f, above 1 in %d of %d.\n",
+        row[at], exp(rest / (n - 1)), exp(beside / n), losses, n
 }

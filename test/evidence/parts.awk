@@ -2,11 +2,12 @@
 # part are put together.
 BEGIN {
     FS = " *\\| *"
-    n = split("the worth of a light vertex is another for everybody who asks:no-eye-regions|" \
-        "regions on four levels; split by sides; shifted:no-levels,no-faces,no-shift|" \
+    n = split("what light vertices are worth:no-worth|to whom:no-eye-regions|" \
+        "regions on four levels; by direction; by sides; shifted:no-levels,no-faces,no-sides,no-shift|" \
         "grids that lie where vertices are:no-extent|credits of what comes straight:no-credit|" \
         "emission:no-emission|lights that a region sees:no-guide|" \
-        "the pilot: numbers; noise in blocks; none in the open (CPU):no-optimum,no-blocks,no-corner", part, "|")
+        "the pilot: numbers; noise in blocks:no-optimum,no-blocks|" \
+        "the first question (time, by which its errors are paid):no-question", part, "|")
 }
 NF > 10 { error[$2] = $4; cpu[$2] = $8; worst[$2] = $10; gsub(/\*/, "", error[$2]) }
 END {
@@ -17,7 +18,7 @@ END {
         for (j = 1; j <= m; j++) {
             v = variant[j]
             if (!(v in error)) continue
-            said = said (said == "" ? "" : "; ") (v == "no-corner" ? cpu[v] : error[v])
+            said = said (said == "" ? "" : "; ") (v == "no-question" ? cpu[v] : error[v])
             if (worst[v] + 0 > most) { most = worst[v] + 0; where = worst[v] }
         }
         if (said != "") printf "| %s | %s | %s |\n", text, said, where

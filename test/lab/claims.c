@@ -38,6 +38,8 @@ static const struct claim CLAIMS[] = {
      .text = "a door ajar: no more error than MLT [Hachisuka 2014]"},
     {.method = "asbdpt:select=subspaces", .over = "bdpt", .below = 1, .text = "better than BDPT; this tree's"},
     {.method = "asbdpt:select=subspaces", .over = "lvc", .below = 1, .text = "better than LVC; this tree's"},
+    {.method = "asbdpt:select=subspaces:connections=1:pathpixels=1", .over = "lvc", .below = 1, .alone = true,
+     .text = "better than LVC with as many draws and light sub-paths; this tree's"},
     {.method = "asbdpt:select=subspaces", .over = "lvc:connections=0", .below = 1,
      .text = "better than LVC as in its paper; this tree's"},
     {.method = "asbdpt:select=subspaces", .over = "cbdpt:connections=1", .below = 1,
