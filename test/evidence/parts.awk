@@ -2,7 +2,7 @@
 # part are put together.
 BEGIN {
     FS = " *\\| *"
-    n = split("what light vertices are worth:no-worth|to whom:no-eye-regions|" \
+    n = split("what light vertices are worth:no-worth|of that, to whom:no-eye-regions|" \
         "regions on four levels; by direction; by sides; shifted:no-levels,no-faces,no-sides,no-shift|" \
         "grids that lie where vertices are:no-extent|credits of what comes straight:no-credit|" \
         "emission:no-emission|lights that a region sees:no-guide|" \
@@ -19,7 +19,8 @@ END {
             v = variant[j]
             if (!(v in error)) continue
             said = said (said == "" ? "" : "; ") (v == "no-question" ? cpu[v] : error[v])
-            if (worst[v] + 0 > most) { most = worst[v] + 0; where = worst[v] }
+            if (v == "no-question") where = "-"
+            else if (worst[v] + 0 > most) { most = worst[v] + 0; where = worst[v] }
         }
         if (said != "") printf "| %s | %s | %s |\n", text, said, where
     }
