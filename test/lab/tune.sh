@@ -38,26 +38,6 @@ render() {
         -o "$5" --stats "$5.json" >"$dir/log.txt" 2>&1
 }
 
-# blocks FILE REFERENCE: the mean of (a - b)^2 / (b^2 + 0.01) over blocks of 8x8 pixels of two PFM files.
-blocks() {
-    for file in "$1" "$2"; do
-        od -An -v -tf4 -w12 -j "$(head -n 3 "$file" | wc -c)" "$file"
-    done | awk -v res="$RES" '
-        BEGIN { split(res, size, "x") }
-        {
-            n = (NR - 1) % (size[1] * size[2])
-            sum[NR > size[1] * size[2], int(n / size[1] / 8), int(n % size[1] / 8)] += ($1 + $2 + $3) / 192
-        }
-        END {
-            for (y = 0; y < int(size[2] / 8); y++)
-                for (x = 0; x < int(size[1] / 8); x++) {
-                    total += (sum[0, y, x] - sum[1, y, x]) ^ 2 / (sum[1, y, x] ^ 2 + 0.01)
-                    count++
-                }
-            print total / count
-        }'
-}
-
 # measure NAME SCENE SEED: a line "NAME SCENE SEED rmse8 relmse blocks seconds" of runs.txt.
 measure() {
     reference=$REFERENCES/$(echo "$2" | tr / -).pfm picture=$dir/$1-$3.pfm
@@ -68,8 +48,8 @@ measure() {
     render "$1" "$2" "$3" "$SPP" "$picture" || return
     errors=$("$dir/programs/asbdpt-lab" compare "$picture" "$reference" --json) || return
     seconds=$(sed -n 's/.*"cpu_seconds": \([0-9.e-]*\).*/\1/p' "$picture.json")
-    echo "$1 $2 $3 $(echo "$errors" | tr -d ',' | awk '{ print $4, $6 }') $(blocks "$picture" "$reference") $seconds" \
-        >>"$dir/runs.txt"
+    echo "$1 $2 $3 $(echo "$errors" | tr -d ',' | awk '{ print $4, $6 }')" \
+        "$(sh test/lab/blocks.sh "$picture" "$reference" "$RES") $seconds" >>"$dir/runs.txt"
     rm "$picture" "$picture.json"
 }
 

@@ -1,0 +1,60 @@
+#!/bin/sh
+# special.sh PART DIR: measurements of methods that are for some scenes only, into DIR. What is there is not made again.
+#   caustics   bdpt, asbdpt and caustics with both after the same CPU time, in the scenes with caustics: DIR/NAME/
+#   pathgraph  what it is off by, for cells of several sizes: lines "SCENE RADIUS ERROR" of DIR/pathgraph.txt, the
+#              root of the mean square of the relative error over blocks of 8x8 pixels; of radius 0 it is that of pt
+#   ellipse    pt and ellipse within gates: lines "WIDTH METHOD ERROR SECONDS" of DIR/ellipse.txt, squared errors, by
+#              pairs
+dir=$2
+set -e
+render() { ./asbdpt-lab render "$@" -j1 --quiet; }
+
+caustics() {
+    while read -r name reference spp res own; do
+        scene=scenes/test/caustic-$name.pbrt
+        [ -f "$dir/$name.pfm" ] || {
+            render "$scene" --integrator "$reference" --spp "$spp" --res "$res" --filter box -o "$dir/x.pfm"
+            mv "$dir/x.pfm" "$dir/$name.pfm"
+        }
+        ./asbdpt-lab equal-time "$scene" -o "$dir/$name" --spp "$own" --seeds 3 --reference "$dir/$name.pfm" --quiet \
+            --methods bdpt,caustics,asbdpt,caustics:with=asbdpt -j1 >"$dir/$name.txt"
+    done <<SCENES
+ball lt 30000 36x36 128
+diver lt 10000 36x24 64
+lens lt 30000 36x36 128
+bulb bdpt 20000 36x24 128
+pool pt 12000 36x24 64
+SCENES
+}
+
+pathgraph() {
+    while read -r scene res; do
+        render "scenes/$scene.pbrt" --integrator bdpt --spp 1024 --seed 7 --res "$res" --filter box -o "$dir/$scene.pfm"
+        for radius in 0 .01 .02 .05 .1 .2 .4; do
+            [ "$radius" = 0 ] && set -- --integrator pt || set -- --integrator pathgraph -P "radius=$radius"
+            render "scenes/$scene.pbrt" "$@" --spp 512 --res "$res" --filter box -o "$dir/x.pfm"
+            echo "$scene $radius" \
+                "$(sh test/lab/blocks.sh "$dir/x.pfm" "$dir/$scene.pfm" "$res" | awk '{ print sqrt($1) }')"
+        done
+    done >"$dir/pathgraph.txt" <<SCENES
+cornell-box 48x48
+veach-ajar 48x27
+SCENES
+}
+
+ellipse() {
+    for width in 100 1 0.1; do
+        for method in pt ellipse; do
+            for seed in 1 2; do
+                render scenes/cornell-box.pbrt --res 24x24 --spp 1024 --seed $seed --integrator $method --filter box \
+                    --gate "2400:$(echo $width | awk '{ print 2400 + $1 }')" -o "$dir/x$seed.pfm" --stats "$dir/x.json"
+            done
+            echo "$width $method" \
+                "$(./asbdpt-lab compare "$dir/x1.pfm" "$dir/x2.pfm" | awk '$1 == "rmse" { print $2 * $2 / 2 }')" \
+                "$(sed -n 's/.*"cpu_seconds": \([0-9.]*\).*/\1/p' "$dir/x.json")"
+        done
+    done >"$dir/ellipse.txt"
+}
+
+"$1"
+rm -f "$dir"/x*
