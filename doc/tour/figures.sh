@@ -1,6 +1,6 @@
 #!/bin/sh
 # figures.sh PROGRAM [DIR]: makes every figure of the tour, but for those of measured numbers (test/evidence.sh), in
-# doc/tour/figures or DIR (about a minute of CPU);
+# doc/tour/figures or DIR (about four minutes of CPU);
 # `make figures` calls it.
 program=$1
 case $program in /*) ;; *) program=$PWD/$program ;; esac
