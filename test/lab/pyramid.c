@@ -12,7 +12,7 @@
 #include "lab/sheet.h"
 
 enum { GAP = 4, LEFT = 64, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };
-static const double PERCENTILE = 90; /* of a row's values that stay below white */
+static const double PERCENTILE = 90; /* of a row's lit values that stay below white */
 
 /* How strategies are laid out: pictures of one size, shrunk or enlarged by whole factors. */
 struct layout {
@@ -48,7 +48,11 @@ static double row_exposure(const struct layout *l, const struct strategy_images 
             total[i] += share[i];
         free(share);
     }
-    double bright = picture_percentile(total, (long)n, PERCENTILE);
+    long lit = 0; /* what is black would have any exposure */
+    for (size_t i = 0; i < n; i++)
+        if (total[i] > 0)
+            total[lit++] = total[i];
+    double bright = picture_percentile(total, lit, PERCENTILE);
     free(total);
     return bright > 0 && bright < 1 ? ldexp(1, int_within(floor(-m_log2(bright)), 0, 16)) : 1;
 }
