@@ -1,6 +1,6 @@
-# results.awk: sections of doc/measured from results.md files of `asbdpt-lab experiment`: of each of the five scenes all
-# tables; ratios: the error of bins over that of bdpt, printed and here, with 32 samples and with most, and what the mean
-# of bins is off by; equal: squared error over that of bdpt after the same CPU time, with most samples.
+# results.awk: sections of doc/measured from results.md files of `asbdpt-lab experiment`: of each of the five scenes
+# all tables; ratios: the error of bins over that of bdpt, printed and here, with 32 samples and with most, and what the
+# mean of bins is off by; equal: squared error over that of bdpt after the same CPU time, with most samples.
 function cell(i) { return part[i + 1] }
 /^## / {
     on = $2 ~ /^(cornell-box|cornell-box-modified|veach-ajar|living-room|bathroom)$/
