@@ -52,7 +52,8 @@ machine() {
 keep() {
     commands "$1" show >"$dir/show"
     OUT=$2 sh -e "$dir/show" >"$dir/shown" || { wrong "$1: nothing to show in $2"; return 1; }
-    grep -q '^== ' "$dir/shown" && ! grep -q '^ *$' "$dir/show" || { wrong "$1: no sections"; return 1; }
+    awk '/^== / { n++; empty += open; open = 1; next } NF { open = 0 } END { exit empty || open || !n }' "$dir/shown" ||
+        { wrong "$1: no sections, or an empty one"; return 1; }
     {
         echo "what: $(field "$1" what)"
         echo "samples: $(field "$1" samples)"

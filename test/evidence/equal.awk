@@ -71,12 +71,14 @@ END {
     printf "== mean\n%s\n== worst\n%s\n", first(asbdpt), worst
     at = end_of(rmse8, 1)
     for (i = 1; i <= n; i++) {
-        q = log(first(rmse8[i])); p = log(first(pt[i]))
+        q = first(rmse8[i]) + 0; p = first(pt[i]) + 0
+        q = log(q > 0 ? q : 0.0005); p = log(p > 0 ? p : 0.0005)
         rest += i == at ? 0 : q
         beside += p < 0 ? q - p : q
         if (q > (p < 0 ? p : 0)) losses++
     }
     print "== beside"
-    printf "Without `%s` the mean is %.2f; over the better of `bdpt` and `pt` it is %.2f, above 1 in %d of %d.\n",
-        row[at], exp(rest / (n - 1)), exp(beside / n), losses, n
+    printf "Without `%s` the mean over `bdpt` is %.2f; over the better of `bdpt` and `pt` it is", row[at],
+        exp(rest / (n - 1))
+    printf " %.2f, above 1 in %d of %d.\n", exp(beside / n), losses, n
 }

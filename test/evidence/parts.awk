@@ -7,7 +7,7 @@ BEGIN {
         "grids that lie where vertices are:no-extent|credits of what comes straight:no-credit|" \
         "emission:no-emission|lights that a region sees:no-guide|" \
         "the pilot: numbers; noise in blocks:no-optimum,no-blocks|" \
-        "the first question (time, by which its errors are paid):no-question", part, "|")
+        "the first question (error; CPU time):no-question", part, "|")
 }
 NF > 10 { error[$2] = $4; cpu[$2] = $8; worst[$2] = $10; gsub(/\*/, "", error[$2]) }
 END {
@@ -18,7 +18,7 @@ END {
         for (j = 1; j <= m; j++) {
             v = variant[j]
             if (!(v in error)) continue
-            said = said (said == "" ? "" : "; ") (v == "no-question" ? cpu[v] : error[v])
+            said = said (said == "" ? "" : "; ") error[v] (v == "no-question" ? "; " cpu[v] : "")
             if (v == "no-question") where = "-"
             else if (worst[v] + 0 > most) { most = worst[v] + 0; where = worst[v] }
         }

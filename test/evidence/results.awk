@@ -6,25 +6,28 @@ function cell(i) { return part[i + 1] }
     on = $2 ~ /^(cornell-box|cornell-box-modified|veach-ajar|living-room|bathroom)$/
     scene = $2
     if (on) { print "== " scene; order[++n] = scene }
+    blank = 1
     next
 }
-!on { next }
-{ print; split($0, part, / *\| */) }
+!on || /^!\[/ || /^Bars:/ || /\| - \|/ || (/^$/ && blank) { next } # pictures are not stored
+{
+    gsub(/asbdpt:select=/, "")
+    blank = /^$/
+    print
+    split($0, part, / *\| */)
+}
 /^RMSE beside/ { table = "printed" }
 /^Seconds of CPU/ { table = "equal" }
 /^Signed error/ { table = "signed" }
-/^bins: RMSE/ { table = "" }
 /^\| [0-9]+ \|/ && table == "printed" {
     if (cell(1) == 32) first[scene] = cell(7) " | " cell(4)
     last[scene] = cell(7) " | " cell(4)
     most = cell(1)
 }
 /^\| [0-9]+ \|/ && table == "equal" { equal[scene] = cell(7) " | " cell(8) " | " cell(9) " | " cell(10) }
-/^\| ASBDPT bins \|/ && table == "signed" {
-    off[scene] = $0
-    sub(/ *\|$/, "", off[scene])
-    sub(/.*\| */, "", off[scene])
-}
+/^\| method \|/ && table == "signed" { for (last_spp = 1; cell(last_spp + 1) ~ /spp$/; last_spp++) ; }
+/^\| bins \|/ && table == "signed" { off[scene] = cell(last_spp) }
+/^RMSE on the/ { table = "" }
 END {
     print "== ratios"
     print "| | printed, 32 samples | here | printed, " most " | here | mean of `bins` off by, per cent |"

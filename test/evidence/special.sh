@@ -1,5 +1,6 @@
 #!/bin/sh
-# special.sh PART DIR: measurements of methods that are for some scenes only, into DIR. What is there is not made again.
+# special.sh PART DIR: measurements of methods that are for some scenes only, into DIR. References of
+# caustics that are there are not made again.
 #   caustics   bdpt, asbdpt and caustics with both after the same CPU time, in the scenes with caustics: DIR/NAME/
 #   pathgraph  what it is off by, for cells of several sizes: lines "SCENE RADIUS ERROR" of DIR/pathgraph.txt, the
 #              root of the mean square of the relative error over blocks of 8x8 pixels; of radius 0 it is that of pt
@@ -33,8 +34,8 @@ pathgraph() {
         for radius in 0 .01 .02 .05 .1 .2 .4; do
             [ "$radius" = 0 ] && set -- --integrator pt || set -- --integrator pathgraph -P "radius=$radius"
             render "scenes/$scene.pbrt" "$@" --spp 512 --res "$res" --filter box -o "$dir/x.pfm"
-            echo "$scene $radius" \
-                "$(sh test/lab/blocks.sh "$dir/x.pfm" "$dir/$scene.pfm" "$res" | awk '{ print sqrt($1) }')"
+            error=$(sh test/lab/blocks.sh "$dir/x.pfm" "$dir/$scene.pfm" "$res")
+            echo "$scene $radius $(echo "$error" | awk '{ print sqrt($1) }')"
         done
     done >"$dir/pathgraph.txt" <<SCENES
 cornell-box 48x48
