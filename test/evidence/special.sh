@@ -1,6 +1,5 @@
 #!/bin/sh
-# special.sh PART DIR: measurements of methods that are for some scenes only, into DIR. References of
-# caustics that are there are not made again.
+# special.sh PART DIR: measurements of methods that are for some scenes only, into DIR.
 #   caustics   bdpt, asbdpt and caustics with both after the same CPU time, in the scenes with caustics: DIR/NAME/
 #   pathgraph  what it is off by, for cells of several sizes: lines "SCENE RADIUS ERROR" of DIR/pathgraph.txt, the
 #              root of the mean square of the relative error over blocks of 8x8 pixels; of radius 0 it is that of pt
@@ -11,20 +10,15 @@ set -e
 render() { ./asbdpt-lab render "$@" -j1 --quiet; }
 
 caustics() {
-    while read -r name reference spp res own; do
-        scene=scenes/test/caustic-$name.pbrt
-        [ -f "$dir/$name.pfm" ] || {
-            render "$scene" --integrator "$reference" --spp "$spp" --res "$res" --filter box -o "$dir/x.pfm"
-            mv "$dir/x.pfm" "$dir/$name.pfm"
-        }
-        ./asbdpt-lab equal-time "$scene" -o "$dir/$name" --spp "$own" --seeds 3 --reference "$dir/$name.pfm" --quiet \
-            --methods bdpt,caustics,asbdpt,caustics:with=asbdpt -j1 >"$dir/$name.txt"
+    while read -r name res spp; do
+        ./asbdpt-lab equal-time "scenes/test/caustic-$name.pbrt" -o "$dir/$name" --spp "$spp" --seeds 5 --res "$res" -j1 \
+            --quiet --methods bdpt,caustics,asbdpt,caustics:with=asbdpt >"$dir/$name.txt"
     done <<SCENES
-ball lt 30000 36x36 128
-diver lt 10000 36x24 64
-lens lt 30000 36x36 128
-bulb bdpt 20000 36x24 128
-pool pt 12000 36x24 64
+ball 36x36 128
+diver 36x24 64
+lens 36x36 128
+bulb 36x24 128
+pool 36x24 64
 SCENES
 }
 
