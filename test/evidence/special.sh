@@ -11,8 +11,8 @@ render() { ./asbdpt-lab render "$@" -j1 --quiet; }
 
 caustics() {
     while read -r name res spp; do
-        ./asbdpt-lab equal-time "scenes/test/caustic-$name.pbrt" -o "$dir/$name" --spp "$spp" --seeds 5 --res "$res" -j1 \
-            --quiet --methods bdpt,caustics,asbdpt,caustics:with=asbdpt >"$dir/$name.txt"
+        ./asbdpt-lab equal-time "scenes/test/caustic-$name.pbrt" -o "$dir/$name" --spp "$spp" --seeds 5 --res "$res" \
+            -j1 --quiet --methods bdpt,caustics,asbdpt,caustics:with=asbdpt >"$dir/$name.txt"
     done <<SCENES
 ball 36x36 128
 diver 36x24 64
