@@ -1,6 +1,7 @@
 # family.awk: sections of doc/measured from family.md of `asbdpt-lab family`. Of each half, choice and services:
 # HALF, the table of means; HALF-rmse8, HALF-relmse, HALF-8x8, of all scenes; HALF-claims. bring: of each method that
-# can have services, the means of the choice alone, and what services bring it.
+# can have services, the means of the choice alone, and what services bring it. Rows of services that are those of the
+# choice, of methods without services, are left out, but for pt, lt and bins.
 function begin(name) { section = name; open = 0 }
 /^## The choice alone/ { half = "choice" }
 /^## With all services/ { half = "services" }
@@ -18,6 +19,8 @@ function begin(name) { section = name; open = 0 }
         print "| " cell[2] " | " alone[cell[2]] " | " cell[3] " | " cell[4] " | " cell[5] " |"
     next
 }
+/^\|/ && section == "choice" { row[$0] = 1 }
+/^\|/ && section == "services" && $0 in row && $2 !~ /^(method|pt|lt|bins|-)/ && !/^\|-/ { next } # as without services
 /^\|/ && section != "" {
     if (!open++) print "== " section
     print
