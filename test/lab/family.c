@@ -177,7 +177,7 @@ void family_tables(FILE *f, const struct results *e)
 
 /* --- the figure -------------------------------------------------------------------------------------- */
 
-enum { LEFT = 152, TOP = 132, ROW = 20, COLUMN = 72, PANEL = 64, LEAST_WIDTH = 680, BELOW = 60 };
+enum { LEFT = 264, TOP = 132, ROW = 20, COLUMN = 72, PANEL = 64, LEAST_WIDTH = 680, BELOW = 60 };
 static const double LEAST = 0.05, MOST = 20; /* ratios outside stand at the edge */
 
 static double place(const struct plot_axis *a, int column, double ratio)
