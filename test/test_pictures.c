@@ -35,13 +35,23 @@ static long count_grey(const struct image *img, int byte)
     return n;
 }
 
+/* The pyramid of images that are then freed, to be freed. */
+static bool drawn(struct test *t, struct strategy_images *images, struct image *out)
+{
+    struct error err = {.text = ""};
+    char path[512];
+    snprintf(path, sizeof path, "%s/pyramid.png", test_tmp(t));
+    bool ok = CHECK(t, pyramid_write(test_tmp(t), images, 2, &err), "%s", err.text) &&
+              CHECK(t, image_read(path, out, &err), "%s", err.text);
+    strategies_free(images);
+    return ok;
+}
+
 /* Every strategy has a cell on both halves; a row whose shares sum to 1/8 is brightened by 8, above and below. */
 static void test_pyramid(struct test *t)
 {
     struct strategy_images images;
     struct image img;
-    struct error err = {.text = ""};
-    char path[512];
     struct pixel_rect rect = {0, 0, 8, 4, 0, 0};
     strategies_init(&images, rect, 2);
     images.iterations = 4;
@@ -50,11 +60,7 @@ static void test_pyramid(struct test *t)
     float *one = strategies_picture(&images, 2, 2, 2, true);
     CHECK(t, one[0] == 0.09375f && one[95] == 0.09375f, "the image of (2,2) holds %g", (double)one[0]);
     free(one);
-    snprintf(path, sizeof path, "%s/pyramid.png", test_tmp(t));
-    bool ok = CHECK(t, pyramid_write(test_tmp(t), &images, 2, &err), "%s", err.text) &&
-              CHECK(t, image_read(path, &img, &err), "%s", err.text);
-    strategies_free(&images);
-    if (!ok)
+    if (!drawn(t, &images, &img))
         return;
     long cell = count_grey(&img, 0) / 14, letters = cell / 20; /* whose edges have all greys */
     static const struct { double grey; int cells; } EXPECTED[] = {{0.25, 2}, {0.5, 1}, {0.75, 1}};
@@ -65,6 +71,23 @@ static void test_pyramid(struct test *t)
     }
     /* 2 + 3 + 4 strategies, twice, four of them not black. */
     CHECK(t, count_grey(&img, 0) == 14 * cell, "%ld black pixels, cells have %ld", count_grey(&img, 0), cell);
+    image_free(&img);
+}
+
+/* What is black has no part in a row's exposure: of 3/32 in one pixel of 32, it is 8. */
+static void test_dark_pyramid(struct test *t)
+{
+    struct strategy_images images;
+    struct image img;
+    struct pixel_rect rect = {0, 0, 8, 4, 0, 0};
+    strategies_init(&images, rect, 2);
+    images.iterations = 4;
+    for (int c = 0; c < 3; c++)
+        images.weighted[96 * strategy_index(1, 2) + c] = 2 * 0.09375f; /* twice as bright */
+    if (!drawn(t, &images, &img))
+        return;
+    long pixel = count_grey(&img, 0) / (18 * 32), n = count_grey(&img, srgb_byte(0.75));
+    CHECK(t, pixel > 3 && n >= pixel, "%ld pixels of 3/4, where one of the picture's has %ld", n, pixel);
     image_free(&img);
 }
 
@@ -162,6 +185,7 @@ static void test_worth(struct test *t)
 void test_pictures(struct test *t)
 {
     test_pyramid(t);
+    test_dark_pyramid(t);
     test_demo(t);
     test_worth(t);
 }
