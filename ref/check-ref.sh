@@ -8,7 +8,7 @@ spp=${2:-256}
 failures=0
 for text in ref/*.txt; do
     name=$(basename "$text" .txt)
-    methods=$(sed -n 's/^origin .*: \([a-z]*\) with seeds .* and \([a-z]*\) with seeds .*/\1 \2/p' "$text")
+    methods=$(sed -n 's/^origin .*: \([a-z:=]*\) with seeds .* and \([a-z:=]*\) with seeds .*/\1 \2/p' "$text")
     [ -n "$methods" ] || { echo "FAILED  $text names no two methods"; failures=$((failures + 1)); }
     for method in $methods; do
         if "$lab" verify "scenes/$name.pbrt" --methods $method --reference "ref/$name.pfm" --filter box --spp "$spp" \

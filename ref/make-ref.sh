@@ -33,10 +33,11 @@ samples() {
     esac
 }
 
-# The two methods. A spot light's caustic through glass is beyond pt, and beyond lt what is seen by way of glass.
+# The two methods, as `asbdpt-lab verify --methods` names them. A spot light's caustic through glass is beyond pt; bdpt and
+# asbdpt miss the part of it that is seen through glass.
 methods() {
     case $1 in
-        caustic-glass) echo bdpt asbdpt ;;
+        caustic-glass) echo caustics caustics:with=asbdpt ;;
         *) echo pt bdpt ;;
     esac
 }
@@ -44,11 +45,13 @@ methods() {
 # render SCENE METHOD FIRST_SEED: the batches that are still missing.
 render() {
     i=0
+    parameter=${2#"${2%%:*}"}
     while [ $i -lt $batches ]; do
         file=$work/$1-$2-$i.pfm
         if [ ! -f "$file" ]; then
-            "$program" render "scenes/$1.pbrt" --integrator "$2" --res "$(resolution "$1")" --filter box \
-                --spp "$(samples "$1")" --seed $(($3 + i)) --nthreads 1 --quiet -o "$work/part.pfm"
+            "$lab" render "scenes/$1.pbrt" --integrator "${2%%:*}" ${parameter:+-P "${parameter#:}"} --filter box \
+                --res "$(resolution "$1")" --spp "$(samples "$1")" --seed $(($3 + i)) --nthreads 1 --quiet \
+                -o "$work/part.pfm"
             mv "$work/part.pfm" "$file"
         fi
         i=$((i + 1))

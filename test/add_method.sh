@@ -1,7 +1,8 @@
 #!/bin/sh
 # add_method.sh: is a method one file and one row? Takes the code of doc/add-a-method.md, plants it in a copy of the
 # tree with nothing else edited, builds, and finds the method in --help, render, trace, equal-time, demo and verify,
-# which accepts it, and rejects it with a planted fault. BUILD names a build directory to begin with.
+# which accepts it, and rejects it with a planted fault; equal-time says that it misses light if it drops every
+# connection, and else does not. BUILD names a build directory to begin with.
 build=${BUILD:-build}
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
@@ -29,12 +30,19 @@ must ./asbdpt-lab trace scenes/cornell-box.pbrt --integrator resampling --pixel 
 says 'CHOICE'
 must ./asbdpt-lab verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet
 says 'agree'
-must ./asbdpt-lab equal-time scenes/cornell-box.pbrt --methods pt,resampling:candidates=2 --seeds 1 --spp 4 --quiet \
-    -o equal
+must ./asbdpt-lab equal-time scenes/cornell-box.pbrt --methods bdpt,resampling:candidates=2 --seeds 3 --spp 16 \
+    --quiet -o equal
 says 'resampling:candidates=2'
+if grep -q '^In cornell-box, ' log; then echo "FAIL: it is marked:"; cat log; exit 1; fi
 must ./asbdpt-lab demo scenes/cornell-box.pbrt --methods pt,resampling --spp 4 --quiet -o x.png
 says 'resampling'
-sed 's/(L \* M \*/(L */' test/lab/rivals/resampling.c >x.c && mv x.c test/lab/rivals/resampling.c
+cp test/lab/rivals/resampling.c whole.c
+sed 's/if (!(L > 0))/if (L >= 0)/' whole.c >test/lab/rivals/resampling.c
+must make BUILD="$build" LTO=
+must ./asbdpt-lab equal-time scenes/cornell-box.pbrt --methods bdpt,resampling:candidates=2 --seeds 3 --spp 16 \
+    --quiet -o equal
+says '^In cornell-box, resampling:candidates=2: misses light'
+sed 's/(L \* M \*/(L */' whole.c >test/lab/rivals/resampling.c
 must make BUILD="$build" LTO=
 if ./asbdpt-lab verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet >log 2>&1; then
     echo "FAIL: a method without 1/M is accepted"

@@ -91,25 +91,35 @@ static void check_axis(struct test *t, const struct plot_axis *a)
     CHECK(t, majors >= (a->logarithmic ? 1 : 3) && majors <= 14, "%d numbers on [%g, %g]", majors, a->low, a->high);
 }
 
-/* The errors of the seeds' mean and of the reference's: 3.160 +- 0.099 % is a bias, and 0.160 is none. */
-static void test_bias(struct test *t)
+/* Pictures of noise beside a reference with a tenth of its variance: what has the same mean is marked as rarely as the
+ * level says, what lacks 2 % everywhere, or a fifth in one block, misses light, what is too bright or no number is biased. */
+static void test_marks(struct test *t)
 {
-    enum { METHOD = 1 };
-    struct plan p = {.n_seeds = 3, .n_compared = 2};
-    struct scene_results *s = mem_alloc(1, sizeof *s);
-    s->plan = &p;
-    s->reference.mean_error = 0.0004;
-    for (int biased = 0; biased < 2; biased++) {
-        for (int i = 0; i < 3; i++)
-            s->run[METHOD][i].step[0].value[Q_MEAN_ERROR] = 0.0016 + 0.03 * biased + 0.001715 * (i - 1);
-        p.n_steps = 1;
-        struct estimate e = results_mean(s, METHOD, 0, Q_MEAN_ERROR);
-        double found = results_bias_p(s, METHOD, 0);
-        double error = sqrt(e.error * e.error + 0.0004 * 0.0004), dof = 2 * pow(error / e.error, 4);
-        CHECK(t, fabs(found - stats_student_p(e.mean / error, dof)) < 1e-12 && (found < 0.01) == biased,
-              "p is %g", found);
+    enum { SIDE = 32, N = 3 * SIDE * SIDE, SEEDS = 3, TRIALS = 400 };
+    static const enum mark expected[] = {MARK_NONE, MARK_DARK, MARK_DARK, MARK_BIASED, MARK_BIASED};
+    static float pixels[N], variance[N], x[SEEDS][N];
+    const struct reference r = {.pixels = pixels, .variance = variance, .width = SIDE, .height = SIDE};
+    float *picture[SEEDS] = {x[0], x[1], x[2]};
+    int low[2] = {0, 0}, met = 0;
+    struct rng rng = rng_stream(test_seed(t), RNG_TEST, 0, 0);
+    for (int trial = 0; trial < TRIALS; trial++) {
+        int which = trial < TRIALS - 20 ? 0 : trial % 5;
+        for (int i = 0; i < N; i++) {
+            bool block = i / 3 % SIDE < 8 && i / 3 / SIDE < 8;
+            double lacks = which == 1 ? 0.02 : which == 2 && block ? 0.2 : which == 3 ? -0.02 : 0;
+            variance[i] = 0.0025f;
+            pixels[i] = (float)(1 + 0.05 * sqrt(12) * (rng_uniform(&rng) - 0.5));
+            for (int k = 0; k < SEEDS; k++)
+                x[k][i] = (float)(1 - lacks + 0.16 * sqrt(12) * (rng_uniform(&rng) - 0.5));
+        }
+        x[1][77] = which == 4 ? NAN : x[1][77];
+        struct mark_tests found = mark_tests(picture, SEEDS, &r);
+        low[0] += which == 0 && found.blocks < 0.05;
+        low[1] += which == 0 && found.mean < 0.05;
+        met += mark_of(found, 10) == expected[which];
     }
-    free(s);
+    CHECK(t, low[0] <= 34 && low[1] <= 34, "%d and %d p-values of %d are below 0.05", low[0], low[1], TRIALS - 16);
+    CHECK(t, met == TRIALS, "%d of %d marks are right", met, TRIALS);
 }
 
 static void test_axes(struct test *t)
@@ -416,7 +426,7 @@ void test_report(struct test *t)
 {
     test_statistics(t);
     test_pairs_of_seeds(t);
-    test_bias(t);
+    test_marks(t);
     test_axes(t);
     test_markup(t);
     test_experiment(t);

@@ -50,6 +50,8 @@ static void published_tables(struct test *t)
     for (size_t i = 0; i < sizeof STUDENT / sizeof STUDENT[0]; i++)
         CHECK(t, near(stats_student_p(STUDENT[i].x, STUDENT[i].dof), STUDENT[i].p, 1e-5), "t %g, dof %g: %.8g",
               STUDENT[i].x, STUDENT[i].dof, stats_student_p(STUDENT[i].x, STUDENT[i].dof));
+    CHECK(t, near(stats_fisher_p(3.708265, 3, 10), 0.05, 1e-5) && near(stats_fisher_p(4.102685, 5, 20), 0.01, 1e-5) &&
+          near(stats_fisher_p(sqr(2.228139), 1, 10), 0.05, 1e-5) && stats_fisher_p(INFINITY, 3, 10) == 0, "Fisher");
     CHECK(t, near(stats_normal_p(1.959963985), 0.05, 1e-8), "normal 1.96");
     CHECK(t, near(stats_normal_p(-3.290526731), 0.001, 1e-8), "normal -3.29");
     CHECK(t, near(stats_student_p(1.96, 1e9), stats_normal_p(1.96), 1e-6), "t tends to the normal");

@@ -1,13 +1,13 @@
 # better.awk: what the default makes of the better of bdpt and pt, scene by scene: ratios of family.md of `asbdpt-lab
-# family`, with 16 samples and with 64, in rmse8, relmse and means over 8x8 pixels. bdpt is 1 there. A line
-# is where learning left no time for two samples.
+# family`, with 16 samples and with 64, in rmse8, relmse and means over 8x8 pixels. bdpt is 1 there, and pt
+# counts where it has no mark. A line is where learning left no time for two samples.
 FNR == 1 { file++; measure = "" }
 /^(rmse8|relmse|8x8): squared/ { measure = $1; sub(/:/, "", measure) }
 measure == "" { next }
 /^\| method \|/ { n = split($0, scene, / *\| */) - 1 }
 /^\| (pt|subspaces) \|/ {
     split($0, cell, / *\| */)
-    for (i = 3; i <= n; i++) value[file, measure, i, cell[2]] = cell[i] + 0
+    for (i = 3; i <= n; i++) value[file, measure, i, cell[2]] = cell[2] == "pt" && cell[i] ~ /[a-z]/ ? 0 : cell[i] + 0
 }
 END {
     print "== better\n| scene | 16: rmse8 | relmse | 8x8 | 64: rmse8 | relmse | 8x8 |"

@@ -1,10 +1,12 @@
 # equal.awk: sections of doc/measured from equal-time.md of `asbdpt-lab equal-time`, from family.md of `asbdpt-lab
 # family`, where the default is called subspaces, or from such a table as it makes itself. table: a row for each scene;
 # readme: in words, and sorted; mean, worst: these two alone; beside: the mean without the best scene, and over the
-# better of bdpt and pt.
+# better of bdpt and pt, which counts where it has no mark, like "misses light", behind its interval.
 function clean(s) { gsub(/[ *]/, "", s); return s }
 function first(s) { sub(/ .*/, "", s); return s }
 function add(scene, a, b, c, d) { row[++n] = scene; pt[n] = a; rmse8[n] = b; relmse[n] = c; blocks[n] = d }
+function mark(s) { return match(s, /[a-z][a-z ]*$/) ? substr(s, RSTART) : "" }
+function marked(s,    m) { m = mark(s); return (s == m ? "" : short(first(s)) (m == "" ? "" : ", ")) m }
 function short(v) { return v == "-" ? v : sprintf(v + 0 >= 10 ? "%.0f" : v + 0 >= 1 ? "%.1f" : "%.2f", v) }
 # The scene with the smallest (sign 1) or largest (sign -1) value.
 function end_of(values, sign,    i, at) {
@@ -66,13 +68,13 @@ END {
         for (j = k = 0; j < n; j++)
             if (!(j + 1 in done) && (!k || first(rmse8[j + 1]) + 0 < first(rmse8[k]) + 0)) k = j + 1
         done[k] = 1
-        printf "| `%s` | %s | %s | %s |\n", row[k], short(first(rmse8[k])), short(first(blocks[k])), short(first(pt[k]))
+        printf "| `%s` | %s | %s | %s |\n", row[k], marked(rmse8[k]), marked(blocks[k]), marked(pt[k])
     }
     printf "== mean\n%s\n== worst\n%s\n", first(asbdpt), worst
     at = end_of(rmse8, 1)
     for (i = 1; i <= n; i++) {
         q = first(rmse8[i]) + 0; p = first(pt[i]) + 0
-        q = log(q > 0 ? q : 0.0005); p = log(p > 0 ? p : 0.0005)
+        q = log(q > 0 ? q : 0.0005); p = mark(pt[i]) != "" ? 0 : log(p > 0 ? p : 0.0005)
         rest += i == at ? 0 : q
         beside += p < 0 ? q - p : q
         if (q > (p < 0 ? p : 0)) losses++

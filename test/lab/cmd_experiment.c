@@ -45,7 +45,7 @@ static const struct option SHARED[] = {
     {"--reference", "PATH", OPTION_TEXT, AT(plan.reference),
      .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene if of it, else rendered)"},
     {"--reference-spp", "N", OPTION_INTEGER, AT(plan.reference_spp), 4, 1 << 24,
-     .help = "samples of one rendered here"},
+     .help = "samples of one rendered here (default: at equal time as many as the first method's, of all seeds)"},
     {"--nthreads", "N", OPTION_INTEGER, AT(plan.n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
     {"--quiet", NULL, OPTION_ON, AT(plan.quiet), .help = "no progress, no warnings"},
     {.name = NULL},
@@ -155,7 +155,7 @@ static bool plan_equal_time(struct plan_options *o, char command[COMMAND], struc
     char how[64];
     if (o->methods == NULL) /* of one's own scene one asks which of the two to use */
         o->methods = o->scenes.n > 0 ? METHODS_DEMO : METHODS_EQUAL_TIME;
-    preset(&o->plan.reference_spp, 256);
+    preset(&o->plan.reference_spp, o->spp * o->plan.n_seeds);
     o->plan.equal = true;
     snprintf(how, sizeof how, "equal-time --spp %d", o->spp);
     if (o->plan.seconds > 0)
@@ -180,7 +180,7 @@ static bool plan_family(struct plan_options *o, char command[COMMAND], struct er
     preset(&o->spp, o->quick ? 16 : 64);
     preset(&p->n_seeds, o->quick ? 3 : 5);
     preset(&o->res[0], o->quick ? 0 : 160);
-    preset(&p->reference_spp, o->quick ? 512 : 2048);
+    preset(&p->reference_spp, o->spp * p->n_seeds);
     snprintf(how, sizeof how, "family%s --spp %d", o->quick ? " --quick" : "", o->spp);
     unsigned halves = o->half[0] == 'c' ? 1 : o->half[0] == 's' ? 2 : 3;
     bool ok = begin_plan(o, N_SCENES, how, command, err) && plan_set_spp(p, o->spp, o->spp, err) &&

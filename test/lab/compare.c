@@ -48,7 +48,7 @@ static float *clipped(const float *x, long n)
     return out;
 }
 
-static int block_of(int width, int height)
+int compare_block(int width, int height)
 {
     int least = width < height ? width : height;
     return least < COMPARE_BLOCK ? least : COMPARE_BLOCK;
@@ -57,7 +57,7 @@ static int block_of(int width, int height)
 /* Of means over blocks. */
 static struct difference between_blocks(const float *x, const float *r, int width, int height)
 {
-    int k = block_of(width, height);
+    int k = compare_block(width, height);
     float *mean_x = sheet_shrink(x, width, height, k), *mean_r = sheet_shrink(r, width, height, k);
     struct difference d = compare_pixels(mean_x, mean_r, 3L * (width / k) * (height / k));
     free(mean_x);
@@ -79,7 +79,7 @@ static double relative_square(const float *x, const float *y, const float *r, lo
 
 void compare_squares(const float *x, const float *y, const float *r, int width, int height, double out[N_SQUARES])
 {
-    int k = block_of(width, height);
+    int k = compare_block(width, height);
     long n = 3L * width * height;
     const float *picture[3] = {x, y, r};
     float *mean[3];

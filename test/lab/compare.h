@@ -27,6 +27,7 @@ struct difference compare_pixels(const float *x, const float *r, long n);
 /* Blocks of 8x8 pixels, or in smaller pictures of the largest that fit: of their means errors that pixels nearby share
  * stay, those that they do not are divided by 64. What is left at the right and lower edge does not count. */
 enum { COMPARE_BLOCK = 8 };
+int compare_block(int width, int height); /* their side */
 
 /* compare_shown_blocks: rmse8 of their means, of what a screen shows: light beyond white, which an 8-bit reference has
  * not, counts as white. */

@@ -98,6 +98,8 @@ struct interval equal_bootstrap(const struct results *r, int method, int over, e
         const struct scene_results *s = &r->scene[i];
         if (wanted != NULL && strncmp(s->name, wanted, strlen(wanted)) != 0)
             continue;
+        if (basis == AT_EQUAL_SAMPLES && (s->mark[method] != MARK_NONE || s->mark[over] != MARK_NONE))
+            continue;
         for (int side = 0; side < 2; side++) {
             equal_squares(s, side == 0 ? method : over, which, basis, x[k][side]);
             all[k][side] = sum_of(x[k][side], seeds) / seeds;
@@ -141,8 +143,9 @@ double equal_seeds_wanted(struct interval r, int n)
     return ceil(n * sqr((m_log(r.high) - m_log(r.low)) / (2 * m_log(r.value))));
 }
 
-/* "0.8 (95 %: 0.6 to 1.1): undecided; --seeds 12 may decide, some 40 s of CPU more". */
-static void say(FILE *f, const struct results *all, struct interval r)
+/* "0.8 (95 %: 0.6 to 1.1): undecided; --seeds 12 may decide, some 40 s of CPU more". What is marked has less
+ * error, but no gain. */
+static void say(FILE *f, const struct results *all, struct interval r, bool marked)
 {
     bool decided = r.high < 1 || r.low > 1;
     int n = all->plan->n_seeds;
@@ -153,7 +156,7 @@ static void say(FILE *f, const struct results *all, struct interval r)
         return;
     }
     fprintf(f, "%.3g (95 %%: %.3g to %.3g): %s", r.value, r.low, r.high,
-            !decided ? "undecided" : r.high < 1 ? "a gain" : "a loss");
+            !decided ? "undecided" : r.low > 1 ? "a loss" : marked ? "less error, but see above" : "a gain");
     for (int i = 0; i < all->plan->n_scenes; i++)
         seconds += equal_seconds(&all->scene[i]);
     if (!decided && seeds <= PLAN_MAX_SEEDS) {
@@ -168,12 +171,18 @@ void equal_verdict(FILE *f, const struct results *r)
 {
     const struct plan *p = r->plan;
     int n;
+    for (int v = 0; v < p->methods.n; v++)
+        for (const struct scene_results *s = r->scene; s < r->scene + p->n_scenes; s++)
+            if (s->mark[v] != MARK_NONE)
+                fprintf(f, "In %s, %s: %s, beside a reference by %s.\n", s->name, p->methods.item[v].text,
+                        MARKS[s->mark[v]], s->by != NULL ? s->by : "others");
     for (int v = 1; v < p->methods.n; v++) {
+        bool marked = results_marked(r, v) > 0;
         fprintf(f, "Squared error of %s over that of %s after the same time, per pixel: ", p->methods.item[v].text,
                 p->methods.item[0].text);
-        say(f, r, equal_bootstrap(r, v, 0, SQUARE_RELMSE, AT_EQUAL_TIME, NULL, &n));
+        say(f, r, equal_bootstrap(r, v, 0, SQUARE_RELMSE, AT_EQUAL_TIME, NULL, &n), marked);
         fputs("In means over 8x8 pixels, where errors that neighbours share do not hide: ", f);
-        say(f, r, equal_bootstrap(r, v, 0, SQUARE_BLOCKS, AT_EQUAL_TIME, NULL, &n));
+        say(f, r, equal_bootstrap(r, v, 0, SQUARE_BLOCKS, AT_EQUAL_TIME, NULL, &n), marked);
     }
     fprintf(f, "Measured with %d seed%s on", p->n_seeds, p->n_seeds == 1 ? "" : "s");
     for (int i = 0; i < p->n_scenes; i++)

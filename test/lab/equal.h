@@ -4,7 +4,8 @@
  * of the first method: T = before_1 + N. A method that prepares for `before` and pays `each` per sample (struct price)
  * can afford n = (T - before) / each, and is rendered with the nearest whole number of samples. The squared error of an
  * unbiased method falls as 1 / samples, so at T it is that of the render times samples / n: nothing but the rounding.
- * (A bias does not fall; half a sample of some dozen is not seen in it.)
+ * (A bias does not fall; half a sample of some dozen is not seen in it. At equal samples scenes do not count where one
+ * of the two methods is marked.)
  *
  * Tests: test_equal_time.c.
  */
@@ -51,7 +52,7 @@ double equal_seconds(const struct scene_results *s);
 double equal_seeds_wanted(struct interval r, int n);
 
 /* equal_verdict: is the first method beaten? Two lines for each other, and one; where that is undecided, what would
- * decide it and how long that takes. */
+ * decide it and how long that takes. Before these a line for each scene where a method is marked, which has no gain. */
 void equal_verdict(FILE *f, const struct results *r);
 
 #endif

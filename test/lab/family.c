@@ -10,7 +10,6 @@
 #include "lab/equal.h"
 #include "lab/figures.h"
 #include "lab/markup.h"
-#include "lab/measure.h"
 #include "lab/numbers.h"
 #include "lab/sheet.h"
 #include "lab/table.h"
@@ -65,6 +64,7 @@ static void summary_table(FILE *f, const struct results *e, enum half half)
         table_column(&t, "%s", EQUAL_NAMES[k]);
     table_column(&t, "best");
     table_column(&t, "worst");
+    table_column(&t, "marked in");
     for (int i = 1; i < view.n; i++) {
         int v = view.method[i], n;
         struct equal_ends s = equal_ends(e, v, SQUARE_RELMSE);
@@ -74,6 +74,7 @@ static void summary_table(FILE *f, const struct results *e, enum half half)
             table_add_interval(&t, equal_bootstrap(e, v, 0, (enum square)k, AT_EQUAL_TIME, NULL, &n));
         add_of(&t, s.best, s.best_scene);
         add_of(&t, s.worst, s.worst_scene);
+        table_add(&t, results_marked(e, v), "%d", results_marked(e, v));
     }
     table_markdown(f, &t);
     table_free(&t);
@@ -86,12 +87,14 @@ static void ratio_table(FILE *f, const struct results *e, enum half half, enum s
     table_begin(&t, "%s: squared error over that of %s, with its 95 %% interval over %d seed%s", EQUAL_NAMES[which],
                 label(e, 0), e->plan->n_seeds, e->plan->n_seeds == 1 ? "" : "s");
     table_column(&t, "method");
-    for (int i = 0; i < e->plan->n_scenes; i++)
-        table_column(&t, "%s, %dx%d", e->scene[i].name, e->scene[i].width, e->scene[i].height);
+    for (const struct scene_results *s = e->scene; s < e->scene + e->plan->n_scenes; s++)
+        table_column(&t, s->mark[0] == MARK_NONE ? "%s, %dx%d" : "%s, %dx%d (%s: %s)", s->name, s->width, s->height,
+                     label(e, 0), MARKS[s->mark[0]]);
     for (int v = 1; v < view.n; v++) {
         table_add(&t, NAN, "%s", label(e, view.method[v]));
         for (int i = 0; i < e->plan->n_scenes; i++)
-            table_add_interval(&t, equal_ratio(&e->scene[i], view.method[v], 0, which));
+            table_add_marked(&t, equal_ratio(&e->scene[i], view.method[v], 0, which),
+                             MARKS[e->scene[i].mark[view.method[v]]]);
     }
     table_markdown(f, &t);
     table_free(&t);
@@ -113,15 +116,26 @@ static void write_samples(FILE *f, const struct results *e)
     fprintf(f, "\nPrices of a sample by rounds differ by %.0f %% at most.\n\n", 100 * spread);
 }
 
+/* What errors are against, and what the marks mean. */
+static void write_light(FILE *f, const struct results *e)
+{
+    fputs("Errors are against a reference, whose own noise is subtracted as far as it is known. With two seeds or more "
+          "each method's mean and blocks are tested against it: what is significantly darker misses light, what differs "
+          "otherwise is biased. One page in a hundred has a false mark. With three, and no reference given, errors of "
+          "methods without a mark are half the squared differences of pairs of renders. ", f);
+    for (const struct scene_results *s = e->scene; s < e->scene + e->plan->n_scenes; s++)
+        if (s->lacks)
+            fprintf(f, "Perhaps no method finds all light of %s, which has lights that nothing can hit and mirrors or "
+                       "glass: there all errors are against the reference, by %s. ", s->name,
+                    s->by != NULL ? s->by : "others");
+}
+
 static void write_notes(FILE *f, const struct results *e)
 {
     fputs("rmse8: of the squared error of 8-bit values, which clip what is very bright; relmse: of the relative "
           "squared error of linear values; 8x8: the same of means over 8x8 pixels, which pixels that err together do "
           "not hide. ", f);
-    fputs(measure_by_pairs(e->plan, 0) ?
-          "Errors of unbiased methods are half the squared differences of pairs of renders; those of biased ones are "
-          "against the mean of all unbiased pictures, whose own noise is subtracted. " :
-          "Errors are against a reference, whose own noise is subtracted as far as it is known. ", f);
+    write_light(f, e);
     fputs("Prices were measured by turns with the first method, on one thread, in three rounds, of which the medians "
           "count. Samples are those that the time affords, all that is prepared included.\n\n", f);
     write_samples(f, e);
@@ -208,13 +222,14 @@ static void write_ratio(FILE *f, const struct scene_results *s, const struct plo
 {
     struct interval r = equal_ratio(s, method, 0, SQUARE_RELMSE);
     double blocks = equal_ratio(s, method, 0, SQUARE_BLOCKS).value, y = TOP + ROW * (row - 0.5);
-    const char *class = r.high < 1 ? "gain" : r.low > 1 ? "loss" : "open";
+    bool marked = s->mark[method] != MARK_NONE;
+    const char *class = marked ? "marked" : r.high < 1 ? "gain" : r.low > 1 ? "loss" : "open";
     if (isfinite(r.value) && isfinite(r.high))
         fprintf(f, "<path class=\"%s\" d=\"M%.1f %.1fH%.1f\"/>\n", class, place(a, column, r.low), y,
                 place(a, column, r.high));
     if (isfinite(r.value))
-        fprintf(f, "<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"3.2\"><title>%.3g</title></circle>\n", class,
-                place(a, column, r.value), y, r.value);
+        fprintf(f, "<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"3.2\"><title>%.3g %s</title></circle>\n", class,
+                place(a, column, r.value), y, r.value, MARKS[s->mark[method]]);
     if (isfinite(blocks))
         fprintf(f, "<path class=\"blocks\" d=\"M%.1f %.1fl4 4l-4 4l-4 -4z\"/>\n", place(a, column, blocks), y - 4);
 }
@@ -233,6 +248,7 @@ static void write_figure(FILE *f, const struct results *e, enum half half)
     fputs("<style>path{fill:none;stroke-width:1.6}.grid{stroke:#ddd;stroke-width:1}.one{stroke:#555;stroke-width:1}"
           ".n{font-size:9px;text-anchor:middle}circle.gain{fill:#0b62a8}path.gain{stroke:#0b62a8}"
           "circle.loss{fill:#b3400a}path.loss{stroke:#b3400a}circle.open{fill:#3d444d}path.open{stroke:#3d444d}"
+          "circle.marked{fill:#fff;stroke:#b3400a}path.marked{stroke:#b3400a}"
           ".blocks{stroke:#12733a;stroke-width:1}.m{text-anchor:end}</style>\n"
           "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n", f);
     for (int c = 0; c < e->plan->n_scenes; c++)
@@ -245,7 +261,7 @@ static void write_figure(FILE *f, const struct results *e, enum half half)
     }
     xml_print(f, "<text x=\"8\" y=\"%d\">Squared error over that of %s after the same CPU time: left of the line is a "
               "gain.</text>\n<text x=\"8\" y=\"%d\">Dot and bar: relmse, its 95 %s interval; diamond: means over 8x8 "
-              "pixels; what is beyond stands at the edge.</text>\n</svg>\n", bottom + 34, label(e, 0),
+              "pixels; hollow dot: misses light or biased; what is beyond stands at the edge.</text>\n</svg>\n", bottom + 34, label(e, 0),
               bottom + 50, "%");
 }
 

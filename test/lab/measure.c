@@ -14,7 +14,6 @@
 #include "lab/equal.h"
 #include "lab/plan_scene.h"
 #include "lab/sheet.h"
-#include "lab/stats.h"
 #include "lab/subject.h"
 #include "lab/timed.h"
 
@@ -77,8 +76,7 @@ static void take_step(struct subject *s, int method, int seed, int step, long sp
     free(shown ? *image : r->pixels);
     if (shown)
         *image = r->pixels;
-    if (s->out->reference.pixels != NULL)
-        compare_picture(s, method, seed, step);
+    compare_picture(s, method, seed, step);
 }
 
 /* Those kept by an earlier start. */
@@ -153,52 +151,13 @@ static bool read_or_render_run(struct subject *s, int method, int seed)
 
 /* --- errors from pairs ------------------------------------------------------------------------------- */
 
-bool measure_by_pairs(const struct plan *p, int method)
+/* Pairs see all the error of a method that has all light. Where perhaps none has, all are against the reference: few
+ * seeds may not tell which of two lacks the same light. */
+static bool by_pairs(const struct scene_results *out, int method)
 {
-    return p->equal && p->n_seeds >= 3 && p->reference == NULL && !measured_biased(&p->methods.item[method]);
-}
-
-/* The median of the methods' means over seeds, value by value: what errors are relative to. To be freed. */
-static float *median_picture(const struct subject *s)
-{
-    const struct plan *p = s->out->plan;
-    size_t n = 3 * (size_t)s->out->width * (size_t)s->out->height;
-    float *out = mem_alloc(n, sizeof *out);
-    for (size_t i = 0; i < n; i++) {
-        double mean[METHODS_MAX] = {0};
-        for (int v = 0; v < p->methods.n; v++)
-            for (int k = 0; k < p->n_seeds; k++)
-                mean[v] += (double)s->picture[v][k][i] / p->n_seeds;
-        out[i] = (float)stats_median(mean, (size_t)p->methods.n);
-    }
-    return out;
-}
-
-/* The mean of all that unbiased methods made, and its own noise: each weighted as its squared error says. */
-static void agree(struct subject *s)
-{
-    struct scene_results *out = s->out;
-    struct reference *ref = &out->reference;
     const struct plan *p = out->plan;
-    double weight[METHODS_MAX] = {0}, total = 0;
-    size_t n = 3 * (size_t)out->width * (size_t)out->height;
-    memset(ref->pixels, 0, n * sizeof *ref->pixels);
-    for (int v = 0; v < p->methods.n; v++) {
-        double error = results_square(out, v, 0, SQUARE_RELMSE).mean;
-        weight[v] = measure_by_pairs(p, v) ? 1 / fmax(error, 1e-12) : 0;
-        total += weight[v];
-    }
-    for (int v = 0; v < p->methods.n; v++) {
-        double w = weight[v] / total;
-        for (int k = 0; k < N_SQUARES; k++)
-            ref->noise[k] += w > 0 ? w * w * results_square(out, v, 0, (enum square)k).mean / p->n_seeds : 0;
-        for (int seed = 0; w > 0 && seed < p->n_seeds; seed++)
-            for (size_t i = 0; i < n; i++)
-                ref->pixels[i] += (float)(w / p->n_seeds) * s->picture[v][seed][i];
-    }
-    ref->noise8 = sqrt(ref->noise[SQUARE_RMSE8]);
-    ref->mean_error = NAN;
-    snprintf(ref->origin, sizeof ref->origin, "mean of what is measured");
+    return p->equal && p->n_seeds >= 3 && p->reference == NULL && out->reference.variance != NULL && !out->lacks &&
+           out->mark[method] == MARK_NONE;
 }
 
 static void compare_pairs(struct subject *s, int method)
@@ -222,23 +181,21 @@ static void compare_pairs(struct subject *s, int method)
 
 /* --- one scene --------------------------------------------------------------------------------------- */
 
-static bool needs_reference(const struct plan *p)
-{
-    bool needed = true;
-    for (int v = 0; v < p->methods.n; v++)
-        needed = needed && !measure_by_pairs(p, v);
-    return needed;
-}
-
 /* The stored reference, or one kept by an earlier start, or a new one. */
 static bool make_reference(struct subject *s)
 {
     const struct plan *p = s->plan;
     struct scene_results *r = s->out;
     char key[STORE_KEY], directory[4096];
-    struct measured m = {.text = METHOD_REFERENCE, .integrator = METHOD_REFERENCE};
-    if (r->reference.pixels != NULL || !needs_reference(p))
+    struct measured m = {.halves = 0};
+    bool all;
+    const char *by = reference_method(&s->scene, &all);
+    r->lacks = !all;
+    if (r->reference.pixels != NULL)
         return true;
+    r->by = by;
+    snprintf(m.text, sizeof m.text, "%s", by);
+    snprintf(m.integrator, sizeof m.integrator, "%s", by);
     snprintf(directory, sizeof directory, "%s/reference", p->directory != NULL ? p->directory : "");
     snprintf(key, sizeof key, "%s %016" PRIx64 " %08lx %dx%d maxdepth=%d %s spp=%d", r->name, s->scene.content,
              subject_probe(s, 0), r->width, r->height, r->max_depth, m.text, p->reference_spp);
@@ -286,26 +243,18 @@ static bool measure_methods(struct subject *s)
     return ok;
 }
 
-static void compare_all_pairs(struct subject *s)
-{
-    for (int v = 0; v < s->plan->methods.n; v++)
-        if (measure_by_pairs(s->plan, v))
-            compare_pairs(s, v);
-}
-
-/* Errors as far as they need all pictures: by pairs, and against what the methods agree on. */
+/* Which methods have the light of the reference, and of these the errors by pairs. */
 static void judge(struct subject *s)
 {
+    struct scene_results *out = s->out;
     const struct plan *p = s->plan;
-    if (s->out->reference.pixels == NULL) {
-        s->out->reference.pixels = median_picture(s);
-        compare_all_pairs(s);
-        agree(s);
-        for (int v = 0; v < p->methods.n; v++)
-            for (int seed = 1; seed <= p->n_seeds; seed++)
-                compare_picture(s, v, seed, 0);
+    for (int v = 0; v < p->methods.n; v++) {
+        int n = plan_seeds(p, v);
+        if (n >= 2 && out->reference.variance != NULL)
+            out->mark[v] = mark_of(mark_tests(s->picture[v], n, &out->reference), p->methods.n * p->n_scenes);
+        if (by_pairs(out, v))
+            compare_pairs(s, v);
     }
-    compare_all_pairs(s);
 }
 
 /* Not before a scene has been read: what is refused leaves nothing behind. */

@@ -11,10 +11,9 @@
  * few samples, and what each prepares by itself. Then the samples that each can have are arithmetic, and pictures may
  * be rendered on as many threads as there are, on a busy machine: no time is taken of them that counts.
  *
- * Squared errors (results.h) are those against a reference, stored, given or rendered, which is kept in reference/; but
- * at equal time, of unbiased methods with three seeds or more, they come from pairs, unless a reference was given. Then
- * none is rendered. What biased methods are compared with is the mean of all that the others made, each weighted by the
- * inverse of its squared error, whose own noise is known by these.
+ * Squared errors (results.h) are those against a reference, stored, given or rendered, which is kept in reference/. At
+ * equal time each method is tested against it first (mark.h); errors of those that pass come from pairs, which are less
+ * noisy, if there are three seeds or more and the reference was not given.
  *
  * Tests: test_report.c, test_equal_time.c.
  */
@@ -25,8 +24,5 @@
 
 /* measure: fill `out`, to be released with results_free also on failure. Returns false with a message. */
 bool measure(const struct plan *plan, struct results *out, struct error *err);
-
-/* measure_by_pairs: do a method's squared errors come from pairs? */
-bool measure_by_pairs(const struct plan *p, int method);
 
 #endif

@@ -31,15 +31,6 @@ struct settings measured_settings(const struct measured *m, const struct setting
     return out;
 }
 
-bool measured_biased(const struct measured *m)
-{
-    static const char *const biased[] = {"select=bins", "pathgraph", "vcm", "regularise"};
-    bool found = false;
-    for (size_t i = 0; i < sizeof biased / sizeof biased[0]; i++)
-        found = found || strstr(m->text, biased[i]) != NULL;
-    return found;
-}
-
 bool method_is_chain(const struct method *m) { return m->render == chain_render; }
 bool method_merges(const struct method *m) { return strcmp(m->name, "pathgraph") == 0; }
 

@@ -40,6 +40,7 @@ struct methods {
     ",ris:weights=counts,lvc:connections=0,mbdpt:key=throughput,cbdpt:connections=1," \
     "asbdpt:select=subspaces:connections=1:pathpixels=1" /* family */
 #define METHOD_REFERENCE "bdpt"         /* renders references */
+#define METHOD_CAUSTICS "caustics"      /* the same, where reference_method says so */
 #define METHOD_PARTNER "asbdpt"         /* of METHOD_REFERENCE in verify, if the scene names no other */
 #define METHOD_PRINTED "asbdpt:select=bins" /* the dissertation's asbdpt; its bdpt is METHOD_REFERENCE */
 
@@ -75,9 +76,6 @@ const char *method_short(const char *text);
 
 /* methods_find: the number of the method of that text, or -1. */
 int methods_find(const struct methods *list, const char *text);
-
-/* measured_biased: has it another expectation than the picture? Its error is then more than its noise. */
-bool measured_biased(const struct measured *m);
 
 /* measured_settings: its settings, over those of `base` (NULL: none). To be given to settings_clear. */
 struct settings measured_settings(const struct measured *m, const struct settings *base);

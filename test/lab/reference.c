@@ -11,8 +11,10 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "base/rng.h"
+#include "caustics/caustic.h"
 #include "image/image.h"
 #include "lab/directory.h"
+#include "lab/methods.h"
 #include "lab/sheet.h"
 #include "lab/sides.h"
 #include "lab/timed.h"
@@ -22,6 +24,7 @@ enum { PATH_SIZE = 4096 };
 void reference_free(struct reference *r)
 {
     free(r->pixels);
+    free(r->variance);
     memset(r, 0, sizeof *r);
 }
 
@@ -67,8 +70,11 @@ static void read_noise(const char *path, struct reference *r)
     snprintf(errors, sizeof errors, "%s.error.pfm", stem);
     float *shifted = image_read_linear(errors, &width, &height, NULL, NULL);
     if (shifted != NULL && width == r->width && height == r->height) {
-        for (size_t i = 0; i < 3 * (size_t)width * (size_t)height; i++)
+        r->variance = mem_alloc(3 * (size_t)width * (size_t)height, sizeof *r->variance);
+        for (size_t i = 0; i < 3 * (size_t)width * (size_t)height; i++) {
+            r->variance[i] = shifted[i] * shifted[i];
             shifted[i] = r->pixels[i] + (hash_mix(i) % 2 == 0 ? shifted[i] : -shifted[i]);
+        }
         compare_squares(shifted, r->pixels, r->pixels, width, height, r->noise);
     }
     if (isfinite(r->noise8)) /* which is known better */
@@ -97,7 +103,13 @@ bool reference_fit(struct reference *r, int width, int height, int max_depth, st
         return error_set(err, "%s holds paths up to maxdepth %ld, not %d", r->origin, r->max_depth, max_depth);
     if (k == 1)
         return true;
-    float *small = sheet_shrink(r->pixels, r->width, r->height, k);
+    float *small = sheet_shrink(r->pixels, r->width, r->height, k), *variance = r->variance;
+    if (variance != NULL) {
+        r->variance = sheet_shrink(variance, r->width, r->height, k);
+        for (size_t i = 0; i < 3 * (size_t)width * (size_t)height; i++)
+            r->variance[i] /= (float)(k * k);
+        free(variance);
+    }
     size_t n = strlen(r->origin);
     snprintf(r->origin + n, sizeof r->origin - n, ", averaged to this size");
     free(r->pixels);
@@ -156,6 +168,17 @@ bool reference_find(const char *given, const char *scene_path, const char *name,
 /* --- references made here ---------------------------------------------------------------------------- */
 
 enum { BATCHES = 4 }; /* of each side */
+
+const char *reference_method(const struct scene *scene, bool *all)
+{
+    struct one_more *chains = caustics_new(scene, 1);
+    bool delta = false;
+    for (int i = 0; i < scene->lights.n; i++)
+        delta = delta || light_is_delta(&scene->lights.light[i]);
+    *all = !delta || chains == NULL;
+    caustics_free(chains);
+    return *all || scene->media.n > 0 ? METHOD_REFERENCE : METHOD_CAUSTICS;
+}
 
 static bool render_unkept(const struct scene *scene, const struct render_options *options, long spp,
                           struct reference *out, struct error *err)

@@ -23,6 +23,7 @@
 
 struct reference {
     float *pixels;     /* [height*width*3] linear; owned; NULL: there is none */
+    float *variance;   /* [height*width*3] squares of their standard errors; owned; NULL: unknown */
     int width, height;
     long max_depth;    /* 0: not said */
     uint64_t content;  /* of the scene; 0: not said */
@@ -46,6 +47,11 @@ bool reference_is_of(const struct reference *r, const struct scene *scene, bool 
 /* reference_fit: shrink it to this size. Returns false with a message, and leaves it as it is, when its own is no whole
  * multiple of that or it holds paths of other lengths. */
 bool reference_fit(struct reference *r, int width, int height, int max_depth, struct error *err);
+
+/* reference_method: the method that finds most of the scene's light: METHOD_REFERENCE, or METHOD_CAUSTICS where a light
+ * that nothing can hit is behind mirrors or glass. *all becomes false if it does not find all: it joins points to such
+ * lights through SPECULAR_LONGEST of these at most, and not within media. */
+const char *reference_method(const struct scene *scene, bool *all);
 
 /* reference_make: render one of about `spp` samples per pixel, of the whole scene, and store it as DIRECTORY/NAME.pfm,
  * .error.pfm and .txt, or read back the one that is stored there with the same key, which says what it depends on, size

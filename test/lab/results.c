@@ -157,6 +157,14 @@ void results_pairs(const double *half, int n, double *out)
         out[i] = all + 2.0 * (n - 1) / (n - 2) * (out[i] - all);
 }
 
+int results_marked(const struct results *r, int method)
+{
+    int n = 0;
+    for (int i = 0; i < r->plan->n_scenes; i++)
+        n += r->scene[i].mark[method] != MARK_NONE;
+    return n;
+}
+
 double student_quantile(double p, double dof)
 {
     double low = 0, high = 1;
@@ -203,15 +211,4 @@ struct interval results_over_first(const struct scene_results *s, int method, in
         }
     }
     return results_ratio(x[0], n[0], x[1], n[1]);
-}
-
-double results_bias_p(const struct scene_results *s, int method, int step)
-{
-    struct estimate e = results_mean(s, method, step, Q_MEAN_ERROR);
-    double variance = sqr(e.error), reference = isfinite(s->reference.mean_error) ? sqr(s->reference.mean_error) : 0;
-    if (!(variance > 0))
-        return NAN;
-    /* Welch's degrees of freedom; the reference's error is known from thousands of pixels. */
-    double total = variance + reference;
-    return stats_student_p(e.mean / sqrt(total), sqr(total) / (sqr(variance) / (e.n - 1)));
 }

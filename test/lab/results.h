@@ -13,6 +13,7 @@
 #include <stdio.h>
 
 #include "lab/compare.h"
+#include "lab/mark.h"
 #include "lab/plan.h"
 #include "lab/reference.h"
 
@@ -55,7 +56,10 @@ struct scene_results {
     const char *path;
     char name[256];
     int width, height, max_depth;
-    struct reference reference; /* without a stored or rendered one, what the methods agree on: see measure.h */
+    struct reference reference;
+    const char *by;   /* the method that rendered it; NULL: it was stored, or given */
+    bool lacks;       /* that one may not find all light: see reference_method */
+    enum mark mark[METHODS_MAX]; /* after all samples */
     struct price price[METHODS_MAX]; /* of equal time */
     double seconds;                  /* of equal time: CPU seconds of a sample of the first method */
     struct seed_run run[METHODS_MAX][PLAN_MAX_SEEDS]; /* the first plan_seeds() of each */
@@ -91,6 +95,9 @@ struct interval {
     double value, low, high;
 };
 
+/* results_marked: in how many scenes a method is marked. */
+int results_marked(const struct results *r, int method);
+
 /* results_write: what `write` writes, as a file of the plan's directory. False with a message. */
 bool results_write(const struct results *r, const char *name, void (*write)(FILE *, const struct results *),
                    struct error *err);
@@ -103,11 +110,6 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb);
  * or squared error times seconds, what a method has paid for the inverse of its variance, as the squared error falls as
  * one over the time. */
 struct interval results_over_first(const struct scene_results *s, int method, int step, bool paid);
-
-/* results_bias_p: p-value of "the signed mean error is 0" by Student's t, from the seeds' scatter and the error of the
- * reference's mean. (The variances of pixels over samples are no estimate of it: samples that are spread evenly err
- * together several times less.) NaN for one seed. */
-double results_bias_p(const struct scene_results *s, int method, int step);
 
 /* student_quantile: x with P(|t| > x) = p for Student's t, 0 < p < 1. */
 double student_quantile(double p, double dof);

@@ -127,6 +127,11 @@ double stats_student_p(double t, double dof)
     return stats_beta_i(dof / 2, 0.5, dof / (dof + t * t));
 }
 
+double stats_fisher_p(double ratio, double a, double b)
+{
+    return isinf(ratio) ? 0 : stats_beta_i(b / 2, a / 2, b / (b + a * ratio));
+}
+
 double stats_chi2_p(double x, double dof) { return stats_gamma_q(dof / 2, x / 2); }
 
 struct count_pair {

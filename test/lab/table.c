@@ -56,6 +56,14 @@ void table_add_interval(struct table *t, struct interval i)
         table_add(t, i.value, "%.3f [%.3f, %.3f]", i.value, i.low, i.high);
 }
 
+void table_add_marked(struct table *t, struct interval i, const char *mark)
+{
+    table_add_interval(t, i);
+    char *text = t->cell[t->n_cells - 1].text;
+    size_t n = strlen(text);
+    snprintf(text + n, TABLE_CELL - n, "%s%s", mark[0] != '\0' ? " " : "", mark);
+}
+
 void table_free(struct table *t)
 {
     free(t->cell);

@@ -35,9 +35,10 @@ void table_add(struct table *t, double value, const char *format, ...);
 void table_free(struct table *t);
 
 /* table_add_missing: n cells without a value. table_add_interval: a ratio with its interval, as far as they are
- * known. */
+ * known. table_add_marked: the same, with a word or "" behind it. */
 void table_add_missing(struct table *t, int n);
 void table_add_interval(struct table *t, struct interval i);
+void table_add_marked(struct table *t, struct interval i, const char *mark);
 
 /* table_markdown: the caption is the paragraph before the table. */
 void table_markdown(FILE *f, const struct table *t);

@@ -169,13 +169,12 @@ static void bias_table(const struct scene_results *s, struct table *t)
                    "(the reference's own standard error: %s)", own);
     table_column(t, "method");
     add_spp_columns(t, s->plan);
-    table_column(t, "p of 0");
+    table_column(t, "tested");
     for (int v = 0; v < s->plan->n_compared; v++) {
         table_add(t, v, "%s", s->plan->methods.item[v].text);
         for (int i = 0; i < s->plan->n_steps; i++)
             add_mean(t, s, v, i, Q_MEAN_ERROR, 100);
-        double p = results_bias_p(s, v, plan_last_step(s->plan));
-        table_add(t, p, isfinite(p) ? "%.2g" : "-", p);
+        table_add(t, s->mark[v], "%s", s->mark[v] != MARK_NONE ? MARKS[s->mark[v]] : "-");
     }
 }
 
