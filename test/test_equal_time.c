@@ -414,12 +414,14 @@ static void check_missing(struct test *t)
     if (CHECK(t, measure(&p, &r, &err), "%s", err.text)) {
         struct scene_results *s = &r.scene[0];
         char *said = written(t, &r, equal_verdict), *page = written(t, &r, family_tables);
-        CHECK(t, s->lacks && s->mark[1] == MARK_DARK && s->mark[2] == MARK_NONE, "marks %d, %d", s->mark[1], s->mark[2]);
+        CHECK(t, s->lacks && s->mark[1] == MARK_DARK && s->mark[2] == MARK_NONE, "marks %d, %d", s->mark[1],
+              s->mark[2]);
         CHECK(t, equal_ratio(s, 1, 0, SQUARE_BLOCKS).value > 5, "pt has %g of bdpt's error",
               equal_ratio(s, 1, 0, SQUARE_BLOCKS).value);
-        CHECK(t, strstr(said, "In caustic-glass, pt: misses light") != NULL && strstr(said, "a gain") == NULL, "%s", said);
-        CHECK(t, strstr(page, "] misses light |") != NULL && strstr(page, "Perhaps no method finds all light of caustic-"
-              "glass") != NULL, "%s", page);
+        CHECK(t, strstr(said, "In caustic-glass, pt: misses light") != NULL && strstr(said, "a gain") == NULL, "%s",
+              said);
+        CHECK(t, strstr(page, "] misses light |") != NULL && strstr(page, "Perhaps no method finds all light of "
+              "caustic-glass") != NULL, "%s", page);
         free(said);
         free(page);
     }

@@ -3,7 +3,7 @@ FNR == 1 { n++ }
 $1 == "scene" { name[n] = $2; sub(/.*\//, "", name[n]); sub(/\.pbrt/, "", name[n]); at[name[n]] = n }
 $1 == "resolution" { size[n] = $2 }
 $1 == "mean_error" { error[n] = $2 }
-$1 == "origin" { by[n] = /pt with/ && !/asbdpt with/ ? "" : " (bdpt / asbdpt)" }
+$1 == "origin" { by[n] = /caustics/ ? " (caustics / caustics:with=asbdpt)" : "" }
 $1 == "agreement" {
     for (i = 2; i < NF; i++) {
         if ($i == "tiles") tile[n] = $(i + 1)

@@ -120,9 +120,9 @@ static void write_samples(FILE *f, const struct results *e)
 static void write_light(FILE *f, const struct results *e)
 {
     fputs("Errors are against a reference, whose own noise is subtracted as far as it is known. With two seeds or more "
-          "each method's mean and blocks are tested against it: what is significantly darker misses light, what differs "
-          "otherwise is biased. One page in a hundred has a false mark. With three, and no reference given, errors of "
-          "methods without a mark are half the squared differences of pairs of renders. ", f);
+          "each method's mean and blocks are tested against it. What is significantly darker misses light, what "
+          "differs otherwise is biased. One page in a hundred has a false mark. With three seeds, and no reference "
+          "given, errors of methods without a mark are half the squared differences of pairs of renders. ", f);
     for (const struct scene_results *s = e->scene; s < e->scene + e->plan->n_scenes; s++)
         if (s->lacks)
             fprintf(f, "Perhaps no method finds all light of %s, which has lights that nothing can hit and mirrors or "
@@ -261,8 +261,7 @@ static void write_figure(FILE *f, const struct results *e, enum half half)
     }
     xml_print(f, "<text x=\"8\" y=\"%d\">Squared error over that of %s after the same CPU time: left of the line is a "
               "gain.</text>\n<text x=\"8\" y=\"%d\">Dot and bar: relmse, its 95 %s interval; diamond: means over 8x8 "
-              "pixels; hollow dot: misses light or biased; what is beyond stands at the edge.</text>\n</svg>\n", bottom + 34, label(e, 0),
-              bottom + 50, "%");
+              "pixels; hollow: misses light or biased.</text>\n</svg>\n", bottom + 34, label(e, 0), bottom + 50, "%");
 }
 
 static void family_choice_figure(FILE *f, const struct results *e) { write_figure(f, e, HALF_CHOICE); }

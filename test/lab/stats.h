@@ -22,7 +22,7 @@ double stats_normal_p(double z);
 /* stats_student_p: two-sided p-value of Student's t with dof > 0 degrees of freedom (need not be an integer). */
 double stats_student_p(double t, double dof);
 
-/* stats_fisher_p: upper tail of Fisher's distribution of a ratio of two mean squares with a and b degrees of freedom. */
+/* stats_fisher_p: upper tail of Fisher's distribution: of a ratio of mean squares of a and b degrees of freedom. */
 double stats_fisher_p(double ratio, double a, double b);
 
 /* stats_chi2_p: upper tail of the chi-square distribution. */
