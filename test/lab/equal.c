@@ -174,7 +174,7 @@ void equal_verdict(FILE *f, const struct results *r)
     for (int v = 0; v < p->methods.n; v++)
         for (const struct scene_results *s = r->scene; s < r->scene + p->n_scenes; s++)
             if (s->mark[v] != MARK_NONE)
-                fprintf(f, "In %s, %s: %s, beside a reference by %s.\n", s->name, p->methods.item[v].text,
+                fprintf(f, "In %s, %s: %s, compared with a reference by %s.\n", s->name, p->methods.item[v].text,
                         MARKS[s->mark[v]], s->by != NULL ? s->by : "others");
     for (int v = 1; v < p->methods.n; v++) {
         bool marked = results_marked(r, v) > 0;
