@@ -9,6 +9,7 @@ void test_asbdpt(struct test *t);
 void test_aov(struct test *t);
 void test_alias(struct test *t);
 void test_bsdf(struct test *t);
+void test_closed(struct test *t);
 void test_chains(struct test *t);
 void test_chains_long(struct test *t);
 void test_camera(struct test *t);

@@ -54,7 +54,7 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
     double sum = 0;
     for (int k = 0; k < K; k++) {
         double q = importance_of(s, light_pool_path(&p->paths, k), p->paths.length[k]);
-        sum += p->q[k] = q >= 0 && fits_float(q) ? q : 0; /* what delta leaves to all is enough to choose it by */
+        sum += p->q[k] = q >= 0 && isfinite(q) ? q : 0; /* what delta leaves to all is enough to choose it by */
     }
     double delta = sum > 0 ? s->delta : 1;
     for (int k = 0; k < K; k++)

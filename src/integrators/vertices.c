@@ -57,7 +57,7 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
     for (int i = 0; i < v->found.n; i++) {
         const struct candidate *c = &v->found.item[i];
         double q = c->L * n_connect(&s->frozen.counts, c->y->light_region, 0, FIRST_HIT);
-        bool usable = q >= 0 && fits_float(q);
+        bool usable = q >= 0 && isfinite(q);
         weight[i] = usable ? q : 0;
         pass->tile->nonfinite += !usable;
     }

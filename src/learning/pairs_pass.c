@@ -44,7 +44,7 @@ static void add_end(const struct pass *p, struct trial_pool *pool, const struct 
     double L = rgb_luminance(y->beta), E = importance_in(importance, y->light_region);
     double delta = ((const struct pairs_pass *)p->context)->delta;
     double useful = (1 - delta) * (importance->mean > 0 ? E / importance->mean : 0) + delta;
-    if (!vertex_connectible(y) || !(L * useful > 1e-290) || !fits_float(L * useful))
+    if (!vertex_connectible(y) || !(L * useful > 1e-290 && L * useful < 1e100))
         return;
     struct end end = {y, L, useful};
     pool->before[pool->n] = pool->total;

@@ -8,8 +8,8 @@
 
 void findings_add(struct findings *list, struct finding f)
 {
-    bool nothing = f.kind != TRIAL && !(f.x > 1e-290); /* sums of them, and their shares of sums, stay finite */
-    if (nothing || !(f.x >= 0) || !fits_float(f.x))
+    bool nothing = f.kind != TRIAL && !(f.x > 1e-290); /* sums, products of three and shares of sums stay finite */
+    if (nothing || !(f.x >= 0 && f.x < 1e100))
         return;
     list->item = mem_grow(list->item, &list->capacity, list->n + 1, sizeof *list->item);
     list->item[list->n++] = f;

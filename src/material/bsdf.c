@@ -39,8 +39,6 @@ struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transpo
     }
     bool reflect = dot(wi, b->ng) * dot(wo, b->ng) > 0;
     vec3 o = to_local(&b->shading, wo), i = to_local(&b->shading, wi);
-    if (o.z == 0 || i.z == 0)
-        return NOTHING;
     struct bsdf_value sum = NOTHING;
     for (const struct lobe *l = b->lobe; l < b->lobe + b->n_lobes; l++) {
         struct bsdf_value v = lobe_eval(l, o, i, reflect, mode);

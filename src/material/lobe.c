@@ -235,6 +235,8 @@ static vec3 sample_phase(double g, vec3 wo, double u1, double u2)
 struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode)
 {
     struct bsdf_value v = NOTHING;
+    if (l->kind != LOBE_PHASE && (wo.z == 0 || wi.z == 0)) /* along the surface */
+        return NOTHING;
     switch (l->kind) {
     case LOBE_LAMBERT_REFLECTION: v = diffuse(reflect, rgb_scale(l->R, INV_PI), wo, wi); break;
     case LOBE_LAMBERT_TRANSMISSION: v = diffuse(!reflect, rgb_scale(l->T, INV_PI), wo, wi); break;

@@ -101,7 +101,8 @@ bool lobe_is_delta(enum lobe_kind kind);
  * can be a choice probability for both directions of a walk. > 0 unless the lobe is black. */
 double lobe_albedo_guess(const struct lobe *l);
 
-/* lobe_eval: value and densities of a lobe that is not delta; all zero for a delta lobe. wo.z, wi.z != 0.
+/* lobe_eval: value and densities of a lobe that is not delta; all zero for a delta lobe, and on a
+ * surface for a direction along it.
  *   reflect  whether wo and wi lie on the same side of the geometric plane
  * A pdf may be positive where f is 0: such samples are drawn and then absorbed. */
 struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode);
