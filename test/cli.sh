@@ -243,6 +243,23 @@ done
 printf 'WorldBegin\nShpae "sphere"\nShape "cuboid"\nWorldEnd\n' >errors.pbrt
 expect 1 '^asbdpt: errors.pbrt:2:1: unknown directive' "$program" render errors.pbrt --quiet
 check grep -q '^asbdpt: errors.pbrt:3:7: Shape "cuboid"' stderr.txt
+# A few bytes that become many triangles are told of.
+cat >many.pbrt <<'END'
+WorldBegin LightSource "point"
+Shape "loopsubdiv" "integer levels" 8 "integer indices" [ 0 1 2 0 2 3 ] "point P" [ 0 0 0 1 0 0 1 1 0 0 1 0 ]
+WorldEnd
+END
+expect 0 '^many.pbrt: 131072 triangles and quadrics from 1 shapes; building' "$program" many.pbrt --spp 1 --res 4x4
+# Whoever asks for an integrator has the media that the scene's does not see.
+cat >fog.pbrt <<'END'
+Film "image" "integer xresolution" 4 "integer yresolution" 4
+MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "fog"
+WorldBegin LightSource "point" "point from" [ 0 0 1 ] WorldEnd
+END
+expect 0 'media are left out' "$program" fog.pbrt --spp 4 -o clear.pfm
+expect 0 '' "$program" fog.pbrt --spp 4 -o fog.pfm --integrator bdpt
+check [ "$(grep -c 'left out' stderr.txt)" = 0 ]
+check test -n "$(cmp clear.pfm fog.pfm 2>&1)"
 
 # Bytes of a scene that mean something to a terminal do not reach it.
 printf 'Integrator "\033[31mx" "string maxdepth" "\033[31m"\nWorldBegin\nWorldEnd\n' >escape.pbrt

@@ -145,7 +145,7 @@ struct transform random_affine(struct rng *r)
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out)
 {
     struct error err;
-    if (!CHECK(t, parse_scene(path, out, NULL, &err), "%s: %s", path, err.text))
+    if (!CHECK(t, parse_scene(path, NULL, out, NULL, &err), "%s: %s", path, err.text))
         return false;
     if (width > 0) {
         out->width = width;

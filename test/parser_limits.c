@@ -96,7 +96,7 @@ static bool parse_repeated(struct test *t, const char *line, int n, struct error
     write_bytes(path, text, used);
     free(text);
     struct scene s;
-    bool ok = parse_scene(path, &s, NULL, err);
+    bool ok = parse_scene(path, NULL, &s, NULL, err);
     if (ok)
         scene_free(&s);
     return ok;
@@ -173,14 +173,14 @@ static void check_unpacked(struct test *t)
 static void check_many_errors(struct test *t)
 {
     struct hearing *heard = mem_alloc(1, sizeof *heard);
-    struct message_sink sink = {hear_warning, hear_error, heard};
+    struct message_sink sink = {hear_warning, hear_error, NULL, heard};
     struct error err = {.text = ""};
     char path[TEXT];
     parse_repeated(t, "Shpae", 1000, &err);
     snprintf(path, sizeof path, "%s/repeated.pbrt", test_tmp(t));
     struct scene s;
-    CHECK(t, !parse_scene(path, &s, &sink, &err), "unknown directives are accepted");
-    CHECK(t, strstr(heard->errors.text[heard->errors.n - 1], "and 19 more errors") != NULL, "the last error is %s",
+    CHECK(t, !parse_scene(path, NULL, &s, &sink, &err), "unknown directives are accepted");
+    CHECK(t, strstr(heard->errors.text[heard->errors.n - 1], "and 17 more errors") != NULL, "the last error is %s",
           heard->errors.text[heard->errors.n - 1]);
     free(heard);
 }

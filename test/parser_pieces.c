@@ -26,8 +26,8 @@ static void check_nothing_quoted(struct test *t)
     struct scene s;
     struct error err = {.text = ""};
     struct hearing *heard = mem_alloc(1, sizeof *heard);
-    struct message_sink sink = {hear_warning, hear_error, heard};
-    CHECK(t, !parse_scene("test/fixtures/include-no-scene.pbrt", &s, &sink, &err) && heard->errors.n == 1 &&
+    struct message_sink sink = {hear_warning, hear_error, NULL, heard};
+    CHECK(t, !parse_scene("test/fixtures/include-no-scene.pbrt", NULL, &s, &sink, &err) && heard->errors.n == 1 &&
                  strstr(err.text, "secret") == NULL, "%d errors, the first\n%s", heard->errors.n, err.text);
     free(heard);
 }
@@ -151,7 +151,7 @@ static void check_odd_bytes(struct test *t)
     write_bytes(path, TEXT_OF, sizeof TEXT_OF - 1);
     struct error err = {.text = ""};
     struct scene s;
-    CHECK(t, !parse_scene(path, &s, NULL, &err), "an odd name is accepted");
+    CHECK(t, !parse_scene(path, NULL, &s, NULL, &err), "an odd name is accepted");
     snprintf(want, sizeof want, "%s:2:10: %s/gr\xc3\xbcn?[31m??: cannot open", path, test_tmp(t));
     CHECK(t, strncmp(err.text, want, strlen(want)) == 0, "a name of odd bytes, expected %s, got\n%s", want, err.text);
     const char *excerpt = strchr(err.text, '\n');
@@ -173,7 +173,7 @@ static void check_subdivided(struct test *t)
     struct error err = {.text = ""};
     struct scene s;
     static const char WANT[] = ":3:7: 11 levels would make 8.39e+06 triangles of 2; of this scene yet 8388607 are made";
-    CHECK(t, !parse_scene(path, &s, NULL, &err) && strstr(err.text, WANT) != NULL,
+    CHECK(t, !parse_scene(path, NULL, &s, NULL, &err) && strstr(err.text, WANT) != NULL,
           "more triangles than a scene may have: %s", err.text);
 }
 

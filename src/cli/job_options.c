@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "base/os.h"
 #include "cli/command.h"
 #include "parser/parser.h"
 #include "parser/symbols.h"
@@ -50,6 +51,26 @@ static void print_error(void *context, const char *text)
 {
     (void)context;
     fprintf(stderr, "asbdpt: %s\n", text);
+}
+
+/* Whoever waits for more than a second is told for what. */
+static void tell_place(void *context, struct source_position at)
+{
+    struct job_loading *to = context;
+    if (to->told || to->options->quiet || os_wall_seconds() - to->start < 1)
+        return;
+    to->told = true;
+    fprintf(stderr, "%s: reading it takes more than a second; at %s:%d\n", to->options->scene_path, at.file->path,
+            at.line);
+}
+
+static void tell_size(const struct job_options *o, const struct geometry *geo)
+{
+    enum { MANY = 100000 }; /* whose tree takes up to a second */
+    int n = geometry_primitives(geo);
+    if (!o->quiet && n > MANY)
+        fprintf(stderr, "%s: %d triangles and quadrics from %d shapes; building the tree that rays search\n",
+                o->scene_path, n, geo->n_groups);
 }
 
 static void override(const char *pair, struct settings *settings)
@@ -145,14 +166,15 @@ int job_open(struct job_loading *job, struct scene *scene, const struct method *
 {
     const struct job_options *o = job->options;
     struct error err;
-    struct message_sink sink = {print_warning, print_error, job};
+    struct message_sink sink = {print_warning, print_error, tell_place, job};
     char *meant = file_meant(o->scene_path, ".pbrt");
     if (meant != NULL) {
         error_set(&err, "%s: there is no such file; did you mean %s?", o->scene_path, meant);
         free(meant);
         return fail(&err);
     }
-    if (!parse_scene(o->scene_path, scene, &sink, NULL))
+    job->start = os_wall_seconds();
+    if (!parse_scene(o->scene_path, o->integrator, scene, &sink, NULL))
         return EXIT_JOB;
     if (apply(o, scene, &err) && (*method = choose_method(scene, job, &err)) != NULL)
         return EXIT_OK;
@@ -164,7 +186,7 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
 {
     const struct job_options *o = job->options;
     struct error err;
-    struct message_sink sink = {print_warning, print_error, job};
+    struct message_sink sink = {.warn = print_warning, .context = job};
     struct render_job read;
     parameters_adapt(scene, readers, &sink);
     bool ok = parameters_belong(scene, readers, &err) &&
@@ -172,6 +194,7 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
     if (ok && scene->lights.n == 0)
         warn(job, "%s", "there are no lights, so the picture is black");
     if (ok) {
+        tell_size(o, &scene->geo);
         scene_prepare(scene);
         warn_of_strays(scene, job);
     }
@@ -185,7 +208,7 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
 
 int job_load(const struct job_options *o, struct scene *scene, const struct method **method)
 {
-    struct job_loading job = {o, 0};
+    struct job_loading job = {.options = o};
     const struct method *readers[2] = {NULL, NULL};
     int status = job_open(&job, scene, &readers[0]);
     *method = readers[0];

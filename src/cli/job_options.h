@@ -64,6 +64,8 @@ int job_load(const struct job_options *o, struct scene *scene, const struct meth
 struct job_loading {
     const struct job_options *options;
     int n_warnings; /* so far */
+    double start;   /* seconds of os_wall_seconds */
+    bool told;      /* that it takes longer than a second */
 };
 int job_open(struct job_loading *job, struct scene *scene, const struct method **method);
 int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene);

@@ -257,7 +257,7 @@ static void add_triangle(struct ply *r, uint32_t a, uint32_t b, uint32_t c)
     }
 }
 
-/* A list; a polygon's is cut into a fan around its first corner. */
+/* A list; a polygon's is cut into a fan around its first corner: (0,1,2), (3,0,2) ..., as pbrt-v3 cuts quads. */
 static bool read_list(struct ply *r, const struct ply_property *p)
 {
     double count, value;
@@ -275,8 +275,10 @@ static bool read_list(struct ply *r, const struct ply_property *p)
         if (!(value >= 0 && value < FIRST_QUADRIC) || value != floor(value))
             return fail(r, "not a vertex index", "");
         uint32_t index = (uint32_t)value;
-        if (k >= 2)
+        if (k == 2)
             add_triangle(r, first, previous, index);
+        else if (k > 2)
+            add_triangle(r, index, first, previous);
         first = k == 0 ? index : first;
         previous = index;
     }

@@ -234,16 +234,13 @@ bool fourier_read(const char *path, struct fourier_table *out, struct error *err
     out->content = hash_content(byte, out->file_size);
     bool ok = read_table(byte, out->file_size, out);
     free(byte);
-    if (ok)
-        out->path = mem_copy_text(path);
-    else
+    if (!ok)
         fourier_free(out);
     return ok || error_set(err, "%s: not a .bsdf file that pbrt-v3 reads, or damaged", path);
 }
 
 void fourier_free(struct fourier_table *t)
 {
-    free(t->path);
     free(t->mu);
     free(t->first);
     free(t->length);

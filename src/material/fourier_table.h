@@ -17,7 +17,6 @@
 #include "base/vec.h"
 
 struct fourier_table {
-    char *path;         /* owned, as the arrays are */
     uint64_t content;   /* hash_content of the file */
     size_t file_size;
     int n_mu, channels; /* channels: 1 (luminance) or 3 (luminance, red, blue) */

@@ -37,25 +37,17 @@ int texture_add_space(struct texture_set *set, struct transform current)
 
 int texture_load_image(struct texture_set *set, const char *path, struct error *err)
 {
-    for (int i = 0; i < set->n_images; i++)
-        if (strcmp(set->image_path[i], path) == 0)
-            return i;
     struct image img;
     if (!image_read(path, &img, err))
         return -1;
     image_mend(&img, false);
     set->image = mem_append(set->image, (size_t)set->n_images, sizeof *set->image);
-    set->image_path = mem_append(set->image_path, (size_t)set->n_images, sizeof *set->image_path);
     set->image[set->n_images] = img;
-    set->image_path[set->n_images] = mem_copy_text(path);
     return set->n_images++;
 }
 
 int texture_load_table(struct texture_set *set, const char *path, struct error *err)
 {
-    for (int i = 0; i < set->n_tables; i++)
-        if (strcmp(set->table[i].path, path) == 0)
-            return i;
     struct fourier_table table;
     if (!fourier_read(path, &table, err))
         return -1;
@@ -66,17 +58,14 @@ int texture_load_table(struct texture_set *set, const char *path, struct error *
 
 void texture_set_free(struct texture_set *set)
 {
-    for (int i = 0; i < set->n_images; i++) {
+    for (int i = 0; i < set->n_images; i++)
         image_free(&set->image[i]);
-        free(set->image_path[i]);
-    }
     for (int i = 0; i < set->n_tables; i++)
         fourier_free(&set->table[i]);
     free(set->table);
     free(set->texture);
     free(set->space);
     free(set->image);
-    free(set->image_path);
     memset(set, 0, sizeof *set);
 }
 

@@ -77,7 +77,6 @@ struct texture_set {
     struct texture *texture; /* [n_textures], owned */
     struct transform *space; /* [n_spaces], owned: the current transform where a texture was defined */
     struct image *image;     /* [n_images], owned */
-    char **image_path;       /* [n_images], owned */
     struct fourier_table *table; /* [n_tables], owned: what materials look up beside textures */
     int n_textures, n_spaces, n_images, n_tables;
 };
@@ -90,7 +89,7 @@ int texture_add_constant(struct texture_set *set, rgb value);
 /* texture_add_space: append a texture's current transform; returns its number. */
 int texture_add_space(struct texture_set *set, struct transform current);
 
-/* texture_load_image: the number of the image with this path, reading it if it is new; -1 with a message.
+/* texture_load_image: the number of an image that is read from this file; -1 with a message.
  * texture_load_table: the same of a table of a material.
  * texture_set_free: releases all images, textures and transforms; the set is empty and usable again. */
 int texture_load_image(struct texture_set *set, const char *path, struct error *err);

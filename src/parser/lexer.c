@@ -128,7 +128,8 @@ static bool next_number(struct lexer *l, struct token *out)
         end++;
     int shown = end - l->at < 40 ? (int)(end - l->at) : 40;
     const char *scanned = scan_number(l->at, &out->number);
-    if (scanned != NULL && scanned < end && isfinite(out->number) && !is_letter(*scanned)) {
+    if (scanned != NULL && scanned < end && isfinite(out->number) &&
+        (!is_letter(*scanned) || (*scanned == 'f' && scanned + 1 == end))) {
         source_warn(l->messages, out->position, "'%.*s' counts as %.9g: numbers are separated by blanks", shown,
                     l->at, out->number);
         l->at = end;
@@ -211,7 +212,8 @@ static bool next_word(struct lexer *l, struct token *out)
     while (is_letter(*end) || is_digit(*end))
         end++;
     if (end == l->at || !is_separator(*end))
-        return source_error(l->messages, position_of(l, end), "a character that has no meaning here; remove it");
+        return source_error(l->messages, position_of(l, end), "a %s that has no meaning here; remove it",
+                            strncmp(end, "\xEF\xBB\xBF", 3) == 0 ? "byte order mark" : "character");
     out->text = copy(l, l->at, end);
     l->at = end;
     return true;

@@ -56,13 +56,15 @@ static const struct {
     {"Pacific Ocean Surface Water", {0.0001764, 0.00032095, 0.00019617}, {0.031845, 0.031324, 0.030147}},
 };
 
-bool medium_preset(const char *name, rgb *sigma_s, rgb *sigma_a)
+bool medium_preset(const char *name, struct suggestion *near, rgb *sigma_s, rgb *sigma_a)
 {
-    for (size_t i = 0; i < sizeof PRESETS / sizeof PRESETS[0]; i++)
+    for (size_t i = 0; i < sizeof PRESETS / sizeof PRESETS[0]; i++) {
         if (strcmp(name, PRESETS[i].name) == 0) {
             *sigma_s = PRESETS[i].sigma_s;
             *sigma_a = PRESETS[i].sigma_a;
             return true;
         }
+        suggest_offer(near, PRESETS[i].name);
+    }
     return false;
 }

@@ -5,9 +5,10 @@
 #include <stdbool.h>
 
 #include "base/rgb.h"
+#include "parser/symbols.h"
 
-/* medium_preset: its coefficients, 1/mm, of scattering as if it were even. False, with nothing changed, if the name is
- * of none. */
-bool medium_preset(const char *name, rgb *sigma_s, rgb *sigma_a);
+/* medium_preset: its coefficients, 1/mm, of scattering as if it were even. False, with neither changed, if the name is
+ * of none; then all names have been offered to *near. */
+bool medium_preset(const char *name, struct suggestion *near, rgb *sigma_s, rgb *sigma_a);
 
 #endif

@@ -37,7 +37,7 @@ static struct param *find(struct params *p, const char *name, unsigned types)
         hidden |= (item->type == PARAM_TEXTURE) != texture;
         if ((types & 1u << item->type) == 0)
             continue;
-        if (found != NULL)
+        if (found != NULL && !item->used)
             source_warn(p->messages, item->position, "parameter \"%s\" is given twice; the last one counts", name);
         item->used = true;
         found = item;
@@ -60,17 +60,19 @@ static bool numbers_usable(struct params *p, const struct param *item)
     return true;
 }
 
-/* A parameter that is n values, all of them usable; more are passed over, of fewer the default counts. */
+/* A parameter that is n values, all of them usable. As in pbrt-v3, of fewer the default counts, and of more, except for
+ * a rest: four numbers are one colour, six are two. */
 static struct param *find_n(struct params *p, const char *name, unsigned types, int n)
 {
     struct param *item = find(p, name, types);
     if (item == NULL || p->failed)
         return NULL;
+    bool fits = item->type == PARAM_FLOAT ? item->n == n : item->n / n == 1;
     if (item->n != n)
         source_warn(p->messages, item->position, "parameter \"%s %s\" of %s \"%s\" wants %d value%s, not %d; %s",
                     params_type_name(item->type), name, p->directive, p->type, n, n > 1 ? "s" : "", item->n,
-                    item->n > n ? "the rest is passed over" : "it is passed over");
-    return item->n >= n && numbers_usable(p, item) ? item : NULL;
+                    fits ? "the rest is passed over" : "it is passed over");
+    return fits && numbers_usable(p, item) ? item : NULL;
 }
 
 const struct param *params_ignore(struct params *p, const char *name) { return find(p, name, ~0u); }

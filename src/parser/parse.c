@@ -2,7 +2,6 @@
  * reading its parameters by a table. See parse.h. */
 #include "parser/parse.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -71,32 +70,33 @@ int parse_named(struct parser *p, struct token *name, const struct symbols *tabl
 bool parse_type(struct parser *p, const struct object_type *types)
 {
     struct params *q = &p->params;
-    char known[256] = "";
+    char known[256] = "", hint[SUGGESTION_SIZE];
+    struct suggestion near = suggest_start(q->type);
     for (; types->name != NULL; types++) {
         p->type = *types;
         if (strcmp(types->name, q->type) == 0)
             return true;
+        suggest_offer(&near, types->name);
         strncat(known, known[0] != '\0' ? ", " : "", sizeof known - strlen(known) - 1);
         strncat(known, types->name, sizeof known - strlen(known) - 1);
     }
     if (parse_newer(p, q->position, q->type))
         return false;
-    return type_error(q, "%s \"%.40s\" is not supported; use one of %s", q->directive, q->type, known);
+    return type_error(q, "%s \"%.40s\" is not supported; use one of %s%s", q->directive, q->type, known,
+                      suggestion_text(&near, hint));
 }
 
 /* A parameter nobody asked for: is its name known, or is another near? */
 static void warn_of_unused(struct parser *p, const struct param *item)
 {
     struct suggestion near = suggest_start(item->name);
-    char hint[128] = "";
+    char hint[SUGGESTION_SIZE];
     for (const struct field *f = p->type.fields; f->name != NULL; f++)
         suggest_offer(&near, f->name);
-    if (near.name != NULL && strcmp(near.name, item->name) == 0)
-        strcpy(hint, "; that has another type, or no meaning here");
-    else if (near.name != NULL)
-        snprintf(hint, sizeof hint, "; did you mean \"%s\"?", near.name);
+    bool same = near.name != NULL && strcmp(near.name, item->name) == 0;
     source_warn(&p->messages, item->position, "parameter \"%s %.40s\" of %s \"%s\" is not used%s",
-                params_type_name(item->type), item->name, p->params.directive, p->params.type, hint);
+                params_type_name(item->type), item->name, p->params.directive, p->params.type,
+                same ? "; that has another type, or no meaning here" : suggestion_text(&near, hint));
 }
 
 bool parse_done(struct parser *p)

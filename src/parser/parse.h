@@ -13,7 +13,9 @@
 #include "parser/symbols.h"
 #include "scene/scene.h"
 
-enum { MATERIAL_NONE = -1 }; /* Material "none": rays pass through; a shape that does not shine either is left out */
+/* Material "none": rays pass through; a shape that does not shine either is left out. The one that the parser starts
+ * with. */
+enum { MATERIAL_NONE = -1, MATERIAL_MATTE = 0 };
 
 /* The current AreaLightSource. */
 struct area_light {
@@ -40,7 +42,7 @@ struct graphics_state {
     struct material_source material;
     bool reverse; /* ReverseOrientation */
     struct area_light area;
-    int medium[2]; /* of MediumInterface: inside, outside */
+    struct token medium[2]; /* of MediumInterface: names of inside and outside, "" for none */
 };
 
 enum block_kind { BLOCK_ATTRIBUTE, BLOCK_TRANSFORM, BLOCK_OBJECT };
@@ -75,6 +77,9 @@ enum { MAX_INCLUDE_DEPTH = 32 };
 /* Where a directive may stand. */
 enum phase { BEFORE_WORLD = 1, IN_WORLD = 2, AFTER_WORLD = 4, GIVEN_UP = 8, ANYWHERE = BEFORE_WORLD | IN_WORLD };
 
+/* What files are read for, by lights and others: each once. */
+enum role { ROLE_IMAGE, ROLE_TABLE, ROLE_MAP, ROLE_SLIDE, N_ROLES };
+
 struct parser;
 
 /* One type of object of a directive. A table of them ends with one without a name. */
@@ -87,6 +92,7 @@ struct object_type {
 
 struct parser {
     struct scene *scene;
+    const char *integrator; /* that the user has named, or NULL */
     struct messages messages;
     struct arena arena; /* texts of tokens, source files */
     struct lexer lexer;
@@ -98,6 +104,7 @@ struct parser {
     struct source_file *source[MAX_INCLUDE_DEPTH]; /* [n_sources] files being read, main file first */
     int n_sources, n_includes;
     struct scene_files named; /* what may be read, and how often */
+    struct symbols read[N_ROLES]; /* paths -> texture images and tables, pictures of lights */
 
     struct transform_state place;
     struct graphics_state state;
@@ -112,7 +119,7 @@ struct parser {
     struct symbols objects;    /* -> object[] */
     struct shape_list *object; /* [objects.n], owned */
     struct {
-        struct symbols known;           /* -> scene->media.medium[], from 1; 0: not known here */
+        struct symbols known;           /* -> scene->media.medium[], from 1; 0: nothing */
         struct source_position used_at; /* the last that a MediumInterface names; no file: none */
         struct source_position bad_at;  /* why they cannot be rendered; no file: they can */
         char bad[ERROR_TEXT_SIZE / 2];
@@ -177,8 +184,10 @@ int parse_fourier_table(struct parser *p, const char *field);
 bool parse_make_material(struct parser *p, struct material_source *out);
 int parse_changed_material(struct parser *p);
 
-/* parse_media_not: this keeps media from being rendered, should they have to be. parse_settle_media: the world
+/* parse_media_not: this keeps media from being rendered, should they have to be. parse_medium: the number of the medium
+ * inside (0) or outside (1) of what stands here, looked up by its name, as pbrt-v3 does. parse_settle_media: the world
  * is complete: are there media, and can they be rendered? False with a message. */
+int parse_medium(struct parser *p, int side);
 void parse_media_not(struct parser *p, struct source_position at, const char *format, ...);
 bool parse_settle_media(struct parser *p);
 

@@ -79,10 +79,17 @@ static void picture(struct parser *p, struct light_frame *l)
     struct error inner;
     char *path = params_file(q, "mapname", &at);
     if (path != NULL && !q->failed) {
-        int known = lights->n_pictures;
-        const struct image *image = light_read_picture(lights, (enum light_kind)p->type.kind, l, path, &inner);
-        uint64_t tables = l->env != NULL ? envmap_bytes(l->env) : 0;
-        parse_picture(q, at, image, lights->n_pictures > known, tables, &inner);
+        enum light_kind kind = (enum light_kind)p->type.kind;
+        struct symbols *read = &p->read[kind == LIGHT_INFINITE ? ROLE_MAP : ROLE_SLIDE];
+        int known = symbols_find(read, path), id = known >= 0 ? known : light_read_picture(lights, kind, path, &inner);
+        if (id >= 0) {
+            if (known < 0)
+                symbols_add(read, path, id);
+            l->env = lights->picture[id].env;
+            l->slide = lights->picture[id].slide;
+        }
+        parse_picture(q, at, l->env != NULL ? &l->env->image : l->slide != NULL ? &l->slide->image : NULL, known < 0,
+                      l->env != NULL ? envmap_bytes(l->env) : 0, &inner);
     }
     free(path);
 }
@@ -153,13 +160,29 @@ static const struct object_type LIGHTS[] = {
     {"goniometric", SLIDE + 1, LIGHT_GONIOMETRIC, slide_light},
     {"projection", SLIDE, LIGHT_PROJECTION, slide_light}, {.name = NULL}};
 
+/* pbrt-v3 turns directions by the upper left part of any matrix. So does a light at infinity, which has no place. */
+static bool is_turned(struct parser *p, struct light_item *item)
+{
+    const double *last = p->place.ctm.m[3];
+    struct transform *t = &item->frame.to_world;
+    double part[16] = {[15] = 1};
+    for (int i = 0; i < 9; i++)
+        part[i / 3 * 4 + i % 3] = p->place.ctm.m[i % 3][i / 3];
+    if (!light_at_infinity(&item->light) || (last[0] == 0 && last[1] == 0 && last[2] == 0) ||
+        !transform_from_matrix(part, t) || !transform_is_usable(t))
+        return false;
+    source_warn(&p->messages, p->directive.position, "the last row of the current transform is %g %g %g %g: as in "
+                "pbrt-v3, its upper left 3x3 part turns this light", last[0], last[1], last[2], last[3]);
+    return true;
+}
+
 static bool light(struct parser *p)
 {
     struct params *q = &p->params;
     struct light_item item = {.light = {.kind = (enum light_kind)p->type.kind, .prim = -1,
-                                        .medium = p->state.medium[1]},
+                                        .medium = parse_medium(p, 1)},
                               .frame.to_world = p->place.ctm, .to = {0, 0, 1}};
-    if (!parse_placed(p))
+    if (!is_turned(p, &item) && !parse_placed(p))
         return false;
     parse_fields(p, &item);
     item.light.L = emitted(q, field_find(p->type.fields, "L") != NULL ? "L" : "I");

@@ -8,10 +8,12 @@ int parse_part(struct parser *p, const char *field)
 {
     struct source_position at = p->params.position;
     const char *name = params_text(&p->params, field, PARAM_STRING, &at);
-    int k = name != NULL ? symbols_find(&p->materials, name) : -1, id = k >= 0 ? p->material[k].id : MATERIAL_NONE;
-    if (id == MATERIAL_NONE)
-        params_fail(&p->params, at, "\"%s\" of a %s must name a material that is not \"none\"", field, p->params.type);
-    return id;
+    int k = name != NULL ? symbols_find(&p->materials, name) : -1;
+    if (k < 0 && !p->params.failed)
+        source_warn(&p->messages, at, "\"%s\" of a %s names no material; a matte one is taken", field, p->params.type);
+    else if (k >= 0 && p->material[k].id == MATERIAL_NONE)
+        params_fail(&p->params, at, "\"%s\" of a %s must not be \"none\"", field, p->params.type);
+    return k >= 0 ? p->material[k].id : MATERIAL_MATTE;
 }
 
 int parse_fourier_table(struct parser *p, const char *field)
@@ -20,13 +22,16 @@ int parse_fourier_table(struct parser *p, const char *field)
     struct texture_set *set = &p->scene->textures;
     struct source_position at = q->position;
     struct error inner;
-    int known = set->n_tables, table = -1;
+    int table = -1;
     char *path = params_file(q, field, &at);
     if (path == NULL) {
         type_error(q, "a %s material needs its table: add \"string %s\" \"...\"", q->type, field);
     } else if (!q->failed) {
-        table = texture_load_table(set, path, &inner);
-        const struct fourier_table *read = table == known ? &set->table[table] : NULL;
+        int known = symbols_find(&p->read[ROLE_TABLE], path);
+        table = known >= 0 ? known : texture_load_table(set, path, &inner);
+        const struct fourier_table *read = known < 0 && table >= 0 ? &set->table[table] : NULL;
+        if (read != NULL)
+            symbols_add(&p->read[ROLE_TABLE], path, table);
         if (table < 0 || (read != NULL && !scene_files_count(q->files, read->content, read->file_size, &inner)))
             params_fail(q, at, "%s", inner.text);
     }
@@ -51,7 +56,7 @@ static bool is_none(const char *type) { return type[0] == '\0' || strcmp(type, "
 static bool make(struct parser *p, int *out)
 {
     struct params *q = &p->params;
-    *out = 0; /* where the parser starts with a matte one */
+    *out = MATERIAL_MATTE;
     if (is_none(q->type)) {
         *out = MATERIAL_NONE;
         for (int i = 0; i < q->n; i++)

@@ -8,6 +8,8 @@
 #include "material/phase.h"
 #include "parser/medium_presets.h"
 
+enum { MEDIUM_UNKNOWN = INT32_MAX }; /* in place of the number of one of another type than ours */
+
 void parse_media_not(struct parser *p, struct source_position at, const char *format, ...)
 {
     va_list args;
@@ -28,29 +30,39 @@ static void add_medium(struct parser *p, const char *name, const struct medium *
     symbols_add(&p->media.known, name, ++media->n);
 }
 
+static const struct field MEDIUM[] = {{.name = "type"}, {.name = "preset"},  {.name = "scale"}, {.name = "g"},
+                                      {.name = "sigma_a"}, {.name = "sigma_s"}, {.name = NULL}};
+
 static bool make_named_medium(struct parser *p)
 {
     struct params *q = &p->params;
     struct token name;
     struct source_position at;
+    char hint[SUGGESTION_SIZE];
     if (!parse_string(p, &name, "a name") || !parse_list(p, "MakeNamedMedium", &name))
         return false;
     const char *type = params_text(q, "type", PARAM_STRING, &at);
+    p->type.fields = MEDIUM;
+    if (type == NULL)
+        source_warn(&p->messages, name.position, "MakeNamedMedium needs its kind: add \"string type\" \"homogeneous\"; "
+                    "as in pbrt-v3, nothing is in it");
     if (type == NULL || strcmp(type, "homogeneous") != 0) {
-        symbols_add(&p->media.known, name.text, 0);
+        symbols_add(&p->media.known, name.text, type == NULL ? 0 : MEDIUM_UNKNOWN);
         return true;
     }
     rgb sigma_a = {0.0011, 0.0024, 0.014}, sigma_s = {2.55, 3.21, 3.77};
     const char *preset = params_text(q, "preset", PARAM_STRING, &at);
-    if (preset != NULL && preset[0] != '\0' && !medium_preset(preset, &sigma_s, &sigma_a))
-        source_warn(&p->messages, at, "there is no preset \"%.60s\"; the defaults are taken", preset);
+    struct suggestion near = suggest_start(preset != NULL ? preset : "");
+    if (preset != NULL && preset[0] != '\0' && !medium_preset(preset, &near, &sigma_s, &sigma_a))
+        source_warn(&p->messages, at, "there is no preset \"%.60s\" (doc/scene-format.md lists them); the defaults are "
+                    "taken%s", preset, suggestion_text(&near, hint));
     double scale = params_number(q, "scale", 1, 0, NUMBER_MAX), g = params_number(q, "g", 0, -0.999, 0.999);
     sigma_a = rgb_scale(params_rgb(q, "sigma_a", sigma_a), scale);
     sigma_s = rgb_scale(params_rgb(q, "sigma_s", sigma_s), scale);
     const struct medium m = {sigma_s, rgb_add(sigma_a, sigma_s), -1};
     bool positive = rgb_max(rgb_scale(sigma_a, -1)) <= 0 && rgb_max(rgb_scale(sigma_s, -1)) <= 0;
     if (!(positive && rgb_max(m.sigma_t) <= NUMBER_MAX))
-        return type_error(q, "\"sigma_a\" and \"sigma_s\" times \"scale\" go from 0 to %g", NUMBER_MAX);
+        type_error(q, "\"sigma_a\" and \"sigma_s\" times \"scale\" go from 0 to %g", NUMBER_MAX);
     add_medium(p, name.text, &m, g);
     return parse_done(p);
 }
@@ -62,19 +74,32 @@ static bool medium_interface(struct parser *p)
         struct token name;
         if (!parse_string(p, &name, "a medium"))
             return false;
-        int medium = name.text[0] == '\0' ? 0 : symbols_find(&p->media.known, name.text);
-        p->state.medium[1] = medium < 0 ? 0 : medium;
+        p->state.medium[1] = name;
         if (i == 0)
-            p->state.medium[0] = p->state.medium[1];
+            p->state.medium[0] = name;
         if (name.text[0] != '\0')
             p->media.used_at = name.position;
-        if (medium < 0)
-            parse_media_not(p, name.position, "there is no medium \"%.60s\"", name.text);
-        else if (medium == 0 && name.text[0] != '\0')
-            parse_media_not(p, name.position, "medium \"%.60s\" is not \"homogeneous\": others are not known",
-                            name.text);
     }
     return true;
+}
+
+int parse_medium(struct parser *p, int side)
+{
+    const struct token *name = &p->state.medium[side];
+    if (name->text[0] == '\0')
+        return 0;
+    int medium = symbols_find(&p->media.known, name->text);
+    if (medium == MEDIUM_UNKNOWN)
+        parse_media_not(p, name->position, "medium \"%.60s\" is not \"homogeneous\": others are not known",
+                        name->text);
+    if (medium < 0 && p->media.bad_at.file == NULL) { /* only once all names are looked through */
+        char hint[SUGGESTION_SIZE];
+        struct suggestion near = suggest_start(name->text);
+        for (int i = 0; i < p->media.known.n; i++)
+            suggest_offer(&near, p->media.known.entry[i].name);
+        parse_media_not(p, name->position, "there is no medium \"%.60s\"%s", name->text, suggestion_text(&near, hint));
+    }
+    return medium < 0 || medium == MEDIUM_UNKNOWN ? 0 : medium;
 }
 
 /* Is it an integrator of pbrt-v3 that sees no media? NULL is its default, "path". */
@@ -91,16 +116,14 @@ bool parse_settle_media(struct parser *p)
 {
     struct scene *s = p->scene;
     struct source_position used = p->media.used_at;
-    if (used.file == NULL || is_blind(s->integrator)) { /* none is anywhere, or is to be seen */
+    bool seen = !is_blind(p->integrator != NULL ? p->integrator : s->integrator);
+    if (used.file == NULL || !seen) {
         s->media.n = 0;
         if (used.file != NULL)
             source_warn(&p->messages, used, "media are left out, as by pbrt-v3's \"path\"");
         return true;
     }
-    s->camera.medium = p->state.medium[1]; /* pbrt-v3 makes the camera last */
-    for (int i = 0; i < s->geo.n_groups; i++)
-        if (s->geo.group[i].material < 0 && s->geo.group[i].first_light >= 0)
-            parse_media_not(p, used, "where media are an area light needs a material");
+    s->camera.medium = parse_medium(p, 1); /* pbrt-v3 makes the camera last */
     return p->media.bad_at.file == NULL || source_error(&p->messages, p->media.bad_at, "%s", p->media.bad);
 }
 

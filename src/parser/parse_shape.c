@@ -204,6 +204,8 @@ static bool add_shape(struct parser *p, const struct shape_item *item, struct tr
         return source_error(&p->messages, at, "%s", inner.text);
     if (item->area.on)
         add_lights(s, id, n, &item->area);
+    if (item->area.on && group.material == MATERIAL_NONE)
+        parse_media_not(p, at, "where media are an area light needs a material");
     return true;
 }
 
@@ -237,11 +239,11 @@ static bool is_seen(const struct shape_item *item)
 }
 
 /* pbrt-v3 turns normals of quadrics under a mirroring transform. Here they stay, but the sides of media are its. */
-static void set_media(struct shape_item *item, const int medium[2])
+static void set_media(struct parser *p, struct shape_item *item)
 {
     bool turned = !item->is_mesh && transform_swaps_handedness(&item->to_world);
-    item->group.medium[0] = medium[turned];
-    item->group.medium[1] = medium[!turned];
+    item->group.medium[turned] = parse_medium(p, 0);
+    item->group.medium[!turned] = parse_medium(p, 1);
 }
 
 static bool shape(struct parser *p)
@@ -257,7 +259,7 @@ static bool shape(struct parser *p)
     else
         mesh(p, &item);
     item.group.material = parse_changed_material(p);
-    set_media(&item, p->state.medium);
+    set_media(p, &item);
     bool ok = parse_done(p) && parse_placed(p);
     if (ok && is_seen(&item)) {
         if (item.area.on && item.area.group < 0)

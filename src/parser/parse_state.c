@@ -43,9 +43,13 @@ static bool set_ctm(struct parser *p, struct transform t)
 
 bool parse_placed(struct parser *p)
 {
-    if (transform_is_usable(&p->place.ctm))
-        return true;
-    return directive_error(p, "the current transform is infinite or singular, or nearly so; its numbers and its "
+    const double *last = p->place.ctm.m[3];
+    if (last[0] != 0 || last[1] != 0 || last[2] != 0)
+        return directive_error(p, "the last row of the current transform, numbers 4, 8, 12 and 16 of a matrix, is "
+                               "%g %g %g %g; only the last of them may be other than 0", last[0], last[1], last[2],
+                               last[3]);
+    return transform_is_usable(&p->place.ctm) ||
+           directive_error(p, "the current transform is infinite or singular, or nearly so; its numbers and its "
                            "inverse's go up to 1e30");
 }
 
@@ -93,16 +97,12 @@ static bool look_at(struct parser *p)
     return apply(p, t);
 }
 
-/* Numbers as lists of columns: the last row is what points are divided by. It may be a number for all; pbrt-v3 lets it
- * turn parallels into rays that meet, of meshes but not of quadrics. */
+/* Numbers as lists of columns. The last row is what points are divided by; parse_placed refuses all but a number. */
 static bool parse_matrix(struct parser *p, struct transform *out)
 {
     double x[16];
     if (!read_numbers(p, x, 16))
         return false;
-    if (x[3] != 0 || x[7] != 0 || x[11] != 0)
-        return directive_error(p, "the last row of this matrix, its numbers 4, 8, 12 and 16, is %g %g %g %g; only the "
-                               "last of them may be other than 0", x[3], x[7], x[11], x[15]);
     for (int i = 0; i < 16; i++)
         x[i] /= x[15];
     *out = SINGULAR;

@@ -71,9 +71,11 @@ static void imagemap(struct parser *p, void *object)
     t->gamma = params_bool(q, "gamma", file_has_extension(path, ".tga") || file_has_extension(path, ".png"));
     if (!q->failed) {
         struct error inner;
-        int known = set->n_images;
-        t->image = texture_load_image(set, path, &inner);
-        parse_picture(q, at, t->image < 0 ? NULL : &set->image[t->image], t->image == known, 0, &inner);
+        int known = symbols_find(&p->read[ROLE_IMAGE], path);
+        t->image = known >= 0 ? known : texture_load_image(set, path, &inner);
+        if (known < 0 && t->image >= 0)
+            symbols_add(&p->read[ROLE_IMAGE], path, t->image);
+        parse_picture(q, at, t->image < 0 ? NULL : &set->image[t->image], known < 0, 0, &inner);
     }
     free(path);
 }
@@ -165,9 +167,11 @@ static bool texture(struct parser *p)
     if (!p->texture_is_float && strcmp(type.text, "spectrum") != 0 && strcmp(type.text, "color") != 0)
         return source_error(&p->messages, type.position, "unknown texture type \"%.40s\"; use \"float\" or "
                             "\"spectrum\"", type.text);
+    struct symbols *known = p->texture_is_float ? &p->float_textures : &p->spectrum_textures;
+    if (symbols_find(known, name.text) >= 0)
+        source_warn(&p->messages, name.position, "the texture \"%.60s\" is defined again", name.text);
     int id = make(p);
-    symbols_add(p->texture_is_float ? &p->float_textures : &p->spectrum_textures, name.text,
-                id >= 0 ? id : parse_constant(p, rgb_black()));
+    symbols_add(known, name.text, id >= 0 ? id : parse_constant(p, rgb_black()));
     return id >= 0;
 }
 

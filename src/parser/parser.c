@@ -55,7 +55,7 @@ static const struct directive *find_directive(const char *name, struct suggestio
 static bool unknown_directive(struct parser *p)
 {
     const struct token *t = &p->directive;
-    char found[64];
+    char found[64], hint[SUGGESTION_SIZE];
     token_text(t, found, sizeof found);
     if (t->kind != TOKEN_WORD)
         return source_error(&p->messages, t->position, "here should be a directive like Shape, not %s", found);
@@ -63,9 +63,8 @@ static bool unknown_directive(struct parser *p)
         return false;
     struct suggestion near = suggest_start(t->text);
     find_directive(t->text, &near);
-    if (near.name != NULL)
-        return source_error(&p->messages, t->position, "unknown directive %s; did you mean %s?", found, near.name);
-    return source_error(&p->messages, t->position, "unknown directive %s; doc/scene-format.md lists them", found);
+    return source_error(&p->messages, t->position, "unknown directive %s%s", found,
+                        near.name != NULL ? suggestion_text(&near, hint) : "; doc/scene-format.md lists them");
 }
 
 static bool wrong_phase(struct parser *p, const struct directive *d)
@@ -102,6 +101,8 @@ static void run_source(struct parser *p)
                                 p->phase == BEFORE_WORLD ? "WorldBegin" : "WorldEnd");
             return;
         }
+        if (p->messages.sink != NULL && p->messages.sink->place != NULL)
+            p->messages.sink->place(p->messages.sink->context, t->position);
         ok = ok && run_directive(p);
         if (!p->source[p->n_sources - 1]->quotable)
             return;
@@ -172,6 +173,7 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     p->phase = BEFORE_WORLD;
     parse_state_reset(p);
     p->current_object = -1;
+    p->state.medium[0].text = p->state.medium[1].text = "";
     p->params.directive = "Material";
     p->params.type = "matte";
     parse_make_material(p, &p->state.material); /* the material of a shape that comes before any Material */
@@ -182,7 +184,8 @@ static void finish(struct parser *p)
     for (int i = 0; i < p->objects.n; i++)
         shape_list_free(&p->object[i]);
     struct symbols *const tables[] = {&p->float_textures, &p->spectrum_textures, &p->materials, &p->systems,
-                                      &p->media.known,    &p->objects,           &p->named.known};
+                                      &p->media.known,    &p->objects,           &p->named.known,
+                                      &p->read[0],        &p->read[1],           &p->read[2],   &p->read[3]};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         symbols_free(tables[i]);
     free(p->object);
@@ -195,12 +198,14 @@ static void finish(struct parser *p)
     free(p);
 }
 
-bool parse_scene(const char *path, struct scene *out, const struct message_sink *sink, struct error *err)
+bool parse_scene(const char *path, const char *integrator, struct scene *out, const struct message_sink *sink,
+                 struct error *err)
 {
     static const struct source_position NOWHERE = {NULL, NULL, 0, 0};
     struct parser *p = mem_alloc(1, sizeof *p); /* too large for a small stack: tables of names */
     struct error first;
     scene_init(out);
+    p->integrator = integrator;
     start(p, path, out, sink, err != NULL ? err : &first);
     if (!run_file(p, path, NOWHERE, p->messages.err))
         messages_report(&p->messages);

@@ -12,9 +12,9 @@
 
 char *text_read(const char *path, size_t *size, struct error *err)
 {
-    uint8_t *data;
-    bool ok = file_read(path, &data, size, NULL);
-    int reason = ok ? 0 : errno;
+    uint8_t *data = NULL;
+    bool fits = os_identify(path).size < INT32_MAX, ok = fits && file_read(path, &data, size, NULL);
+    int reason = fits && !ok ? errno : 0;
     if (ok && *size < INT32_MAX)
         return (char *)data;
     free(data);

@@ -54,17 +54,19 @@ static void append_includes(char *text, const struct source_file *file)
     }
 }
 
-/* Is this sentence to be given? */
-static bool is_new(struct given *g, int most, const char *sentence)
+/* Is this text to be given, whose sentence begins after its place? */
+static bool is_new(struct given *g, int most, const char *text, const char *sentence)
 {
-    bool known = g->n == most;
-    for (int i = 0; i < g->n && !known; i++)
-        known = strcmp(g->sentence[i], sentence) == 0;
-    if (known)
+    int alike = g->n == most ? MOST_ALIKE : 0;
+    for (int i = 0; i < g->n && alike < MOST_ALIKE; i++)
+        alike = strcmp(g->text[i], text) == 0 ? MOST_ALIKE : alike + (strcmp(g->text[i] + g->place[i], sentence) == 0);
+    if (alike == MOST_ALIKE) {
         g->more++;
-    else
-        g->sentence[g->n++] = mem_copy_text(sentence);
-    return !known;
+        return false;
+    }
+    g->place[g->n] = sentence - text;
+    g->text[g->n++] = mem_copy_text(text);
+    return true;
 }
 
 static void tell(const struct messages *m, bool error, const char *text)
@@ -82,7 +84,7 @@ static bool begin(struct given *g, int most, struct source_position at, const ch
     append(text, "%s:%d:%d: ", at.file->path, at.line, at.column);
     const char *sentence = text + strlen(text);
     append_args(text, format, args);
-    return is_new(g, most, sentence);
+    return is_new(g, most, text, sentence);
 }
 
 bool source_error(struct messages *m, struct source_position at, const char *format, ...)
@@ -116,7 +118,7 @@ void source_warn(struct messages *m, struct source_position at, const char *form
 
 void messages_report(struct messages *m)
 {
-    is_new(&m->errors, MOST_ERRORS, m->err->text);
+    is_new(&m->errors, MOST_ERRORS, m->err->text, m->err->text);
     tell(m, true, m->err->text);
 }
 
@@ -127,7 +129,7 @@ static void end(const struct messages *m, struct given *g, bool error)
     if (g->more > 0)
         tell(m, error, text);
     while (g->n > 0)
-        free(g->sentence[--g->n]);
+        free(g->text[--g->n]);
 }
 
 void messages_end(struct messages *m)

@@ -29,25 +29,27 @@ struct source_file {
                     * another: it may be a file that is none of the scene's business */
 };
 
-/* Functions that receive each warning (one line) and each error (with its excerpt), without newline at the end;
- * `context` is passed through. Each may be NULL. */
+/* Functions that receive each warning (one line) and each error (with its excerpt), without newline at the end, and the
+ * place of each directive before it is carried out; `context` is passed through. Each may be NULL. */
 struct message_sink {
     void (*warn)(void *context, const char *text);
     void (*error)(void *context, const char *text);
+    void (*place)(void *context, struct source_position at);
     void *context;
 };
 
-enum { MOST_ERRORS = 20, MOST_WARNINGS = 100 };
+enum { MOST_ERRORS = 20, MOST_WARNINGS = 100, MOST_ALIKE = 3 };
 
-/* The different sentences that have been given, and how many messages were not. */
+/* The messages that have been given, and how many were not. */
 struct given {
-    char *sentence[MOST_WARNINGS]; /* [n], owned */
+    char *text[MOST_WARNINGS];      /* [n], owned */
+    ptrdiff_t place[MOST_WARNINGS]; /* [n], how many characters say where it is */
     int n;
     long more;
 };
 
-/* Where messages go while one scene is read: each sentence once, up to MOST_ERRORS errors and MOST_WARNINGS
- * warnings. */
+/* Where messages go while one scene is read: each sentence for up to MOST_ALIKE places, up to MOST_ERRORS errors and
+ * MOST_WARNINGS warnings. */
 struct messages {
     struct error *err;               /* the first error; may be NULL */
     const struct message_sink *sink; /* may be NULL */

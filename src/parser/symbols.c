@@ -2,6 +2,7 @@
 #include "parser/symbols.h"
 
 #include <ctype.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,6 +52,14 @@ void suggest_offer(struct suggestion *s, const char *known)
         s->distance = d;
         s->name = known;
     }
+}
+
+const char *suggestion_text(const struct suggestion *s, char text[SUGGESTION_SIZE])
+{
+    text[0] = '\0';
+    if (s->name != NULL)
+        snprintf(text, SUGGESTION_SIZE, "; did you mean \"%s\"?", s->name);
+    return text;
 }
 
 /* --- the table ---------------------------------------------------------------------------------------- */

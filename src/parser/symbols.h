@@ -23,9 +23,12 @@ struct suggestion {
 };
 
 /* suggest_start: a name of n letters may be off by about a third of them. Nothing is near "".
- * suggest_offer: consider one known name; the string must outlive the suggestion. */
+ * suggest_offer: consider one known name; the string must outlive the suggestion.
+ * suggestion_text: the end of a sentence, "; did you mean "NAME"?", or nothing where no name is near. */
+enum { SUGGESTION_SIZE = 128 };
 struct suggestion suggest_start(const char *wanted);
 void suggest_offer(struct suggestion *s, const char *known);
+const char *suggestion_text(const struct suggestion *s, char text[SUGGESTION_SIZE]);
 
 /* --- the table ---------------------------------------------------------------------------------------- */
 

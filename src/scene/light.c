@@ -39,7 +39,6 @@ void light_set_free(struct light_set *set)
         free(set->group[i].name);
     free(set->group);
     for (int i = 0; i < set->n_pictures; i++) {
-        free(set->picture[i].path);
         envmap_free(set->picture[i].env);
         slide_free(set->picture[i].slide);
     }
@@ -55,25 +54,15 @@ void light_set_free(struct light_set *set)
 
 /* --- pictures ---------------------------------------------------------------------------------------- */
 
-const struct image *light_read_picture(struct light_set *set, enum light_kind kind, struct light_frame *frame,
-                                       const char *path, struct error *err)
+int light_read_picture(struct light_set *set, enum light_kind kind, const char *path, struct error *err)
 {
     bool map = kind == LIGHT_INFINITE;
-    int i = 0;
-    while (i < set->n_pictures &&
-           ((set->picture[i].env != NULL) != map || strcmp(set->picture[i].path, path) != 0))
-        i++;
-    if (i == set->n_pictures) {
-        struct light_picture added = {NULL, map ? envmap_load(path, err) : NULL, map ? NULL : slide_load(path, err)};
-        if (added.env == NULL && added.slide == NULL)
-            return NULL;
-        added.path = mem_copy_text(path);
-        set->picture = mem_append(set->picture, (size_t)set->n_pictures, sizeof *set->picture);
-        set->picture[set->n_pictures++] = added;
-    }
-    frame->env = set->picture[i].env;
-    frame->slide = set->picture[i].slide;
-    return map ? &frame->env->image : &frame->slide->image;
+    const struct light_picture added = {map ? envmap_load(path, err) : NULL, map ? NULL : slide_load(path, err)};
+    if (added.env == NULL && added.slide == NULL)
+        return -1;
+    set->picture = mem_append(set->picture, (size_t)set->n_pictures, sizeof *set->picture);
+    set->picture[set->n_pictures] = added;
+    return set->n_pictures++;
 }
 
 /* --- power and choice -------------------------------------------------------------------------------- */

@@ -85,9 +85,8 @@ struct light {
     struct light_frame *frame; /* owned by the set; area: NULL, for there may be one for each triangle of a mesh */
 };
 
-/* The picture of all lights that name the same file in the same role. */
+/* A picture, of any number of lights in the same role. */
 struct light_picture {
-    char *path;         /* owned */
     struct envmap *env; /* one of these, owned */
     struct slide *slide;
 };
@@ -129,10 +128,8 @@ int light_add(struct light_set *set, struct light l, const struct light_frame *f
  * the first LIGHT_MAX_GROUPS groups alone: if there are more, no film keeps any. */
 int light_group(struct light_set *set, const char *name, enum light_kind kind);
 
-/* light_read_picture: give a light the picture of a file, as its kind wants it; lights that want the same share it.
- * Returns the picture, which stays the set's, or NULL with a message. */
-const struct image *light_read_picture(struct light_set *set, enum light_kind kind, struct light_frame *frame,
-                                       const char *path, struct error *err);
+/* light_read_picture: the number of a picture that is read from this file for lights of a kind; -1 with a message. */
+int light_read_picture(struct light_set *set, enum light_kind kind, const char *path, struct error *err);
 
 /* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);

@@ -190,7 +190,7 @@ static bool measure_scene(const char *path, const struct bench_options *o, doubl
 {
     struct scene scene;
     double start = os_cpu_seconds();
-    if (!parse_scene(path, &scene, NULL, err))
+    if (!parse_scene(path, NULL, &scene, NULL, err))
         return false;
     parameters_adapt(&scene, method_rows, NULL);
     value[LOAD] = os_cpu_seconds() - start;

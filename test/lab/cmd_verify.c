@@ -239,7 +239,7 @@ static int judge(const struct verify_options *o, uint64_t content, int max_depth
 
 static int load(const struct verify_options *o, struct scene *scene, const struct method **scenes)
 {
-    struct job_loading job = {&o->job, 0};
+    struct job_loading job = {.options = &o->job};
     const struct method *readers[3] = {NULL, NULL, NULL};
     struct error err;
     int status = job_open(&job, scene, scenes);

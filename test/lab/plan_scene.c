@@ -27,7 +27,7 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
                      struct error *err)
 {
     static const double whole[4] = {0, 1, 0, 1};
-    if (!parse_scene(path, scene, NULL, err))
+    if (!parse_scene(path, NULL, scene, NULL, err))
         return false;
     parameters_adapt(scene, method_rows, NULL);
     if (width == 0)
