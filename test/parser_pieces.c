@@ -157,6 +157,9 @@ static void check_odd_bytes(struct test *t)
     const char *excerpt = strchr(err.text, '\n');
     snprintf(want, sizeof want, "\n   Include \"gr??n [31m\\n?\" # ??\n           ^");
     CHECK(t, excerpt != NULL && strcmp(excerpt, want) == 0, "a line of odd bytes, expected %s, got %s", want, excerpt);
+    write_bytes(path, "\xEF\xBB\xBFWorldBegin", 13);
+    CHECK(t, !parse_scene(path, NULL, &s, NULL, &err) && strstr(err.text, ":1:1: a byte order mark that") != NULL, "%s",
+          err.text);
 }
 
 /* What subdivision may make is counted for the whole scene. No fixture: without its first surface it takes seconds. */

@@ -324,7 +324,7 @@ static void note_draw(void *context, const struct pixel_sample *sample, const st
 /* The furthest vertices get throughputs by which nothing can be chosen. */
 static void spoil(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
 {
-    static const double useless[] = {-1e9, NAN, INFINITY, 1e300};
+    static const double useless[] = {-1e9, NAN, INFINITY, -INFINITY};
     const struct draws *d = pass->observer->context;
     struct light_pool *pool = scratch;
     for (int k = 0; k < pool->n; k += d->spoilt)

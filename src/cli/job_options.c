@@ -1,6 +1,7 @@
 /* job_options.c: see job_options.h. */
 #include "cli/job_options.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,9 +58,9 @@ static void print_error(void *context, const char *text)
 static void tell_place(void *context, struct source_position at)
 {
     struct job_loading *to = context;
-    if (to->told || to->options->quiet || os_wall_seconds() - to->start < 1)
+    if (to->options->quiet || os_wall_seconds() - to->start < 1)
         return;
-    to->told = true;
+    to->start = INFINITY;
     fprintf(stderr, "%s: reading it takes more than a second; at %s:%d\n", to->options->scene_path, at.file->path,
             at.line);
 }

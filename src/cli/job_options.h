@@ -64,8 +64,7 @@ int job_load(const struct job_options *o, struct scene *scene, const struct meth
 struct job_loading {
     const struct job_options *options;
     int n_warnings; /* so far */
-    double start;   /* seconds of os_wall_seconds */
-    bool told;      /* that it takes longer than a second */
+    double start;   /* seconds of os_wall_seconds; infinite: it has been said that this takes long */
 };
 int job_open(struct job_loading *job, struct scene *scene, const struct method **method);
 int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene);

@@ -77,9 +77,6 @@ enum { MAX_INCLUDE_DEPTH = 32 };
 /* Where a directive may stand. */
 enum phase { BEFORE_WORLD = 1, IN_WORLD = 2, AFTER_WORLD = 4, GIVEN_UP = 8, ANYWHERE = BEFORE_WORLD | IN_WORLD };
 
-/* What files are read for, by lights and others: each once. */
-enum role { ROLE_IMAGE, ROLE_TABLE, ROLE_MAP, ROLE_SLIDE, N_ROLES };
-
 struct parser;
 
 /* One type of object of a directive. A table of them ends with one without a name. */
@@ -104,7 +101,7 @@ struct parser {
     struct source_file *source[MAX_INCLUDE_DEPTH]; /* [n_sources] files being read, main file first */
     int n_sources, n_includes;
     struct scene_files named; /* what may be read, and how often */
-    struct symbols read[N_ROLES]; /* paths -> texture images and tables, pictures of lights */
+    struct symbols images, tables, maps, slides; /* paths -> textures.image[], .table[], lights.picture[] of scene */
 
     struct transform_state place;
     struct graphics_state state;

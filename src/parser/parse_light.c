@@ -80,7 +80,7 @@ static void picture(struct parser *p, struct light_frame *l)
     char *path = params_file(q, "mapname", &at);
     if (path != NULL && !q->failed) {
         enum light_kind kind = (enum light_kind)p->type.kind;
-        struct symbols *read = &p->read[kind == LIGHT_INFINITE ? ROLE_MAP : ROLE_SLIDE];
+        struct symbols *read = kind == LIGHT_INFINITE ? &p->maps : &p->slides;
         int known = symbols_find(read, path), id = known >= 0 ? known : light_read_picture(lights, kind, path, &inner);
         if (id >= 0) {
             if (known < 0)

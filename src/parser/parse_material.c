@@ -27,11 +27,11 @@ int parse_fourier_table(struct parser *p, const char *field)
     if (path == NULL) {
         type_error(q, "a %s material needs its table: add \"string %s\" \"...\"", q->type, field);
     } else if (!q->failed) {
-        int known = symbols_find(&p->read[ROLE_TABLE], path);
+        int known = symbols_find(&p->tables, path);
         table = known >= 0 ? known : texture_load_table(set, path, &inner);
         const struct fourier_table *read = known < 0 && table >= 0 ? &set->table[table] : NULL;
         if (read != NULL)
-            symbols_add(&p->read[ROLE_TABLE], path, table);
+            symbols_add(&p->tables, path, table);
         if (table < 0 || (read != NULL && !scene_files_count(q->files, read->content, read->file_size, &inner)))
             params_fail(q, at, "%s", inner.text);
     }

@@ -71,10 +71,10 @@ static void imagemap(struct parser *p, void *object)
     t->gamma = params_bool(q, "gamma", file_has_extension(path, ".tga") || file_has_extension(path, ".png"));
     if (!q->failed) {
         struct error inner;
-        int known = symbols_find(&p->read[ROLE_IMAGE], path);
+        int known = symbols_find(&p->images, path);
         t->image = known >= 0 ? known : texture_load_image(set, path, &inner);
         if (known < 0 && t->image >= 0)
-            symbols_add(&p->read[ROLE_IMAGE], path, t->image);
+            symbols_add(&p->images, path, t->image);
         parse_picture(q, at, t->image < 0 ? NULL : &set->image[t->image], known < 0, 0, &inner);
     }
     free(path);

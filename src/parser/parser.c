@@ -185,7 +185,7 @@ static void finish(struct parser *p)
         shape_list_free(&p->object[i]);
     struct symbols *const tables[] = {&p->float_textures, &p->spectrum_textures, &p->materials, &p->systems,
                                       &p->media.known,    &p->objects,           &p->named.known,
-                                      &p->read[0],        &p->read[1],           &p->read[2],   &p->read[3]};
+                                      &p->images,         &p->tables,            &p->maps,      &p->slides};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         symbols_free(tables[i]);
     free(p->object);
