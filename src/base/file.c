@@ -43,11 +43,12 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
     FILE *f = strcmp(path, "-") == 0 ? stdin : os_open_input(path);
     if (f == NULL)
         return error_set(err, "%s: cannot be opened: %s", path, strerror(errno));
-    struct os_identity is = os_identify_stream(f);
+    uint64_t length;
+    enum os_kind kind = os_kind_of_stream(f, &length);
     os_binary(f);
     errno = 0;
-    bool ok = is.kind != OS_FILE ? read_pipe(f, data, size)
-                                 : is.size < SIZE_MAX / 2 && read_length(f, (size_t)is.size, data, size);
+    bool ok = kind != OS_FILE ? read_pipe(f, data, size)
+                              : length < SIZE_MAX / 2 && read_length(f, (size_t)length, data, size);
     int reason = errno;
     if (f != stdin)
         fclose(f);
@@ -110,7 +111,9 @@ static void release(struct file_output *out, bool remove_it)
     *out = (struct file_output){.stream = NULL};
 }
 
-char *file_follow(const char *path)
+/* Where a path leads if symbolic links are followed, whether or not there is a file; to be given to free(). Links to
+ * devices and pipes stay: those of /dev/fd name nothing. NULL, and errno, if links go in a circle. */
+static char *follow(const char *path)
 {
     enum { MOST_LINKS = 40, LONGEST = 4096 };
     char link[LONGEST], *at = mem_copy_text(path);
@@ -145,7 +148,7 @@ static FILE *open_target(struct file_output *out)
         os_binary(stdout);
         return stdout;
     }
-    out->target = file_follow(out->path);
+    out->target = follow(out->path);
     if (out->target == NULL)
         return NULL;
     errno = 0;

@@ -30,11 +30,8 @@ bool file_has_extension(const char *path, const char *extension);
 /* Names, to be given to free().
  * file_beside: where a file is that another one names: a relative name starts in the directory of `path`; never "-",
  * which only whoever runs the program may mean.
- * file_follow: where a path leads if symbolic links are followed, whether or not there is a file. Links to devices and
- * pipes stay: those of /dev/fd name nothing. NULL, and errno, if links go in a circle.
  * file_meant: of the file that is there if the extension is added to one that is not; else NULL. */
 char *file_beside(const char *path, const char *name);
-char *file_follow(const char *path);
 char *file_meant(const char *path, const char *extension);
 
 /* A file being written. */

@@ -217,6 +217,14 @@ enum os_kind os_kind_of(const char *path)
     return stat(path, &info) == 0 ? kind_of(&info) : OS_NOTHING;
 }
 
+enum os_kind os_kind_of_stream(FILE *f, uint64_t *size)
+{
+    struct stat info;
+    bool known = fstat(fileno(f), &info) == 0;
+    *size = known ? (uint64_t)info.st_size : 0;
+    return known ? kind_of(&info) : OS_NOTHING;
+}
+
 bool os_terminal(FILE *f) { return isatty(fileno(f)) != 0; }
 bool os_may_write(const char *path) { return access(path, W_OK) == 0; }
 bool os_make_directory(const char *path) { return mkdir(path, 0777) == 0 || os_kind_of(path) == OS_DIRECTORY; }
@@ -267,33 +275,6 @@ bool os_read_link(const char *path, char *out, size_t size)
     return false;
 }
 
-static struct os_identity identity(HANDLE handle)
-{
-    struct os_identity out = {OS_OTHER, 0, 0, 0};
-    BY_HANDLE_FILE_INFORMATION info;
-    if (GetFileType(handle) == FILE_TYPE_DISK && GetFileInformationByHandle(handle, &info)) {
-        out.kind = (info.dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY) != 0 ? OS_DIRECTORY : OS_FILE;
-        out.size = (uint64_t)info.nFileSizeHigh << 32 | info.nFileSizeLow;
-        out.device = info.dwVolumeSerialNumber;
-        out.number = (uint64_t)info.nFileIndexHigh << 32 | info.nFileIndexLow;
-    }
-    return out;
-}
-
-struct os_identity os_identify(const char *path)
-{
-    HANDLE handle = CreateFileA(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL, OPEN_EXISTING,
-                                FILE_FLAG_BACKUP_SEMANTICS, NULL); /* which directories need */
-    struct os_identity out = identity(handle);
-    if (handle != INVALID_HANDLE_VALUE)
-        CloseHandle(handle);
-    else
-        out.kind = os_kind_of(path);
-    return out;
-}
-
-struct os_identity os_identify_stream(FILE *f) { return identity((HANDLE)_get_osfhandle(fileno(f))); }
-
 bool os_rename(const char *from, const char *to)
 {
     errno = EACCES;
@@ -332,27 +313,6 @@ bool os_read_link(const char *path, char *out, size_t size)
     ssize_t n = readlink(path, out, size - 1);
     out[n < 0 ? 0 : n] = '\0';
     return n >= 0;
-}
-
-static struct os_identity identity(bool known, const struct stat *info)
-{
-    if (!known)
-        return (struct os_identity){OS_NOTHING, 0, 0, 0};
-    enum os_kind kind = kind_of(info);
-    return (struct os_identity){kind, kind == OS_FILE ? (uint64_t)info->st_size : 0, (uint64_t)info->st_dev,
-                                (uint64_t)info->st_ino};
-}
-
-struct os_identity os_identify(const char *path)
-{
-    struct stat info;
-    return identity(stat(path, &info) == 0, &info);
-}
-
-struct os_identity os_identify_stream(FILE *f)
-{
-    struct stat info;
-    return identity(fstat(fileno(f), &info) == 0, &info);
 }
 
 bool os_rename(const char *from, const char *to) { return rename(from, to) == 0; }

@@ -69,17 +69,10 @@ FILE *os_open_input(const char *path);
 
 enum os_kind { OS_NOTHING, OS_FILE, OS_DIRECTORY, OS_OTHER /* a device, a pipe */ };
 
-/* What a file is, however it is called: two names with the same numbers are one file. */
-struct os_identity {
-    enum os_kind kind;
-    uint64_t size;           /* bytes of an OS_FILE */
-    uint64_t device, number; /* number 0: the system does not say */
-};
-
-/* What a path leads to, links followed, or an open file. For OS_NOTHING of os_kind_of errno says why. */
+/* os_kind_of: what a path leads to, links followed; for OS_NOTHING errno says why. os_kind_of_stream: what an open file
+ * is; *size: bytes of an OS_FILE. */
 enum os_kind os_kind_of(const char *path);
-struct os_identity os_identify(const char *path);
-struct os_identity os_identify_stream(FILE *f);
+enum os_kind os_kind_of_stream(FILE *f, uint64_t *size);
 
 /* os_read_link: where a symbolic link points, as it is written there; false if `path` is none. */
 bool os_read_link(const char *path, char *out, size_t size);

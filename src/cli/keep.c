@@ -9,12 +9,11 @@
 #include "base/interrupt.h"
 #include "base/number.h"
 #include "base/os.h"
-#include "cli/names.h"
 
 /* Is the checkpoint to be resumed the one to be written? */
 static bool resumes_its_own(const struct keep_options *o)
 {
-    return o->checkpoint != NULL && o->resume != NULL && names_same(o->checkpoint, o->resume);
+    return o->checkpoint != NULL && o->resume != NULL && strcmp(o->checkpoint, o->resume) == 0;
 }
 
 bool keep_check(const struct keep_options *o, struct error *err)
@@ -65,10 +64,9 @@ static bool resume(struct keep *k, struct error *err)
 static bool save_film(struct keep *k, struct error *err)
 {
     const struct film *f = k->film;
-    const char *name = k->options->checkpoint;
     struct film none = {.rect = f->rect};
     struct file_output file;
-    if (!file_create(name, &file, err))
+    if (!file_create(k->options->checkpoint, &file, err))
         return false;
     if (f->learnt_short) {
         film_init(&none, f->rect, f->full_width, f->full_height);
@@ -76,14 +74,6 @@ static bool save_film(struct keep *k, struct error *err)
     }
     part_write(&file, &k->part, f->learnt_short ? &none : f);
     film_free(&none);
-    if (fflush(file.stream) == 0)
-        os_store(file.stream); /* what takes time comes before the question */
-    struct os_identity there = os_identify(name), own = k->own;
-    if (there.kind != OS_NOTHING && (there.device != own.device || there.number != own.number)) {
-        file_abandon(&file);
-        return error_set(err, "%s: somebody else has made this file meanwhile: it is not replaced", name);
-    }
-    k->own = os_identify_stream(file.stream); /* a new name does not change that */
     return file_commit(&file, err);
 }
 
@@ -152,8 +142,6 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
         film_keep_halves(film);
     memcpy(render->noise, o->noise, sizeof render->noise);
     k->options = o;
-    if (resumes_its_own(o))
-        k->own = os_identify(o->checkpoint);
     k->film = film;
     k->part = part_describe(scene, render);
     k->part.planes = film->planes;

@@ -8,7 +8,6 @@
 #ifndef ASBDPT_KEEP_H
 #define ASBDPT_KEEP_H
 
-#include "base/os.h"
 #include "base/progress.h"
 #include "cli/job_options.h"
 #include "render/part.h"
@@ -18,7 +17,6 @@ struct keep {
     struct part part; /* what is being rendered */
     struct film *film;
     struct progress bar;
-    struct os_identity own; /* the checkpoint's file, if this render has resumed or made it */
     double begun, saved; /* when the render was, and the last checkpoint: seconds of os_wall_seconds */
     bool late;     /* the time is over */
 };

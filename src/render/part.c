@@ -256,8 +256,8 @@ FILE *part_open(const char *path, struct part *out, struct error *err)
         return NULL;
     }
     if (read_header(f, path, out, err)) {
-        struct os_identity is = os_identify_stream(f);
-        if (is.kind != OS_FILE || is.size >= sums_of(out)) /* a byte each at least: before memory is taken for them */
+        uint64_t size;
+        if (os_kind_of_stream(f, &size) != OS_FILE || size >= sums_of(out)) /* a byte each at least: before memory is taken for them */
             return f;
         error_set(err, "%s: the part is damaged or cut off", path);
         part_free(out);
