@@ -200,7 +200,7 @@ if heard TERM; then
     wait_until [ -e state ]
     kill -s TERM $!
     wait $!
-    check grep -Eq 'stopped by SIGTERM, at 0 of 16 samples per pixel, [0-9.]+ % of the pixels at 1$' stderr.txt
+    check grep -Eq 'stopped by SIGTERM, at 0 of 64 samples per pixel, [0-9.]+ % of the pixels at 1$' stderr.txt
     check [ -s caught.pfm ]
     expect 1 'state: stands in the middle of a block' "$program" merge --partial -o again.pfm state
 fi
@@ -241,22 +241,41 @@ if heard TERM; then
     same first.pfm early.pfm "written before --aov and after a signal"
     grep -q 'aov: not written' stderr.txt || check [ -s first.albedo.pfm ]
     no_temporaries "after a signal while --aov is made"
-    # In a long tile pass the first signal is answered at once, and lets it go on; the second ends the program.
+    # A signal in the first tile pass ends it: there is a picture, be it black.
+    "$program" render "$box" --integrator asbdpt -P select=bins -P restart=0 --spp 100000000 --quiet -j 1 --aov depth \
+        -o caught.pfm 2>stderr.txt &
+    two_temporaries() { [ "$(find . -name '.asbdpt-*' | wc -l)" = 2 ]; } # the second is there when the scene is loaded
+    rm -f caught.pfm
+    wait_until two_temporaries
+    sleep 0.2
+    kill -s TERM $!
+    wait $!
+    got=$?
+    [ $got = 143 ] || fault "a signal in the first tile pass: status $got"
+    check grep -q 'stopped by SIGTERM, at 0 of 100000000 samples per pixel$' stderr.txt
+    check [ -s caught.pfm ]
+    # The second signal ends the program, here while it writes to somebody who does not read.
     rm -f state caught.pfm
-    "$program" render "$box" --integrator asbdpt -P select=bins -P restart=0 --res 96x96 --spp 2000 --maxdepth 3 \
-        --quiet -j 1 --checkpoint state --interval 0.01 -o caught.pfm 2>stderr.txt &
+    mkfifo slow.pfm
+    sleep 100 <slow.pfm &
+    reader=$!
+    "$program" render "$box" --integrator pt --res 160x160 --spp 100000 --quiet -j 1 --checkpoint state \
+        --interval 0.01 -o slow.pfm -o caught.pfm 2>stderr.txt &
     wait_until [ -s state ]
     kill -s TERM $!
-    wait_until grep -q stopping stderr.txt
+    wait_until grep -q stopped stderr.txt
     check kill -s TERM $!
     wait $!
     got=$?
+    kill $reader
     [ $got = 143 ] || fault "two signals: status $got"
     check [ ! -e caught.pfm ]
     check grep -q 'asbdpt: stopping' stderr.txt
-    check [ "$(grep -c 'stopped' stderr.txt)" = 0 ]
     no_temporaries "after two signals"
 fi
+# A time that is over ends a block that would take long.
+expect 0 'at 0 of 64 samples per pixel, [0-9.]+ % of the pixels at 1$' \
+    "$program" render "$box" --integrator bdpt --res 1000x1000 -j 1 --time 0.1 -o caught.pfm
 # Writes that fail say so.
 (
     ulimit -f 1

@@ -282,6 +282,28 @@ static rgb all_strategies(struct bench *b, const struct chain_state *whole)
     return sum;
 }
 
+/* A chain that is told to stop while it looks for its start does not begin. */
+static bool at_once(void *context)
+{
+    ++*(int *)context;
+    return true;
+}
+
+static void test_no_start(struct test *t)
+{
+    struct scene scene;
+    struct bench b;
+    int asked = 0;
+    if (!bench_room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "mmlt", 0, &b))
+        return;
+    CHECK(t, chain_start(b.chain, 0) > 0, "a chain does not begin");
+    b.job.enough = at_once;
+    b.job.enough_context = &asked;
+    CHECK(t, chain_start(b.chain, 0) == 0 && asked == 1, "it begins after %d questions", asked);
+    bench_free(&b);
+    scene_free(&scene);
+}
+
 static void test_samples(struct test *t)
 {
     struct scene scene;
@@ -385,6 +407,7 @@ void test_chains(struct test *t)
     test_steps(t);
     test_follow(t);
     test_samples(t);
+    test_no_start(t);
     for (int i = 0; METHODS[i] != NULL; i++)
         test_stays(t, METHODS[i]);
     test_converges(t, METHODS, 2048);

@@ -175,7 +175,68 @@ static void blocks(struct test *t, const char *integrator, int size, int spp, in
 static void test_blocks(struct test *t)
 {
     blocks(t, "bdpt", 20, 6, 0);  /* four tiles */
-    blocks(t, "lt", 20, 150, 150); /* the first tile holds more splats than wait for the end of its pass */
+    blocks(t, "lt", 20, 600, 600); /* the first tile holds more splats than wait for the end of its pass */
+}
+
+/* --- stopping ---------------------------------------------------------------------------------------- */
+
+/* Says stop from the question number `most` on, or as soon as the film has splats. */
+struct stopper {
+    const struct film *film;
+    long asked, most;
+};
+
+static bool stop_at(void *context)
+{
+    struct stopper *s = context;
+    return ++s->asked >= s->most;
+}
+
+static bool stop_at_splats(void *context)
+{
+    struct stopper *s = context;
+    s->asked++;
+    return film_value(s->film, 3 * (8 * 16 + 8) + 1) > 0;
+}
+
+/* Every method asks before each sample, and stops when told to; the pass it was in is left out. */
+static void test_stop(struct test *t)
+{
+    struct scene scene;
+    struct film film;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 32, 32, &scene))
+        return;
+    for (const struct method *const *m = method_rows; *m != NULL; m++) {
+        struct stopper s = {&film, 0, 100};
+        const char *name = (*m)->name;
+        char way[128];
+        snprintf(way, sizeof way, "%s%s%s", name, (*m)->select != NULL ? " select=" : "",
+                 (*m)->select != NULL ? (*m)->select : "");
+        struct render_options o = {.integrator = set_method(&scene, way), .end = 32, .block = 32, .n_threads = 1,
+                                   .max_depth = 3, .stop = stop_at, .progress_context = &s};
+        render_film(t, &scene, &o, &film);
+        CHECK(t, s.asked >= s.most && s.asked < s.most + 4 * LONGEST_BLOCK && film.passes == 0 && film.iterations == 0,
+              "%s: told to stop at question %ld of %ld; %ld samples", way, s.most, s.asked, film.iterations);
+        film_free(&film);
+    }
+    scene_free(&scene);
+}
+
+/* But a pass some of whose splats are in the film already goes on to its end. */
+static void test_stop_late(struct test *t)
+{
+    struct scene scene;
+    struct film film;
+    struct stopper s = {&film, 0, 0};
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
+        return;
+    struct render_options o = {.integrator = "lt", .end = 600, .block = 600, .n_threads = 1, .max_depth = 5,
+                               .stop = stop_at_splats, .progress_context = &s};
+    render_film(t, &scene, &o, &film);
+    CHECK(t, s.asked < 16 * 16 * 600 && film.iterations == 600, "%ld questions, %ld samples", s.asked,
+          film.iterations);
+    film_free(&film);
+    scene_free(&scene);
 }
 
 /* --- Russian roulette -------------------------------------------------------------------------------- */
@@ -278,6 +339,8 @@ void test_render(struct test *t)
     test_tiles(t);
     test_agreement(t);
     test_blocks(t);
+    test_stop(t);
+    test_stop_late(t);
     test_roulette_defaults(t);
     test_crop(t);
     test_filters(t);

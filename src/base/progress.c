@@ -2,6 +2,7 @@
 
 #include "base/progress.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "base/number.h"
@@ -30,21 +31,32 @@ void progress_start(struct progress *p, bool quiet)
     p->note[0] = '\0';
     p->start = os_wall_seconds();
     p->last = p->start;
+    p->first_done = 0;
+}
+
+double progress_left(struct progress *p, double now, double done)
+{
+    if (p->first_done == 0 && done > 0) {
+        p->first = now;
+        p->first_done = done;
+    }
+    return p->first_done > 0 && now - p->first >= 2 ? (now - p->first) * (1 - done) / (done - p->first_done) : INFINITY;
 }
 
 void progress_update(struct progress *p, double done)
 {
-    double now = os_wall_seconds(), elapsed = now - p->start;
+    double now = os_wall_seconds(), seconds = progress_left(p, now, done);
     if (!p->shown || now - p->last < (p->bar ? 0.1 : 60))
         return;
     p->last = now;
-    char left[32] = "?";
-    if (done >= 0.01) /* of less it would be a guess */
-        progress_duration(elapsed / done - elapsed, left, sizeof left);
+    char left[32];
+    progress_duration(seconds, left, sizeof left);
     int bar = p->note[0] != '\0' ? BAR / 4 : BAR;
     if (p->bar)
         fprintf(stderr, "\r[%-*.*s] ", bar, (int)(done * bar), "====================");
-    fprintf(stderr, "%3d %%%s, %s left%s", (int)(done * 100), p->note, left, p->bar ? "      " : "\n");
+    bool known = seconds < INFINITY;
+    fprintf(stderr, "%3d %%%s%s%s%s%s", (int)(done * 100), p->note, known ? ", " : "", known ? left : "",
+            known ? " left" : "", p->bar ? "      " : "\n");
     fflush(stderr);
 }
 

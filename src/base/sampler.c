@@ -110,3 +110,15 @@ double sampler_number(struct sampler *s, enum decision d)
         play(s->tape, &u, 1);
     return u;
 }
+
+int64_t lattice_step(int64_t n)
+{
+    for (int64_t a = (int64_t)((double)n * 0.6180339887498949); a > 1; a--) {
+        int64_t x = n, y = a;
+        for (int64_t rest; y > 0; x = y, y = rest)
+            rest = x % y;
+        if (x == 1)
+            return a;
+    }
+    return n > 1;
+}

@@ -80,4 +80,8 @@ static inline void sampler_r2(int64_t i, double *u, double *v)
     *v = y - floor(y);
 }
 
+/* lattice_step: the number prime to n >= 1 that is next to n times the golden section from below; 0 for n = 1. Its
+ * first multiples modulo n lie evenly among 0 .. n-1. */
+int64_t lattice_step(int64_t n);
+
 #endif

@@ -109,20 +109,26 @@ static void save(struct keep *k)
 /* In place of a bar, or without the first character. */
 static const char STOPPING[] = "\rasbdpt: stopping, and writing what there is; once more to quit without\n";
 
+/* Is the time over, and so many seconds more? */
+static bool late(const struct keep *k, double more)
+{
+    return k->options->time > 0 && os_wall_seconds() - k->begun >= k->options->time + more;
+}
+
+/* A block under way has half a second to end. */
+static bool stop(void *context) { return interrupt_caught() != 0 || late(context, 0.5); }
+
 /* While the method learns, and after each tile pass. */
 static enum render_wish watch(void *context, double done)
 {
     struct keep *k = context;
     const struct keep_options *o = k->options;
-    double now = os_wall_seconds();
-    interrupt_defer(STOPPING + !k->bar.bar);
-    if (interrupt_caught() != 0)
+    if (stop(k))
         return RENDER_STOP;
     show(k, done);
-    if (o->checkpoint != NULL && now - k->saved >= o->interval)
+    if (o->checkpoint != NULL && os_wall_seconds() - k->saved >= o->interval)
         save(k);
-    k->late = o->time > 0 && now - k->bar.start >= o->time;
-    return k->late ? RENDER_END_BLOCK : RENDER_GO_ON;
+    return late(k, 0) ? RENDER_END_BLOCK : RENDER_GO_ON;
 }
 
 bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const struct scene *scene,
@@ -151,19 +157,19 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
     }
     render->first += film->iterations;
     render->progress = watch;
+    render->stop = stop;
     render->progress_context = k;
     progress_start(&k->bar, quiet);
     k->begun = k->saved = k->bar.start;
+    interrupt_defer(STOPPING + !k->bar.bar);
     return true;
 }
 
 static enum render_wish watch_after(void *context, double done)
 {
     struct keep *k = context;
-    double limit = k->options->time;
     progress_update(&k->bar, done);
-    return interrupt_caught() != 0                              ? RENDER_STOP
-           : limit > 0 && os_wall_seconds() - k->begun >= limit ? RENDER_END_BLOCK : RENDER_GO_ON;
+    return interrupt_caught() != 0 ? RENDER_STOP : late(k, 0) ? RENDER_END_BLOCK : RENDER_GO_ON;
 }
 
 void keep_after(struct keep *k, struct render_options *render)
@@ -200,9 +206,9 @@ bool keep_end(struct keep *k, bool ok, struct error *err)
     if (ok && signal != 0)
         fprintf(stderr, "asbdpt: stopped by %s, at %ld of %ld samples per pixel%s\n", os_signal_name(signal),
                 f->iterations, wanted, more);
-    else if (ok && k->late && f->iterations < wanted)
-        fprintf(stderr, "asbdpt: stopped after %.1f s, at %ld of %ld samples per pixel\n",
-                os_wall_seconds() - k->bar.start, f->iterations, wanted);
+    else if (ok && late(k, 0) && f->iterations < wanted)
+        fprintf(stderr, "asbdpt: stopped after %.1f s, at %ld of %ld samples per pixel%s\n",
+                os_wall_seconds() - k->begun, f->iterations, wanted, more);
     if (ok && k->bar.shown && f->half != NULL)
         say_noise(k);
     return ok && (k->options->checkpoint == NULL || save_film(k, err));

@@ -2,7 +2,8 @@
  *
  * A render ends early when its noise is below what was asked for (render/halves.h), or when its time is over, once its
  * block of samples is complete; if its method still learns, it ends that with what it has learnt and makes one block.
- * At a signal (base/interrupt.h) it ends between two tile passes: pixels may have different numbers of samples then.
+ * At a signal (base/interrupt.h), and if the block takes half a second more than the time, it ends with the tile passes
+ * that are complete: pixels may have different numbers of samples then.
  * Its film is saved from time to time (render/part.h), and goes on from there to the same bytes. Tests: test/keep.sh.
  */
 #ifndef ASBDPT_KEEP_H
@@ -18,7 +19,6 @@ struct keep {
     struct film *film;
     struct progress bar;
     double begun, saved; /* when the render was, and the last checkpoint: seconds of os_wall_seconds */
-    bool late;     /* the time is over */
 };
 
 /* keep_check: can the options be as they are, and the checkpoint's file be written? False with a message. */

@@ -144,7 +144,7 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
         p.bins->traced = 0;
         for (int i = 0; i < p.bins->n_elements; i++)
             replace(&p, &p.bins->element[i], pass->first);
-        for (long i = pass->first; i < pass->end; i++)
+        for (long i = pass->first; i < pass->end && !pass_enough(pass->job); i++)
             render_iteration(&p, start, i);
     }
 }
@@ -162,6 +162,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
     const struct bins_state *s = out->state;
     (void)job;
     out->size.block = s->restart > 0 ? s->restart : INT_MAX;
+    out->size.tile = out->size.block > LONGEST_BLOCK ? 1 : DEFAULT_TILE_SIZE; /* pixels share nothing */
 }
 
 #define AT(member) offsetof(struct bins_state, member)

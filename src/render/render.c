@@ -30,9 +30,9 @@ struct run {
     int64_t begun;    /* tile passes of the first block that the film holds already */
     int64_t n_passes; /* of all blocks, with these */
     enum render_wish wish; /* the most urgent so far, of progress and of the noise */
-    double learning;       /* share of all work that learning has been */
     struct workspace *work; /* [n_threads] */
     struct tile *tile;      /* [n_slots] */
+    struct under_way *pass; /* [n_slots] */
     struct parallel_jobs parallel; /* the passes that the film does not hold yet, in their order */
 };
 
@@ -40,16 +40,18 @@ struct run {
 struct under_way {
     struct run *run;
     int64_t number;
+    bool taken; /* some of its splats are in the film already: it must be rendered to its end */
 };
 
-/* Samples of a block that may have any length: few enough for a render to be stopped soon. A power of two divides the
- * runs of halves. */
+/* Samples of a block that may have any length: few enough for a render to be stopped soon, and for the splats of a pass
+ * to wait for its end. A power of two divides the runs of halves. */
 enum { BLOCK_SAMPLES = 1 << 17 };
 
-static int choose_block(struct pixel_rect film)
+static int choose_block(const struct render_job *job, int tile)
 {
     int block = LONGEST_BLOCK;
-    while (block > 1 && rect_pixels(film) > (size_t)(BLOCK_SAMPLES / block))
+    while (block > 1 && (rect_pixels(job->film_rect) > (size_t)(BLOCK_SAMPLES / block) ||
+                         tile * tile * block > TILE_FULL / (job->max_depth + 1)))
         block /= 2;
     return block;
 }
@@ -86,20 +88,30 @@ static void ask_progress(struct run *r, double share)
 /* More splats than a tile holds go into the film before their pass is complete, when it is the next to do so. */
 static void take_splats(void *context, struct tile *tile)
 {
-    const struct under_way *p = context;
-    if (parallel_await(&p->run->parallel, p->number))
+    struct under_way *p = context;
+    if ((p->taken = parallel_await(&p->run->parallel, p->number)))
         film_take_splats(p->run->film, tile);
     tile->n_splats = 0;
+}
+
+static bool enough(void *context)
+{
+    const struct under_way *p = context;
+    const struct render_options *o = p->run->options;
+    return !p->taken && o->stop != NULL && o->stop(o->progress_context);
 }
 
 static void run_pass(void *context, int64_t number, int slot, int thread)
 {
     struct run *r = context;
-    struct under_way this = {r, number};
+    struct render_job job = r->job;
     const struct observers *others = r->options->observers;
     const struct observer planes = planes_observer(r->film->planes);
-    struct tile_pass pass = {.job = &r->job, .tile = &r->tile[slot], .work = &r->work[thread]};
+    struct tile_pass pass = {.job = &job, .tile = &r->tile[slot], .work = &r->work[thread]};
     struct observer other;
+    r->pass[slot] = (struct under_way){r, number, false};
+    job.enough = enough;
+    job.enough_context = &r->pass[slot];
     if (planes.walked != NULL || planes.joined != NULL)
         pass.observer = &planes;
     if (others != NULL) {
@@ -115,7 +127,7 @@ static void run_pass(void *context, int64_t number, int slot, int thread)
     if (r->film->half != NULL)
         pass.tile->first_half = pass.first / r->film->run % 2 == 0;
     pass.tile->full = take_splats;
-    pass.tile->context = &this;
+    pass.tile->context = &r->pass[slot];
     r->prepared.method->render(&r->prepared, &pass);
 }
 
@@ -124,6 +136,8 @@ static bool merge_pass(void *context, int64_t number, int slot)
     struct run *r = context;
     int64_t done = r->begun + number + 1;
     long first, end;
+    if (enough(&r->pass[slot])) /* the pass may have ended early */
+        return false;
     block_range(r, (done - 1) / tiles_per_block(r), &first, &end);
     r->film->block.iterations = end - first;
     film_merge_tile(r->film, &r->tile[slot]);
@@ -135,7 +149,7 @@ static bool merge_pass(void *context, int64_t number, int slot)
         if (good_enough(r) && r->wish == RENDER_GO_ON)
             r->wish = RENDER_END_BLOCK;
     }
-    ask_progress(r, r->learning + (1 - r->learning) * (double)done / (double)r->n_passes);
+    ask_progress(r, (double)done / (double)r->n_passes);
     return r->wish != RENDER_STOP && !(r->wish == RENDER_END_BLOCK && r->film->passes == 0);
 }
 
@@ -148,6 +162,7 @@ static void run_all(struct run *r)
     r->parallel = (struct parallel_jobs){.n_jobs = r->n_passes - r->begun, .n_threads = r->job.n_threads,
                                          .n_slots = n_slots, .context = r, .work = run_pass, .commit = merge_pass};
     r->tile = mem_alloc((size_t)n_slots, sizeof *r->tile);
+    r->pass = mem_alloc((size_t)n_slots, sizeof *r->pass);
     for (int i = 0; i < n_slots; i++)
         r->tile[i].planes = r->film->planes;
     r->work = workspaces_new(r->job.n_threads, r->job.max_depth);
@@ -160,6 +175,7 @@ static void run_all(struct run *r)
     for (int i = 0; i < n_slots; i++)
         tile_free(&r->tile[i]);
     free(r->tile);
+    free(r->pass);
 }
 
 bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
@@ -173,14 +189,11 @@ bool render_prepare(const struct scene *scene, const struct render_options *opti
     return m != NULL && parameters_read(scene, m, options->max_depth, job, err) && method_prepare(m, job, out, err);
 }
 
-/* Learning counts as work, a sub-path as a sample. */
 static bool watch(void *context, double traced)
 {
     struct run *r = context;
-    const struct render_options *o = r->options;
-    double samples = pixel_light_count(&r->job) * (double)(o->end - o->first);
-    r->learning = fmax(r->learning, traced / (traced + samples)); /* each pass counts its own; a bar never goes back */
-    ask_progress(r, r->learning);
+    (void)traced;
+    ask_progress(r, 0);
     return r->wish == RENDER_GO_ON;
 }
 
@@ -215,7 +228,7 @@ static bool cut(struct run *r, struct error *err)
 {
     struct pass_size *size = &r->prepared.size;
     if (size->block == 0)
-        size->block = r->options->block > 0 ? r->options->block : choose_block(r->job.film_rect);
+        size->block = r->options->block > 0 ? r->options->block : choose_block(&r->job, size->tile);
     r->tiling = tiling_of(r->job.film_rect, size);
     r->film->run = halves_run(size->block);
     r->begun = r->film->passes;

@@ -45,10 +45,13 @@ struct render_options {
     struct gate gate;             /* only light that has come so far (scene/tile.h); its end 0: all */
     const struct observers *observers; /* who looks on at every path; NULL: nobody */
     /* Called after each tile pass with the share of the work done, in (0,1], one call at a time and while nothing else
-     * touches the film. NULL: not called. While the method learns it is called, too, learning being a part of the work;
-     * if it is not to go on then, that ends with what has been learnt, by which one block is rendered, or at
-     * RENDER_STOP one tile pass, if the film is empty. */
+     * touches the film. NULL: not called. While the method learns it is called, too, with 0; if it is not to go on
+     * then, that ends with what has been learnt, by which one block is rendered, or at RENDER_STOP one tile pass, if
+     * the film is empty. */
     enum render_wish (*progress)(void *context, double done);
+    /* Asked before every sample, by any thread, with the same context: is the render to stop at once, even without the
+     * tile passes under way? Once true, always. NULL: never. */
+    bool (*stop)(void *context);
     void *progress_context;
 };
 
@@ -76,12 +79,13 @@ bool render_prepare(const struct scene *scene, const struct render_options *opti
 /* planes_observer: what adds to the tile of a sample the planes that it has; all NULL if there are none. */
 struct observer planes_observer(struct planes planes);
 
-/* tiling_of: a film in tiles as a method wants them. tiling_count: how many; tiling_rect: number 0 <= i < count, row by
- * row. */
+/* tiling_of: a film in tiles as a method wants them. tiling_count: how many; tiling_rect: number 0 <= i < count. The
+ * first few lie all over the film: they show what it is of, and how long the others will take. */
 struct tiling {
     struct pixel_rect film;
     struct pass_size size;
-    int nx, ny; /* tiles */
+    int nx, ny;   /* tiles */
+    int64_t step; /* from one to the next, row by row */
 };
 struct tiling tiling_of(struct pixel_rect film, const struct pass_size *size);
 static inline int64_t tiling_count(const struct tiling *t) { return (int64_t)t->nx * t->ny; }

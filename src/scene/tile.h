@@ -66,7 +66,7 @@ static inline int plane_count(struct planes p) { return 1 + p.lights + p.alpha; 
 
 /* So many splats do not wait for the end of a pass: paths may have a thousand bounces, a pass any number of
  * iterations. */
-enum { TILE_FULL = 1 << 16 };
+enum { TILE_FULL = 1 << 18 };
 
 /* What a tile pass produces. Reused from pass to pass. */
 struct tile {

@@ -25,7 +25,7 @@ struct render_job {
      * that. False: it is to come to an end, with what it has. NULL: nobody watches. */
     bool (*watch)(void *context, double traced);
     void *watch_context;
-    bool (*enough)(void *context); /* is the rest of a tile pass not wanted, from now on? NULL: all of it is */
+    bool (*enough)(void *context); /* see pass_enough; NULL: all of every pass is wanted */
     void *enough_context;
 };
 
@@ -58,14 +58,20 @@ struct tile_pass {
     const struct observer *observer; /* who looks on (observer.h); NULL: nobody */
 };
 
-/* pass_pixel: the pass' pixel number i in row order; false if there are not so many, or the first are enough. */
+/* pass_enough: is the rest of a tile pass not wanted? Every method asks before each of its samples. After the first yes
+ * the answer stays yes, and nobody looks at what the tile holds.
+ * pass_pixel: the pass' pixel number i in row order; false if there are not so many, or the first are enough. */
+static inline bool pass_enough(const struct render_job *job)
+{
+    return job->enough != NULL && job->enough(job->enough_context);
+}
+
 static inline bool pass_pixel(const struct tile_pass *pass, int i, int *x, int *y)
 {
-    const struct render_job *job = pass->job;
     int width = rect_width(pass->rect);
     *x = pass->rect.x0 + i % width * (pass->rect.skip_x + 1);
     *y = pass->rect.y0 + i / width * (pass->rect.skip_y + 1);
-    return *y < pass->rect.y1 && !(i > 0 && job->enough != NULL && job->enough(job->enough_context));
+    return *y < pass->rect.y1 && !(i > 0 && pass_enough(pass->job));
 }
 
 #endif

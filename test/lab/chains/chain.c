@@ -100,6 +100,8 @@ double chain_start(struct chain *c, double u)
     int n = c->all->lengths * c->all->each;
     c->before[0] = 0;
     for (int i = 0; i < n; i++) {
+        if (pass_enough(c->job))
+            return c->b = 0;
         chain_candidate(c, i);
         c->before[i + 1] = c->before[i] + c->next.I;
     }
@@ -151,7 +153,7 @@ void chain_render(const struct preparation *m, const struct tile_pass *pass)
     start(c, pass);
     if (!(c->b > 0))
         return;
-    for (; n > 0; n--) {
+    for (; n > 0 && !pass_enough(c->job); n--) {
         double a = chain_propose(c);
         held += 1 - a;
         if (rng_uniform(&c->rng) < a) {

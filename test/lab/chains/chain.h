@@ -91,7 +91,7 @@ void chain_swap(struct chain *c);
 void chain_candidate(struct chain *c, long i);
 
 /* chain_start: make the chain's independent states, and `now` the one that u in [0,1) finds in the running sum of their
- * I. Returns b; 0: they were all dark, and there is no chain. */
+ * I. Returns b; 0: they were all dark, or it was enough, and there is no chain. */
 double chain_start(struct chain *c, double u);
 
 /* For rows of the table: prepare with these rules, render, and give back. The scratch of a method is a struct chain. */

@@ -58,31 +58,19 @@ static void rank(struct ranked *r, int i, const struct vertex *path, int n, int 
     r[i].number = i;
 }
 
-/* A: the number prime to n that is next to n times the golden section from below; 0 for n = 1. */
-static int lattice_step(int n)
-{
-    for (int a = (int)(n * 0.6180339887498949); a > 1; a--) {
-        int x = n, y = a;
-        for (int rest; y > 0; x = y, y = rest)
-            rest = x % y;
-        if (x == 1)
-            return a;
-    }
-    return n > 1;
-}
-
 /* All strategies of eye sub-paths of t vertices, each with a shift of its own. */
 static void connect_length(const struct light_pool *pool, struct ranked **column, struct pooled_pixel *pixel, int n,
                            struct ranked *row, int t, const double *shift, bool throughput)
 {
     const struct choice choice = {1.0 / pool->n, 1};
-    int step = lattice_step(n), most = pixel[0].sample.max_depth + 2 - t;
+    int64_t step = lattice_step(n);
+    int most = pixel[0].sample.max_depth + 2 - t;
     for (int i = 0; i < n; i++)
         rank(row, i, pixel[i].eye, pixel[i].n, t, false, throughput);
     qsort(row, (size_t)n, sizeof *row, by_key);
     for (int i = 0; i < n && row[i].key < INFINITY; i++)
         for (int s = 2; s <= most; s++) {
-            double u = (double)((long)i * step % n) / n + shift[s];
+            double u = (double)(i * step % n) / n + shift[s];
             int j = (int)((u - floor(u)) * pool->n), k = column[s][j < pool->n ? j : pool->n - 1].number;
             if (pool->length[k] >= s)
                 pixel_sum_pair(&pixel[row[i].number].sample, &light_pool_path(pool, k)[s - 1], s,
@@ -112,7 +100,7 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
         }
         qsort(column[s], (size_t)pool->n, sizeof *column[s], by_key);
     }
-    for (int t = 2; t <= depth; t++) {
+    for (int t = 2; t <= depth && !pass_enough(pass->job); t++) {
         for (int s = 2; s <= depth; s++)
             shift[s] = sampler_number(&pixel[0].draws, DRAW_LIGHT_END);
         connect_length(pool, column, pixel, n, row, t, shift, throughput);

@@ -202,10 +202,10 @@ static void aggregate_all(const struct pathgraph_state *s, const struct pixel_sa
 
 /* The graph, from the last vertices to the first; longest: vertices of the longest eye sub-path. */
 static void sweep(const struct pathgraph_state *s, struct pooled_pixel *pixel, struct node **of, int n, int longest,
-                  struct arena *arena, vec3 shift)
+                  const struct tile_pass *pass, vec3 shift)
 {
-    struct node **level = arena_alloc(arena, (size_t)n * sizeof *level);
-    for (int t = longest; t >= 2; t--) {
+    struct node **level = arena_alloc(&pass->work->arena, (size_t)n * sizeof *level);
+    for (int t = longest; t >= 2 && !pass_enough(pass->job); t--) {
         int here = 0;
         for (int i = 0; i < n; i++)
             if (t <= pixel[i].n && pixel[i].eye[t - 1].kind == VERTEX_SURFACE)
@@ -238,6 +238,8 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     int longest = 0;
     (void)scratch;
     for (int i = 0; i < n; i++) {
+        if (pass_enough(pass->job))
+            return;
         struct pooled_pixel *p = &pixel[i];
         of[i] = arena_alloc(arena, (size_t)p->n * sizeof **of);
         for (int t = 1; t <= p->n; t++) {
@@ -252,7 +254,7 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     shift.x = sampler_number(&pixel[0].draws, DRAW_ORDER);
     shift.y = sampler_number(&pixel[0].draws, DRAW_ORDER);
     shift.z = sampler_number(&pixel[0].draws, DRAW_ORDER);
-    sweep(s, pixel, of, n, longest, arena, shift);
+    sweep(s, pixel, of, n, longest, pass, shift);
     for (int i = 0; i < n; i++)
         if (pixel[i].n >= 2)
             add_pixel(&pixel[i], &of[i][1]);

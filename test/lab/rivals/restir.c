@@ -104,6 +104,8 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
         pixel_sum_eye(&pixel[i].sample, pixel[i].eye, pixel[i].n);
     }
     for (int i = 0; i < n; i++) {
+        if (pass_enough(pass->job))
+            return;
         int near[MOST_NEIGHBOURS + 1], found = reuse_neighbours(pixel, n, i, s->neighbours, near);
         if (found > 0)
             reuse(pixel, all, near, found);

@@ -209,10 +209,12 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     int *found = arena_alloc(arena, (size_t)n * sizeof *found);
     (void)scratch;
     for (int i = 0; i < n; i++) {
+        if (pass_enough(pass->job))
+            return;
         found[i] = reuse_neighbours(pixel, n, i, s->neighbours, &near[i * (s->neighbours + 1)]);
         all[i] = resample(&pixel[i], found[i] > 1);
     }
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n && !pass_enough(pass->job); i++)
         if (all[i].shares)
             reuse(pixel, all, &near[i * (s->neighbours + 1)], found[i]);
 }

@@ -9,13 +9,13 @@ static void render_iteration(const struct preparation *m, const struct tile_pass
                              long iteration)
 {
     struct arena *arena = &pass->work->arena;
-    int n = (int)rect_pixels(pass->rect);
+    int n = 0;
     arena_reset(arena);
-    struct pooled_pixel *all = arena_alloc(arena, (size_t)n * sizeof *all);
-    for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
-        all[i] = pooled_begin(m, pass, x, y, i, iteration);
-        size_t size = (size_t)all[i].n * sizeof *all[i].eye;
-        all[i].eye = memcpy(arena_alloc(arena, size), all[i].eye, size);
+    struct pooled_pixel *all = arena_alloc(arena, rect_pixels(pass->rect) * sizeof *all);
+    for (int x, y; pass_pixel(pass, n, &x, &y); n++) {
+        all[n] = pooled_begin(m, pass, x, y, n, iteration);
+        size_t size = (size_t)all[n].n * sizeof *all[n].eye;
+        all[n].eye = memcpy(arena_alloc(arena, size), all[n].eye, size);
     }
     connect_all(pass->work->scratch, m->state, pass, all, n);
     for (int i = 0; i < n; i++)

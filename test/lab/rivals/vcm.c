@@ -184,7 +184,7 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
 {
     struct vcm *m = scratch;
     (void)state;
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < n && !pass_enough(pass->job); i++) {
         struct pooled_pixel *p = &pixel[i];
         size_t size = (size_t)p->n * sizeof *p->eye;
         struct vertex *eye = memcpy(arena_alloc(&pass->work->arena, size), p->eye, size);
