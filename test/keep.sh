@@ -200,7 +200,7 @@ if heard TERM; then
     wait_until [ -e state ]
     kill -s TERM $!
     wait $!
-    check grep -Eq 'stopped by SIGTERM, at 0 of 64 samples per pixel, [0-9.]+ % of the pixels at 1$' stderr.txt
+    check grep -Eq 'stopped by SIGTERM, at 0 of 16 samples per pixel, [0-9.]+ % of the pixels at 1$' stderr.txt
     check [ -s caught.pfm ]
     expect 1 'state: stands in the middle of a block' "$program" merge --partial -o again.pfm state
 fi

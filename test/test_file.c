@@ -223,6 +223,19 @@ static void test_duration(struct test *t)
     }
 }
 
+/* What comes before the first of the work, as learning does, does not count; nor is there a guess at first. */
+static void test_left(struct test *t)
+{
+    struct progress p;
+    progress_start(&p, true);
+    CHECK(t, progress_left(&p, 10, 0) == INFINITY && progress_left(&p, 20, 0.25) == INFINITY &&
+                 progress_left(&p, 21, 0.25) == INFINITY, "too early for a guess");
+    for (int i = 2; i <= 60; i++) {
+        double left = progress_left(&p, 20 + i, 0.25 + i / 80.0);
+        CHECK(t, fabs(left - (60 - i)) < 1e-9, "%g seconds are left, not %d", left, 60 - i);
+    }
+}
+
 /* --- JSON -------------------------------------------------------------------------------------------- */
 
 static void test_json(struct test *t)
@@ -302,6 +315,7 @@ void test_file(struct test *t)
     test_names(t);
     test_json(t);
     test_duration(t);
+    test_left(t);
     test_written(t);
     test_written_bytes(t);
     test_unwritable(t);

@@ -80,7 +80,7 @@ static bool accepted(const struct fixture *f, const uint8_t *data, size_t n, int
 /* Digits 0, -1, 63, 64, -65 and 2^62, of which the last has nine bytes. */
 static void test_bytes(struct test *t)
 {
-    static const char TEXT[] = "asbdpt part 6\nsamples 2 7\ndone 3 1\nleft-out 4\nhalves 0\nsize 1 1, planes 0 0\n"
+    static const char TEXT[] = "asbdpt part 7\nsamples 2 7\ndone 3 1\nleft-out 4\nhalves 0\nsize 1 1, planes 0 0\n"
                                "film 1 1, window 0 0\n"
                                "scale 1\nspp 8\nversion 0\ncheck ";
     static const uint8_t SUMS[] = {255, 7,   0,   1,   126, 12,  128, 1,   129, 1,
@@ -225,7 +225,7 @@ static void forge_lines(struct rng *r, const char *const *line, int n, char *out
 
 static void test_forged(struct test *t)
 {
-    static const char *const LINES[] = {"asbdpt part 6", "samples 2 7", "done 3 1", "left-out 4", "halves 0",
+    static const char *const LINES[] = {"asbdpt part 7", "samples 2 7", "done 3 1", "left-out 4", "halves 0",
                                         "size 4 3, planes 0 0", "film 4 3, window 0 0", "scale 1", "spp 8",
                                         "version 0", "seed 1"};
     static const char SAME[] = "\nsize 4 3, planes 0 0\nfilm 4 3, window 0 0\nscale 1\nspp 8\n"

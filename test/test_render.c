@@ -55,6 +55,20 @@ static void test_tiles(struct test *t)
         }
 }
 
+/* The first tiles lie all over the film: among any 16 that follow each other each quarter has 3 to 5. */
+static void test_order(struct test *t)
+{
+    const struct pass_size size = {.tile = 16, .spread = 1};
+    const struct tiling tiling = tiling_of((struct pixel_rect){0, 0, 320, 192, 0, 0}, &size);
+    for (int first = 0; first < tiling_count(&tiling); first += 16) {
+        int n[4] = {0, 0, 0, 0};
+        for (int i = first; i < first + 16 && i < tiling_count(&tiling); i++)
+            n[tiling_rect(&tiling, i).y0 / 48]++;
+        CHECK(t, first + 16 > tiling_count(&tiling) || (n[0] > 2 && n[1] > 2 && n[2] > 2 && n[3] > 2),
+              "tiles %d to %d: %d, %d, %d and %d in the quarters of the film", first, first + 15, n[0], n[1], n[2], n[3]);
+    }
+}
+
 /* Lamps on one side of a wall, the camera on the other: no strategy may see through it. */
 static const char WALL[] =
     "LookAt 0 2 -4  0 .5 -1  0 1 0 Camera \"perspective\" \"float fov\" 60\n"
@@ -208,15 +222,11 @@ static void test_stop(struct test *t)
         return;
     for (const struct method *const *m = method_rows; *m != NULL; m++) {
         struct stopper s = {&film, 0, 100};
-        const char *name = (*m)->name;
-        char way[128];
-        snprintf(way, sizeof way, "%s%s%s", name, (*m)->select != NULL ? " select=" : "",
-                 (*m)->select != NULL ? (*m)->select : "");
-        struct render_options o = {.integrator = set_method(&scene, way), .end = 32, .block = 32, .n_threads = 1,
+        struct render_options o = {.integrator = set_method(&scene, method_name(*m)), .end = 32, .block = 32, .n_threads = 1,
                                    .max_depth = 3, .stop = stop_at, .progress_context = &s};
         render_film(t, &scene, &o, &film);
         CHECK(t, s.asked >= s.most && s.asked < s.most + 4 * LONGEST_BLOCK && film.passes == 0 && film.iterations == 0,
-              "%s: told to stop at question %ld of %ld; %ld samples", way, s.most, s.asked, film.iterations);
+              "%s: told to stop at question %ld of %ld; %ld samples", method_name(*m), s.most, s.asked, film.iterations);
         film_free(&film);
     }
     scene_free(&scene);
@@ -337,6 +347,7 @@ void test_render(struct test *t)
     all_see(t, EMPTY, rgb_make(.25, .5, .75));
     all_see(t, WALL, rgb_black());
     test_tiles(t);
+    test_order(t);
     test_agreement(t);
     test_blocks(t);
     test_stop(t);

@@ -35,7 +35,7 @@ const struct option RENDER_OPTIONS[] = {
     {"--gate", "L0:L1", OPTION_LENGTHS, AT(gate), 0, INFINITY,
      .help = "only light whose way from lamp to lens is from L0 to below L1 long, in scene units; L1 may be inf"},
     {"--time", "TIME", OPTION_TIME, AT(keep.time), 1e-9, 1e9,
-     .help = "stop after so long, and write what there is"},
+     .help = "stop rendering so long after loading, within a second, and write what there is"},
     {"--noise", "X", OPTION_NUMBER, AT(keep.noise[NOISE_RELATIVE]), 1e-9, 1e9,
      .help = "stop when the noise is below X of the brightness around, e.g. 0.05; asked every 64 samples"},
     {"--noise8", "X", OPTION_NUMBER, AT(keep.noise[NOISE_8_BIT]), 1e-9, 1e9,

@@ -14,7 +14,7 @@
 #include "base/os.h"
 #include "image/zlib.h"
 
-static const char MAGIC[] = "asbdpt part 6\n";
+static const char MAGIC[] = "asbdpt part 7\n";
 enum { MOST_TEXT = 1 << 20, BUFFER = 1 << 16, EMPTY = 255, LONGEST_SUM = 1 + 10 * EXACT_DIGITS };
 
 /* Of one plane; of all; with half the picture's samples; and with the splats of a block under way. */

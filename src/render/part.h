@@ -2,7 +2,7 @@
  *
  * A file begins with lines of text, each ended by a line feed:
  *
- *     asbdpt part 6                    the format and its version
+ *     asbdpt part 7                    the format and its version
  *     samples A B                      samples A .. B-1 of each pixel are to be in the file when it is complete,
  *     done N P                         the first N of them are, and P tile passes of the next block
  *     left-out K                       contributions that were not finite or too large
