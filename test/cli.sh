@@ -472,6 +472,12 @@ check cmp -s a.pfm b.pfm
 check [ "$(od -An -tu1 -j25 -N1 a.png | tr -d ' ')" = 6 ] # RGB and alpha
 expect 2 'weights 1,2: expected 3 numbers' "$program" convert a.pfm sum.pfm a.pfm --weights 1,2 -o b.pfm
 expect 2 'weights 1,nan: expected 2 numbers' "$program" convert a.pfm sum.pfm --weights 1,nan -o b.pfm
+expect 2 'weights nan: expected 1 number from -1e[+]30 to 1e[+]30$' "$program" convert a.pfm --weights nan -o b.pfm
+# Halfs end at 65504, which is said.
+printf 'PF\n1 1\n-1\n\000\120\303\107\000\000\200\077\000\120\303\307' >far.pfm # 1e5 1 -1e5
+expect 0 'far.exr: 2 values are beyond 65504, .* ends in .float.exr' "$program" convert far.pfm -o far.exr
+expect 0 '^wrote far.float.exr$' "$program" convert far.pfm -o far.float.exr
+check [ "$(grep -c warning stderr.txt)" = 0 ]
 expect 1 'is 16x16, the pictures before it 24x16|whole.pfm is ' "$program" convert a.pfm whole.pfm -o b.pfm
 {
     echo WorldBegin
@@ -586,7 +592,12 @@ for nan in nan corner; do
         check grep -q '^verdict: DIFFER' stdout.txt
     done
 done
-expect 1 'rmse .* is more than 1' "$lab" compare nan.pfm nan.pfm --max-rmse 1
+expect 1 'nan.pfm: NaN or infinite values: 2592$' "$lab" compare nan.pfm nan.pfm --max-rmse 1
+printf 'PF\n1 1\n-1\n\000\000\300\177\000\000\200\077\000\000\200\077' >some.pfm # NaN 1 1
+expect 1 'some.pfm: NaN or infinite values: 1$' "$lab" compare some.pfm some.pfm --max-rmse 1
+expect 0 '' "$lab" info some.pfm
+check grep -q '^R  *1 NaN or infinite$' stdout.txt
+check grep -q '^G  *1 to 1, mean 1$' stdout.txt
 expect 0 '' "$lab" compare nan.pfm nan.pfm --json
 check grep -q '"mean_ratio": null, "nonfinite": 2592,' stdout.txt
 expect 1 'same size' "$lab" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \

@@ -150,6 +150,17 @@ static void test_many(struct test *t)
     film_init(&many, render_crop(&scene), scene.width, scene.height);
     double *sum = mem_alloc(N * 3 * rect_pixels(many.rect), sizeof *sum);
     CHECK(t, gates_render(&scene, &o, &gates, &many, sum, &err), "%s", err.text);
+    double all[3 * N] = {0};
+    film_init(&one, render_crop(&scene), scene.width, scene.height);
+    CHECK(t, gates_total(&scene, &o, &gates, &one, all, &err), "%s", err.text);
+    film_free(&one);
+    for (size_t i = 0; i < N; i++) {
+        double added = 0;
+        for (size_t k = 0; k < rect_pixels(many.rect); k++)
+            added += sum[3 * (i * rect_pixels(many.rect) + k)];
+        CHECK(t, added > 0 && fabs(all[3 * i] / added - 1) < 1e-9, "gate %d brings %g, its pixels %g", (int)i,
+              all[3 * i], added);
+    }
     render_gate(t, &scene, o, 0, INFINITY, &one);
     CHECK(t, films_equal(&many, &one), "the endless gate has another picture");
     film_free(&one);

@@ -131,6 +131,17 @@ static void test_stored(struct test *t)
           "means of 2 x 2 pixels");
     CHECK(t, r.noise8 == 0.25 && r.mean_error == 0.001, "noise %g, %g", r.noise8, r.mean_error);
     reference_free(&r);
+    pixels[7] = NAN;
+    image_write(path, 4, 4, pixels, &err);
+    CHECK(t, !reference_find(path, "", "room", &r, &err) && strstr(err.text, "NaN") != NULL, "NaN is no reference");
+    pixels[7] = 1;
+    image_write(path, 4, 4, pixels, &err);
+    snprintf(path, sizeof path, "%s/room.txt", test_tmp(t));
+    f = fopen(path, "w");
+    fputs("files 1 2\n", f);
+    fclose(f);
+    CHECK(t, !reference_find(test_tmp(t), "", "room", &r, &err) && strstr(err.text, "damaged") != NULL,
+          "a picture of another hash is a reference");
     CHECK(t, !reference_find("no-such-file.pfm", "", "room", &r, &err), "what was given is needed");
     CHECK(t, reference_find(NULL, "nowhere/room.pbrt", "no-such-room", &r, &err) && r.pixels == NULL, "none is found");
 }

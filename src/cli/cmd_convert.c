@@ -88,7 +88,9 @@ static float *add_up(const struct convert_options *o, int *width, int *height, s
     bool ok = true;
     for (int i = 0; ok && i < o->in.n; i++)
         ok = (text == NULL || next_weight(&text, i + 1 == o->in.n, &weight) ||
-              error_usage(err, "--weights %s: expected %d numbers with commas between them", o->weights, o->in.n)) &&
+              error_usage(err, "--weights %s: expected %d number%s from -%g to %g%s", o->weights, o->in.n,
+                          o->in.n == 1 ? "" : "s", NUMBER_MAX, NUMBER_MAX,
+                          o->in.n == 1 ? "" : ", with commas between them")) &&
              add_picture(o->in.item[i], weight, &sum, width, height, about, err);
     size_t n = ok ? 3 * (size_t)*width * (size_t)*height : 0;
     float *out = ok ? mem_alloc(n, sizeof *out) : NULL;

@@ -8,6 +8,7 @@
 #include "base/bits.h"
 #include "base/mem.h"
 #include "base/os.h"
+#include "image/exr.h"
 #include "image/formats.h"
 
 struct format {
@@ -104,9 +105,23 @@ bool image_create(const char *path, struct file_output *out, struct error *err)
     return error_set(err, "%s: a picture is nothing for a terminal; send it into a file or another program", path);
 }
 
+/* Halfs end at HALF_MAX. */
+static void warn_of_halfs(const char *path, const struct raster *r)
+{
+    long cut = 0;
+    for (size_t i = 0; i < 3 * (size_t)r->width * (size_t)r->height; i++)
+        cut += isfinite(r->pixels[i]) && fabsf(r->pixels[i]) > HALF_MAX;
+    if (cut > 0)
+        fprintf(stderr, "asbdpt: warning: %s: %ld values are beyond %d, the most that half floats hold, and were cut to "
+                "it; a name that ends in .float.exr keeps them\n", path, cut, HALF_MAX);
+}
+
 bool image_finish(struct file_output *f, const struct raster *r, struct error *err)
 {
-    format_to_write(f->path)->write(f->stream, r);
+    const struct format *format = format_to_write(f->path);
+    format->write(f->stream, r);
+    if (format->write == exr_write_half)
+        warn_of_halfs(f->path, r);
     return file_commit(f, err);
 }
 

@@ -26,7 +26,7 @@ static const struct option OPTIONS[] = {
     {"--percentile", "P", OPTION_NUMBER, AT(percentile), 1, 100, .with = "--heatmap",
      .help = "or for this percentile of all errors (default 99)"},
     {"--max-rmse", "X", OPTION_NUMBER, AT(max_rmse), 1e-30, 1e30,
-     .help = "exit with status 1 if rmse is larger, or no number"},
+     .help = "exit with status 1 if rmse is larger, or if a value is NaN or infinite"},
     {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
     {.name = NULL},
 };
@@ -97,6 +97,8 @@ static bool compare_files(const struct compare_options *o, struct error *err)
         print(&d, o->json);
         ok = !mapped || write_heatmap(o, &map, x, r, w1, h1, err);
         mapped = false;
+        if (ok && o->max_rmse > 0 && d.nonfinite > 0)
+            ok = error_set(err, "%s and %s: NaN or infinite values: %ld", o->image, o->reference, d.nonfinite);
         if (ok && o->max_rmse > 0 && !(d.rmse <= o->max_rmse))
             ok = error_set(err, "%s and %s: rmse %.6g is more than %.6g", o->image, o->reference, d.rmse, o->max_rmse);
     }

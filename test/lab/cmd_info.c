@@ -128,8 +128,11 @@ static void print_channel(const float *value, int channel, long pixels)
         sum += v;
         n++;
     }
-    printf("%-13c %.6g to %.6g, mean %.6g", "RGB"[channel], least, most, sum / (double)n);
-    printf(n < pixels ? "; %ld NaN or infinite\n" : "\n", pixels - n);
+    printf("%-13c ", "RGB"[channel]);
+    if (n > 0)
+        printf("%.6g to %.6g, mean %.6g%s", least, most, sum / (double)n, n < pixels ? "; " : "\n");
+    if (n < pixels)
+        printf("%ld NaN or infinite\n", pixels - n);
 }
 
 /* The format's, if it is the name of a picture; else NULL. */

@@ -54,19 +54,20 @@ static bool find_range(const struct scene *scene, struct render_options o, struc
     enum { FINE = 256 };
     const struct light_set *l = &scene->lights;
     struct gates fine = {0, 8 * (l->radius + length(sub(scene->camera.position, l->center))) / FINE, FINE};
-    double until[FINE + 1] = {0};
-    size_t n = 3 * rect_pixels(render_crop(scene));
+    double sum[3 * FINE] = {0}, until[FINE + 1] = {0};
+    struct film film;
     o.end = 1;
-    float *picture = render(scene, &o, fine, err);
-    for (size_t i = 0; picture != NULL && i < n * FINE; i++)
-        until[i / n + 1] = (i % n == 0 ? until[i / n] : until[i / n + 1]) + (double)picture[i];
+    film_init(&film, render_crop(scene), scene->width, scene->height);
+    bool ok = gates_total(scene, &o, &fine, &film, sum, err);
+    film_free(&film);
+    for (int i = 0; i < FINE; i++)
+        until[i + 1] = until[i] + sum[3 * i] + sum[3 * i + 1] + sum[3 * i + 2];
     int first = 0, end = 1;
     for (; end < FINE && until[end] < 0.9 * until[FINE]; end++)
         first = until[end] < 0.01 * until[FINE] ? end : first;
     out->begin = first * fine.width;
     out->width = (end - first) * fine.width / out->n;
-    free(picture);
-    return picture != NULL;
+    return ok;
 }
 
 /* A file for each picture, and a sheet of all in rows of four, by one exposure. */

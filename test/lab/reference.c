@@ -62,13 +62,15 @@ static void read_text(const char *picture, struct reference *r)
 
 /* What a picture of errors, if there is one, is of the squared errors against the picture: it is shifted by as much,
  * up or down as chance has it. */
-static void read_noise(const char *path, struct reference *r)
+static bool read_noise(const char *path, struct reference *r, struct error *err)
 {
+    struct image about;
     char stem[PATH_SIZE], errors[PATH_SIZE + 16];
     int width, height;
     snprintf(stem, sizeof stem, "%.*s", (int)(strrchr(path, '.') != NULL ? strrchr(path, '.') - path : 0), path);
     snprintf(errors, sizeof errors, "%s.error.pfm", stem);
-    float *shifted = image_read_linear(errors, &width, &height, NULL, NULL);
+    float *shifted = image_read_linear(errors, &width, &height, &about, NULL);
+    bool ok = shifted == NULL || side_intact(errors, about.content, err);
     if (shifted != NULL && width == r->width && height == r->height) {
         r->variance = mem_alloc(3 * (size_t)width * (size_t)height, sizeof *r->variance);
         for (size_t i = 0; i < 3 * (size_t)width * (size_t)height; i++) {
@@ -80,16 +82,22 @@ static void read_noise(const char *path, struct reference *r)
     if (isfinite(r->noise8)) /* which is known better */
         r->noise[SQUARE_RMSE8] = r->noise8 * r->noise8;
     free(shifted);
+    return ok;
 }
 
-/* Read one picture, and the text beside it. */
+/* Read one picture, and the text beside it. False with a message if it is damaged. */
 static bool load(const char *path, struct reference *out, struct error *err)
 {
+    struct image about;
     read_text(path, out);
-    out->pixels = image_read_linear(path, &out->width, &out->height, NULL, err);
-    if (out->pixels == NULL)
+    out->pixels = image_read_linear(path, &out->width, &out->height, &about, err);
+    bool ok = out->pixels != NULL && side_intact(path, about.content, err);
+    for (size_t i = 0; ok && i < 3 * (size_t)out->width * (size_t)out->height; i++)
+        ok = isfinite(out->pixels[i]) || error_set(err, "%s: NaN or infinite values are no reference", path);
+    if (!ok || !read_noise(path, out, err)) {
+        reference_free(out);
         return false;
-    read_noise(path, out);
+    }
     snprintf(out->origin, sizeof out->origin, "stored picture %.1000s of %dx%d pixels", path, out->width, out->height);
     return true;
 }
@@ -153,14 +161,15 @@ bool reference_find(const char *given, const char *scene_path, const char *name,
                     struct error *err)
 {
     char path[PATH_SIZE];
-    bool found = false;
     if (given != NULL) {
         given_path(given, name, path);
         return load(path, out, err);
     }
-    for (int i = 0; !found && i < N_PLACES; i++) {
+    *out = (struct reference){.noise8 = NAN, .mean_error = NAN};
+    for (int i = 0; i < N_PLACES; i++) {
         place_path(i, scene_path, name, path);
-        found = load(path, out, NULL);
+        if (file_exists(path))
+            return load(path, out, err);
     }
     return true;
 }

@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/number.h"
+#include "base/os.h"
 #include "base/progress.h"
 #include "base/rng.h"
 #include "image/image.h"
@@ -25,6 +26,22 @@ enum {
 
 /* --- reading ----------------------------------------------------------------------------------------- */
 
+bool side_intact(const char *path, uint64_t content, struct error *err)
+{
+    char text[4096], line[2048];
+    bool errors = file_has_extension(path, ".error.pfm");
+    int stem = (int)strlen(path) - (errors ? 10 : 4);
+    uint64_t said[2] = {0, 0};
+    snprintf(text, sizeof text, "%.*s.txt", stem > 0 ? stem : 0, path);
+    FILE *f = os_open_input(text);
+    while (f != NULL && fgets(line, sizeof line, f) != NULL)
+        sscanf(line, "files %" SCNx64 " %" SCNx64, &said[0], &said[1]);
+    if (f != NULL)
+        fclose(f);
+    return said[errors] == 0 || said[errors] == content ||
+           error_set(err, "%s is damaged, or not the picture that %s was written for", path, text);
+}
+
 bool side_read(const char *const *file, int n, bool with_errors, const struct side *like, struct side *out,
                struct error *err)
 {
@@ -33,8 +50,10 @@ bool side_read(const char *const *file, int n, bool with_errors, const struct si
     bool ok = true;
     for (int k = 0; ok && k < n; k++) {
         int w, h;
-        float *pixels = image_read_linear(file[k], &w, &h, NULL, err);
-        if ((ok = pixels != NULL) && side.width != 0 && (side.width != w || side.height != h))
+        struct image about;
+        float *pixels = image_read_linear(file[k], &w, &h, &about, err);
+        ok = pixels != NULL && (!with_errors || side_intact(file[k], about.content, err));
+        if (ok && side.width != 0 && (side.width != w || side.height != h))
             ok = error_set(err, "%s is %dx%d, the picture before it %dx%d; all must have the same size", file[k], w, h,
                            side.width, side.height);
         if (ok && k == 0) {
@@ -161,13 +180,23 @@ static bool write_text(const char *name, const struct side *a, const struct side
     struct file_output f;
     const struct verdict *v = from->verdict;
     double error_a, error_b;
+    uint64_t content[2];
     batches_mean(&a->pixels, &error_a);
     batches_mean(&b->pixels, &error_b);
+    for (int i = 0; i < 2; i++) {
+        struct image picture;
+        snprintf(path, sizeof path, "%s%s.pfm", name, i == 0 ? "" : ".error");
+        if (!image_read(path, &picture, err))
+            return false;
+        content[i] = picture.content;
+        image_free(&picture);
+    }
     snprintf(path, sizeof path, "%s.txt", name);
     if (!file_create(path, &f, err))
         return false;
     fprintf(f.stream, "origin %s\nscene %s\ncontent %016" PRIx64 "\nresolution %dx%d\nmaxdepth %d\n", from->note,
             from->scene_path, from->content, a->width, a->height, from->max_depth);
+    fprintf(f.stream, "files %016" PRIx64 " %016" PRIx64 "\n", content[0], content[1]);
     fprintf(f.stream, "noise8 %.6g\nmean %.9g\nmean_error %.6g\n", noise8, mean,
             mean > 0 ? sqrt(sqr(weight * error_a) + sqr((1 - weight) * error_b)) / mean : NAN);
     fprintf(f.stream, "weights %.6f %.6f of the two methods, by the inverse of the sum of all pixels' variances\n",

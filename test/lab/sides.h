@@ -15,7 +15,11 @@ struct side {
     struct batches pixels; /* [height*width*3] values; owned, to be released also when reading or rendering failed */
 };
 
-/* side_read: n pictures of one size as batches; with_errors: a picture and its standard errors.
+/* side_intact: is NAME.pfm, or NAME.error.pfm, the file that NAME.txt was written for? image.h tells `content`. A text
+ * that does not say so, or none, is no reason to doubt it. Returns false with a message. */
+bool side_intact(const char *path, uint64_t content, struct error *err);
+
+/* side_read: n pictures of one size as batches; with_errors: a picture and its standard errors, both intact.
  *   like  they must also have its size; NULL: any
  * Returns false with a message. */
 bool side_read(const char *const *file, int n, bool with_errors, const struct side *like, struct side *out,
