@@ -400,13 +400,20 @@ expect 1 'was made without --noise' "$program" render "$box" $noisy --spp 64 --n
 expect 0 '' "$program" render "$box" --quick -j 2 --integrator asbdpt -P delta=0.25 --aov depth --stats stats.json \
     -o a.png
 check grep -q ': 120x120, 1 spp, asbdpt;' stderr.txt
+check [ "$(grep -c draws stderr.txt)" = 0 ] # what was chosen is for --stats alone
 for line in '"version": "asbdpt ' '"integrator": "asbdpt",' '"select": "subspaces",' '"delta": 0.25,' '"maxdepth": 6,' \
     '"film": .120, 120.,' '"spp": 1,' '"spp_done": 1,' '"threads": 2,' '"nonfinite": 0,' '"draws_first_hit": [1-9]' \
-    '"a.png",' '"a.depth.pfm"' '"note": "chosen per eye vertex: ' '"cpu_seconds": [0-9]' \
+    '"a.png",' '"a.depth.pfm"' '"cpu_seconds": [0-9]' \
     '"us_per_path": [1-9]' '"peak_memory": [1-9]'; do
     check grep -q "$line" stats.json
 done
+# Without light sub-paths there are no draws; who chooses nothing says nothing of it.
+expect 0 '' "$program" render "$scenes/sky.pbrt" --res 24x16 --spp 1 --quiet --integrator asbdpt --stats - -o a.pfm
+check grep -q '"pixels_per_light_path": 0,' stdout.txt
+check grep -q '"draws_first_hit": 0,' stdout.txt
+check grep -q '"draws_after": 0,' stdout.txt
 expect 0 '' "$program" render "$box" --quick --quiet --spp 3 --cropwindow 0 0.5 0 1 --samples 1:3 --stats - -o a.part
+check [ "$(grep -c chosen stdout.txt)" = 0 ]
 check grep -q '"spp": 3,' stdout.txt
 check grep -q '"first_sample": 1,' stdout.txt
 check grep -q '"spp_done": 2,' stdout.txt

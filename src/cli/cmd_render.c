@@ -142,8 +142,6 @@ static void report(const struct job_options *o, const char *integrator, const st
         fprintf(stderr, "%s: %dx%d, %ld spp, %s; %.2f s, %.2f s of CPU, %.2f us per sample path\n", o->scene_path,
                 rect_width(film->rect), rect_height(film->rect), film->iterations, integrator,
                 times->wall, times->cpu, render_us_per_path(film, times));
-    if (!o->quiet && film->note[0] != '\0')
-        fprintf(stderr, "%s: %s\n", integrator, film->note);
 }
 
 /* Pictures, then what can only be made now, and when all are complete the statistics. `ok`: nothing has failed yet. */

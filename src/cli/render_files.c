@@ -247,10 +247,11 @@ void stats_write(FILE *f, const struct job_options *o, const struct scene *scene
     json_number(j, "threads", render->n_threads > 0 ? render->n_threads : os_cores());
     json_number(j, "peak_memory", os_peak_memory());
     json_number(j, "nonfinite", (double)film->nonfinite);
-    json_text(j, "note", film->note);
-    json_open(j, "chosen", '{');
-    for (const struct film_number *n = film->number; n->name != NULL; n++)
-        json_number(j, n->name, n->value);
-    json_close(j);
+    if (film->number[0].name != NULL) {
+        json_open(j, "chosen", '{');
+        for (const struct film_number *n = film->number; n->name != NULL; n++)
+            json_number(j, n->name, n->value);
+        json_close(j);
+    }
     json_close(j);
 }

@@ -46,8 +46,7 @@ struct preparation {
     const struct method *method;
     void *state;           /* of method->state_size bytes, begins with struct frozen; owned */
     struct pass_size size; /* any block, tiles of DEFAULT_TILE_SIZE unless changed */
-    char note[FILM_NOTE_SIZE]; /* what was chosen, for people; may be empty */
-    struct film_number number[FILM_NUMBERS]; /* and for programs, ended by a NULL name */
+    struct film_number number[FILM_NUMBERS]; /* what was chosen, ended by a NULL name */
 };
 
 struct pooled_pixel;

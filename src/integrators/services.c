@@ -1,7 +1,6 @@
 /* services.c: see services.h. */
 #include "integrators/services.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -79,21 +78,12 @@ static void render_with(const void *method, const struct mis_counts *counts, con
 static void tell(struct preparation *out)
 {
     const struct frozen *f = out->state;
+    bool paths = f->path_pixels > 0;
     const struct film_number numbers[] = {
-        {"draws_first_hit", f->draws[FIRST_HIT]}, {"draws_after", f->draws[LATER_HIT]},
+        {"draws_first_hit", paths ? f->draws[FIRST_HIT] : 0}, {"draws_after", paths ? f->draws[LATER_HIT] : 0},
         {"light_points_first_hit", f->lights}, {"pixels_per_light_path", f->path_pixels},
         {"eye_regions", f->tables.eye.n}, {"light_regions", f->tables.light.n}};
-    const char *s = f->lights == 1 ? "" : "s";
     memcpy(out->number, numbers, sizeof numbers); /* fewer than there is room for: a NULL name stays behind them */
-    if (f->path_pixels == 0)
-        snprintf(out->note, sizeof out->note, "chosen: no light sub-paths; %d light point%s at the first hit",
-                 f->lights, s);
-    else
-        snprintf(out->note, sizeof out->note,
-                 "chosen per eye vertex: %.2f draws at the first hit, %.2f after; %d light point%s at the first hit; "
-                 "and %d pixel%s per light sub-path",
-                 f->draws[FIRST_HIT], f->draws[LATER_HIT], f->lights, s, f->path_pixels,
-                 f->path_pixels == 1 ? "" : "s");
 }
 
 /* Is it free to have no light sub-paths? Neither by the user's wish nor for what only they can find. */

@@ -244,7 +244,6 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     struct run r = {.options = options, .film = film};
     if (!prepare(&r, scene, err))
         return false;
-    memcpy(film->note, r.prepared.note, sizeof film->note);
     memcpy(film->number, r.prepared.number, sizeof film->number);
     bool ok = check_range(&r, err) && cut(&r, err);
     /* Learning that was cut short has learnt other things than what the film's samples go by: no more are added. */

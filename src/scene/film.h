@@ -28,8 +28,8 @@ struct noise_estimate {
     double value, error; /* its standard error; both infinite where nothing is known */
 };
 
-enum { FILM_NOTE_SIZE = 200, FILM_NUMBERS = 8 };
-
+/* What the method has chosen for itself. */
+enum { FILM_NUMBERS = 8 };
 struct film_number {
     const char *name; /* static */
     double value;
@@ -49,8 +49,7 @@ struct film {
     double *eye, *square;        /* for standard errors, [pixels*3] sums of eye values, and of squares of these and of
                                   * splats; NULL unless asked for; owned */
     long nonfinite;
-    char note[FILM_NOTE_SIZE]; /* what the method chose for itself, for people */
-    struct film_number number[FILM_NUMBERS]; /* and for programs, ended by a NULL name */
+    struct film_number number[FILM_NUMBERS]; /* ended by a NULL name */
     bool learnt_short;   /* its samples are by what was learnt in haste */
 };
 

@@ -149,7 +149,7 @@ bool trace_render(const struct scene *scene, const struct render_options *option
         !render_prepare(scene, options, film, &job, &prepared, err))
         return false;
     trace->why = m->why;
-    memcpy(trace->note, prepared.note, sizeof trace->note);
+    memcpy(trace->number, prepared.number, sizeof trace->number);
     render_pass(&job, &prepared, trace);
     method_release(&prepared);
     return true;

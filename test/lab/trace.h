@@ -38,7 +38,7 @@ struct trace {
     int n_connections;
     size_t light_capacity, connection_capacity;
     const char *why;   /* how the method chooses what to connect with; NULL: it does not */
-    char note[FILM_NOTE_SIZE]; /* what it has chosen for itself */
+    struct film_number number[FILM_NUMBERS]; /* what it has chosen for itself, ended by a NULL name */
 };
 
 /* A trace starts as zeros but for the sample to watch. trace_free releases what it owns. */

@@ -84,7 +84,10 @@ void trace_json(FILE *f, const struct trace_story *s)
         put_path(&j, NULL, s->scene, &t->light[i]);
     json_close(&j);
     json_text(&j, "why", t->why);
-    json_text(&j, "note", t->note);
+    json_open(&j, "chosen", '{');
+    for (const struct film_number *n = t->number; n->name != NULL; n++)
+        json_number(&j, n->name, n->value);
+    json_close(&j);
     put_connections(&j, t);
     put_rgb(&j, "sum", trace_sum(t));
     json_close(&j);

@@ -191,8 +191,8 @@ void trace_text(FILE *f, const struct trace_story *s)
     print_paths(f, s);
     if (t->why != NULL)
         fprintf(f, "\nCHOICE of what to connect with: %s\n", t->why);
-    if (t->note[0] != '\0')
-        fprintf(f, "  %s\n", t->note);
+    for (const struct film_number *n = t->number; n->name != NULL; n++)
+        fprintf(f, "  chosen: %s %.3g\n", n->name, n->value);
     fprintf(f, "\nCONNECTIONS, t >= 2: C* times the next two columns is added to the pixel\n");
     print_connections(f, t, false);
     fprintf(f, "  %-84s %9.4g %9.4g %9.4g\n", "sum, which the film receives", sum.r, sum.g, sum.b);

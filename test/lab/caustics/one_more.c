@@ -125,7 +125,6 @@ void one_more_prepare(const struct render_job *job, struct preparation *out)
     assert(ok);
     (void)ok;
     out->size = s->method.size;
-    memcpy(out->note, s->method.note, sizeof out->note);
     memcpy(out->number, s->method.number, sizeof out->number);
 }
 

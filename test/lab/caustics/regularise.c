@@ -93,9 +93,6 @@ static void prepare(const struct render_job *job, struct preparation *out)
     one_more_prepare(job, out);
     s->own.more.connect = connect;
     s->base.more = &s->own.more;
-    size_t n = strlen(out->note);
-    snprintf(out->note + n, sizeof out->note - n,
-             "%sbiased: mirrors and glass are blurred where nothing else finds a light", n > 0 ? "; " : "");
 }
 
 static const struct field PARAMETERS[] = {
