@@ -46,8 +46,8 @@ struct render_options {
     const struct observers *observers; /* who looks on at every path; NULL: nobody */
     /* Called after each tile pass with the share of the work done, in (0,1], one call at a time and while nothing else
      * touches the film. NULL: not called. While the method learns it is called, too, with 0; if it is not to go on
-     * then, that ends with what has been learnt, by which one block is rendered, or at RENDER_STOP one tile pass, if
-     * the film is empty. */
+     * then, that ends with what has been learnt, by which one block is rendered, or at RENDER_STOP one tile pass,
+     * unless `stop` ends that, if the film is empty. */
     enum render_wish (*progress)(void *context, double done);
     /* Asked before every sample, by any thread, with the same context: is the render to stop at once, even without the
      * tile passes under way? Once true, always. NULL: never. */

@@ -50,8 +50,8 @@ extern const char *const ONE_MORE_METHODS[];
 /* one_more_counts: those of the other method. */
 const struct mis_counts *one_more_counts(const struct one_more_state *s);
 
-/* For rows: one_more_prepare prepares the other method as if it were alone; its numbers and sizes become those of `out`.
- * Then the row sets `more`. one_more_release gives the other method back. */
+/* For rows: one_more_prepare prepares the other method as if it were alone; its numbers and sizes become those of
+ * `out`. Then the row sets `more`. one_more_release gives the other method back. */
 void one_more_prepare(const struct render_job *job, struct preparation *out);
 void one_more_release(void *state);
 void one_more_pass(const struct preparation *m, const struct tile_pass *pass);
