@@ -412,8 +412,9 @@ expect 0 '' "$program" render "$scenes/sky.pbrt" --res 24x16 --spp 1 --quiet --i
 check grep -q '"pixels_per_light_path": 0,' stdout.txt
 check grep -q '"draws_first_hit": 0,' stdout.txt
 check grep -q '"draws_after": 0,' stdout.txt
-expect 0 '' "$program" render "$box" --quick --quiet --spp 3 --cropwindow 0 0.5 0 1 --samples 1:3 --stats - -o a.part
+expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet --integrator pt --stats - -o a.pfm
 check [ "$(grep -c chosen stdout.txt)" = 0 ]
+expect 0 '' "$program" render "$box" --quick --quiet --spp 3 --cropwindow 0 0.5 0 1 --samples 1:3 --stats - -o a.part
 check grep -q '"spp": 3,' stdout.txt
 check grep -q '"first_sample": 1,' stdout.txt
 check grep -q '"spp_done": 2,' stdout.txt

@@ -31,9 +31,10 @@ void image_mend(struct image *img, bool negative_too);
 #define IMAGE_WRITTEN ".pfm, .exr, .png or .ppm"
 
 /* image_create, image_finish: write a picture in the format named by the extension; to standard output, -, as PFM.
- * .ppm and .png are clamped to [0,1] and sRGB encoded; .exr has halfs, like pbrt-v3's, .float.exr has floats; a warning
- * says how many values halfs have cut. The file appears whole or not at all. The first says what is wrong with the name or the place, as of a terminal, and is to be
- * followed by image_finish or file_abandon; the second, which may come hours later, fails on any I/O error. */
+ * .ppm and .png are clamped to [0,1] and sRGB encoded; .exr has halfs, like pbrt-v3's, and a warning says how many
+ * values these have cut; .float.exr has floats. The file appears whole or not at all. The first says what is wrong with
+ * the name or the place, as of a terminal, and is to be followed by image_finish or file_abandon; the second, which may
+ * come hours later, fails on any I/O error. */
 bool image_create(const char *path, struct file_output *out, struct error *err);
 bool image_finish(struct file_output *f, const struct raster *r, struct error *err);
 

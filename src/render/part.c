@@ -256,8 +256,8 @@ FILE *part_open(const char *path, struct part *out, struct error *err)
         return NULL;
     }
     if (read_header(f, path, out, err)) {
-        uint64_t size;
-        if (os_kind_of_stream(f, &size) != OS_FILE || size >= sums_of(out)) /* a byte each at least: before memory is taken for them */
+        uint64_t size; /* a byte for each sum at least: before memory is taken for them */
+        if (os_kind_of_stream(f, &size) != OS_FILE || size >= sums_of(out))
             return f;
         error_set(err, "%s: the part is damaged or cut off", path);
         part_free(out);
