@@ -13,7 +13,6 @@
 #include "parser/parser.h"
 #include "parser/symbols.h"
 #include "render/parameters.h"
-#include "render/strays.h"
 
 #define AT(member) offsetof(struct job_options, member)
 const struct option RUN_OPTIONS[] = {
@@ -133,13 +132,14 @@ static void warn(struct job_loading *to, const char *format, const char *what)
     print_warning(to, line.text);
 }
 
-static void warn_of_strays(const struct scene *scene, struct job_loading *to)
+static void warn_of_media(const struct scene *scene, struct job_loading *to)
 {
-    int n = strays_count(scene);
-    char text[32];
-    snprintf(text, sizeof text, "%d of %d", n, 2 * STRAYS_PATHS);
-    if (n > 0)
-        warn(to, "%s paths leave a medium that they are not in: what MediumInterfaces say does not fit together", text);
+    const struct light_set *l = &scene->lights;
+    struct error text;
+    error_set(&text, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the lights "
+                     "at infinity are; %s", l->radius, l->center.x, l->center.y, l->center.z, scene->media.lens);
+    if (scene->media.ends)
+        warn(to, "%s", text.text);
 }
 
 /* The method asked for; pbrt's integrators that do not exist here are replaced by the default. */
@@ -197,7 +197,7 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
     if (ok) {
         tell_size(o, &scene->geo);
         scene_prepare(scene);
-        warn_of_strays(scene, job);
+        warn_of_media(scene, job);
     }
     if (ok && o->strict && job->n_warnings > 0)
         ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mem.h"
 #include "geometry/kd_block.h"
 
 void kd_free(struct kdtree *kd)
@@ -185,8 +186,9 @@ static bool traversal_start(struct traversal *w, const struct kdtree *kd, const 
     return true;
 }
 
-/* Go down to the first leaf of the current cell that the ray comes to, leaving the cells behind it on the stack. */
-static inline struct kd_node traversal_to_leaf(struct traversal *w, const struct kd_node *nodes)
+/* Go down to the first leaf of the current cell that the ray comes to, leaving the cells behind it on the stack.
+ *   range  out: the stretch of the ray in the leaf */
+static inline struct kd_node traversal_to_leaf(struct traversal *w, const struct kd_node *nodes, double range[2])
 {
     struct kd_node n = nodes[w->cell.node];
     double tmin = w->cell.tmin, tmax = w->cell.tmax;
@@ -208,6 +210,8 @@ static inline struct kd_node traversal_to_leaf(struct traversal *w, const struct
             n = nodes[near_cell];
         }
     }
+    range[0] = tmin;
+    range[1] = tmax;
     return n;
 }
 
@@ -231,11 +235,11 @@ static inline bool traverse(const struct kdtree *kd, const struct geometry *geo,
     struct traversal w;
     if (!traversal_start(&w, kd, ray))
         return false;
-    double nearest = ray->tmax;
+    double nearest = ray->tmax, range[2];
     int near[KD_LANES];
     bool found = false;
     do {
-        struct kd_node leaf = traversal_to_leaf(&w, kd->node);
+        struct kd_node leaf = traversal_to_leaf(&w, kd->node, range);
         const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
         for (; block < end; block++)
             if (block_near(block, &w.ray, near) &&
@@ -252,6 +256,67 @@ static inline bool traverse(const struct kdtree *kd, const struct geometry *geo,
 bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit)
 {
     return traverse(kd, geo, ray, false, hit);
+}
+
+/* The hits of a ray so far. */
+struct hits {
+    struct hit *hit; /* [n] */
+    size_t n;
+    double first, last; /* only those from here to there are wanted */
+};
+
+static void add_hit(struct hits *all, const struct hit *hit)
+{
+    if (hit->t < all->first || hit->t > all->last)
+        return;
+    all->hit = mem_append(all->hit, all->n, sizeof *all->hit);
+    all->hit[all->n++] = *hit;
+}
+
+/* A ray meets a triangle once, a quadric twice at most. */
+static void add_block(const struct kd_block *b, const struct geometry *geo, const struct block_ray *r,
+                      struct hits *all)
+{
+    int near[KD_LANES];
+    struct hit hit;
+    bool quadrics = (b->prim[0] & ~KD_ALPHA) >= FIRST_QUADRIC, any = block_near(b, r, near);
+    for (int i = 0; any && i < KD_LANES; i++) {
+        struct ray rest = *r->exact.ray;
+        if (near[i] && !quadrics && lane_hit(b, i, geo, r, rest.tmax, false, &hit))
+            add_hit(all, &hit);
+        for (; near[i] && quadrics && shape_intersect(geo, (int)b->prim[i], &rest, &hit); rest.tmin = hit.t)
+            add_hit(all, &hit);
+    }
+}
+
+static int by_distance(const void *a, const void *b)
+{
+    const struct hit *x = a, *y = b;
+    return x->t != y->t ? (x->t > y->t) - (x->t < y->t) : (x->prim > y->prim) - (x->prim < y->prim);
+}
+
+int kd_all(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit **hits)
+{
+    struct traversal w;
+    struct hits all = {.hit = NULL};
+    double range[2];
+    int n = 0;
+    for (bool more = traversal_start(&w, kd, ray); more; more = traversal_next(&w, ray->tmax)) {
+        struct kd_node leaf = traversal_to_leaf(&w, kd->node, range);
+        const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
+        double slack = 1e-9 * (range[1] + kd->reach); /* what is found in two leaves is dropped below */
+        all.first = range[0] - slack;
+        all.last = range[1] + slack;
+        for (; block < end; block++)
+            add_block(block, geo, &w.ray, &all);
+    }
+    if (all.n > 1)
+        qsort(all.hit, all.n, sizeof *all.hit, by_distance);
+    for (size_t i = 0; i < all.n; i++)
+        if (n == 0 || by_distance(&all.hit[i], &all.hit[n - 1]) != 0)
+            all.hit[n++] = all.hit[i];
+    *hits = all.hit;
+    return n;
 }
 
 bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray)

@@ -180,7 +180,7 @@ static bool light(struct parser *p)
 {
     struct params *q = &p->params;
     struct light_item item = {.light = {.kind = (enum light_kind)p->type.kind, .prim = -1,
-                                        .medium = parse_medium(p, 1)},
+                                        .medium = parse_medium(p, 1)}, /* at infinity: of none, see scene/medium.h */
                               .frame.to_world = p->place.ctm, .to = {0, 0, 1}};
     if (!is_turned(p, &item) && !parse_placed(p))
         return false;
@@ -192,9 +192,6 @@ static bool light(struct parser *p)
         type_error(q, "this light would stand at (%g %g %g); places go up to 1e12", position.x, position.y, position.z);
     if (item.light.kind == LIGHT_INFINITE && ++p->n_infinite > LIGHT_MAX_INFINITE)
         type_error(q, "more than %d infinite lights; use fewer", LIGHT_MAX_INFINITE);
-    if (light_at_infinity(&item.light) && item.light.medium > 0)
-        parse_media_not(p, q->position,
-                        "this light is at infinity, and so is the end of the medium before it: bound that by a shape");
     if (!parse_done(p))
         return false;
     struct light_set *set = &p->scene->lights;

@@ -112,6 +112,19 @@ static bool is_blind(const char *integrator)
     return integrator == NULL;
 }
 
+/* What the camera is in, and where that is said. */
+static char *lens_text(const struct graphics_state *at_end)
+{
+    struct error text;
+    const struct token *name = &at_end->medium[1];
+    const struct source_position at = name->position;
+    if (at.file == NULL)
+        return mem_copy_text("the camera is in no medium: there is no MediumInterface before WorldEnd");
+    error_set(&text, "the camera is in %s, by the MediumInterface of %s:%d:%d, which still holds at WorldEnd",
+              name->text[0] != '\0' ? "a medium" : "none", at.file->path, at.line, at.column);
+    return mem_copy_text(text.text);
+}
+
 bool parse_settle_media(struct parser *p)
 {
     struct scene *s = p->scene;
@@ -124,6 +137,7 @@ bool parse_settle_media(struct parser *p)
         return true;
     }
     s->camera.medium = parse_medium(p, 1); /* pbrt-v3 makes the camera last */
+    s->media.lens = lens_text(&p->state);
     return p->media.bad_at.file == NULL || source_error(&p->messages, p->media.bad_at, "%s", p->media.bad);
 }
 

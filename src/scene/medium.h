@@ -1,7 +1,8 @@
 /* medium.h: what fills space: homogeneous media. passage.h says what becomes of light in them.
  *
  * Media are numbered from 1; 0 is none. A surface without material whose sides are in different media is an interface
- * of these, and nothing else. A medium that has no bounds lets nothing in from infinity.
+ * of these, and nothing else. Where there are lights at infinity, a medium that has no bound ends on the sphere about the scene (light.h), which
+ * then holds the lens, too. Beyond are these lights alone: they stand in no medium, whatever is said above them.
  */
 #ifndef ASBDPT_MEDIUM_H
 #define ASBDPT_MEDIUM_H
@@ -19,6 +20,9 @@ struct medium_set {
     struct medium *medium; /* [n], owned */
     int n;
     struct kdtree interfaces;
+    int outer;  /* what is about the scene; set by scene_prepare */
+    bool ends;  /* and does it end on the sphere? */
+    char *lens; /* for messages: what the lens is said to be in, and where; owned */
 };
 
 #endif

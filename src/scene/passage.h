@@ -23,8 +23,12 @@ struct passage {
     double density[2]; /* of stopping at its start, for one who comes from its end, and of stopping at its end: 1, or
                         * 1/m where that is within a medium; of such as go on as far as possible but for media */
     int medium;        /* at its end */
-    int strayed;       /* interfaces that it came to from another medium than theirs */
+    bool strayed;      /* it came to the bound of a medium from another, and believed the bound */
 };
+
+/* medium_outermost: the medium about a scene whose surfaces lie in this box, as seen from outside on ways to the lens:
+ * that of the lens if one of them is free. Of others that lead to different media the one of the least number counts. */
+int medium_outermost(const struct scene *s, vec3 lo, vec3 hi);
 
 /* medium_pass: the way from ray->o to ray->tmax.
  *   ng      normal of the primitive ray->from

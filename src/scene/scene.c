@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "scene/passage.h"
 
 void scene_init(struct scene *s)
 {
@@ -23,6 +24,7 @@ void scene_free(struct scene *s)
     kd_free(&s->kd_lamps);
     kd_free(&s->media.interfaces);
     free(s->media.medium);
+    free(s->media.lens);
     geometry_free(&s->geo);
     texture_set_free(&s->textures);
     for (int i = 0; i < s->n_materials; i++)
@@ -86,6 +88,24 @@ void scene_resize(struct scene *s, int width, int height)
     s->width = width;
 }
 
+/* What medium is about the scene, and does it end on the scene's sphere? That then reaches as far as the lens. */
+static void settle_media(struct scene *s, vec3 *lo, vec3 *hi)
+{
+    const vec3 lens = s->camera.position;
+    bool lit = false;
+    for (int i = 0; i < s->lights.n; i++)
+        lit |= light_at_infinity(&s->lights.light[i]);
+    s->media.outer = s->media.n > 0 ? medium_outermost(s, *lo, *hi) : 0;
+    s->media.ends = lit && s->media.outer > 0;
+    for (int i = 0; i < s->lights.n; i++)
+        if (light_at_infinity(&s->lights.light[i]))
+            s->lights.light[i].medium = s->media.outer;
+    if (s->media.ends) {
+        *lo = vec(fmin(lo->x, lens.x), fmin(lo->y, lens.y), fmin(lo->z, lens.z));
+        *hi = vec(fmax(hi->x, lens.x), fmax(hi->y, lens.y), fmax(hi->z, lens.z));
+    }
+}
+
 void scene_prepare(struct scene *s)
 {
     s->geo.opaque = opaque_at;
@@ -97,11 +117,12 @@ void scene_prepare(struct scene *s)
     kd_build(&s->kd, &s->geo, KD_SURFACES);
     kd_build(&s->kd_lamps, &s->geo, KD_LAMPS);
     kd_build(&s->media.interfaces, &s->geo, KD_INTERFACES);
+    camera_prepare(&s->camera, s->width, s->height);
     vec3 lo, hi;
     scene_bounds(s, &lo, &hi);
+    settle_media(s, &lo, &hi);
     double radius = length(sub(hi, lo)) / 2;
     light_prepare(&s->lights, &s->geo, lerp3(0.5, lo, hi), radius > 0 ? radius : 1);
-    camera_prepare(&s->camera, s->width, s->height);
     filter_prepare(&s->filter);
 }
 

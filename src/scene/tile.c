@@ -21,7 +21,7 @@ void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_r
     t->first_half = false;
     t->gate.begin = 0;
     t->gate.end = INFINITY;
-    t->nonfinite = 0;
+    t->nonfinite = t->strays = 0;
 }
 
 void tile_free(struct tile *t)

@@ -6,8 +6,7 @@
 
 static struct connection nothing(void)
 {
-    struct connection c = {{0, 0, 0}, 0, 0, 0, 0, {0, 0, 0}, -1, -1, 0};
-    return c;
+    return (struct connection){.light = -1, .cell = -1};
 }
 
 /* A surface vertex scattering towards wi: throughput factor and both densities (1/sr). */
@@ -25,15 +24,17 @@ static struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum tran
     return s;
 }
 
-/* What media do between vertex a and a point on primitive `to`, in direction w so far away: they take a share of the
+/* What media do between vertex a and a point on primitive `to`, in direction w so far away: they take a share of c's
  * value, and the densities of both ends, and with them the sums (5) of mis.h, have the passage's as factors. */
 static inline void pass_media(const struct scene *scene, const struct mis_counts *counts, const struct vertex *a,
-                              vec3 w, double distance, uint32_t to, rgb *value, double *side_a, double *side_b)
+                              vec3 w, double distance, uint32_t to, struct connection *c, double *side_a,
+                              double *side_b)
 {
     if (scene->media.n == 0)
         return;
     struct passage way = vertex_pass(scene, a, w, distance, to);
-    *value = rgb_mul(*value, way.left);
+    c->value = rgb_mul(c->value, way.left);
+    c->strayed = way.strayed;
     *side_a *= mis_raise(counts, way.density[0]);
     *side_b *= mis_raise(counts, way.density[1]);
 }
@@ -148,7 +149,7 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
     struct connection c = nothing();
     c.value = l->value;
     c.length = z->length + (parallel ? light_distance(lights, z->p, l->w) : l->distance);
-    pass_media(scene, counts, z, l->w, l->distance, at->prim_id, &c.value, &eye, &light);
+    pass_media(scene, counts, z, l->w, l->distance, at->prim_id, &c, &eye, &light);
     c.weight = mis_weight(counts, count, light, eye); /* mis.h (7) */
     c.end = parallel ? at->w : at->p;
     c.light = at->light;
@@ -198,7 +199,7 @@ struct connection connect_joint(const struct scene *scene, const struct mis_coun
     c.value = j->value;
     c.length = y->length + j->length + z->length;
     double n = n_connect(counts, y->light_region, z->eye_region, z->eye_end);
-    pass_media(scene, counts, z, j->w, j->length, y->prim_id, &c.value, &eye, &light);
+    pass_media(scene, counts, z, j->w, j->length, y->prim_id, &c, &eye, &light);
     c.weight = mis_weight(counts, n, light, eye); /* mis.h (7) */
     return c;
 }
@@ -245,7 +246,7 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     if (s == 2 && mis > 0)
         mis *= mis_raise(counts, counts->hit[FIRST_HIT]) / mis_raise(counts, counts->hit[LATER_HIT]);
     double light_side = mis_side(counts, density * vertex_cosine(y, w), y->pdf_fwd, c_e, at_y.pdf_rev, mis);
-    pass_media(scene, counts, y, neg(w), distance, 0, &c.value, &light_side, &eye_side);
+    pass_media(scene, counts, y, neg(w), distance, 0, &c, &light_side, &eye_side);
     c.weight = mis_weight(counts, counts->splat, light_side, eye_side); /* mis.h (7) */
     c.end = lens;
     return c;

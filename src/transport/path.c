@@ -27,6 +27,7 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
         v->pdf_fwd *= from->way->density[1];
         v->mis *= mis_raise(w->counts, from->way->density[0]); /* of g */
         v->medium = from->way->medium;
+        v->strayed = from->way->strayed;
     }
 }
 
