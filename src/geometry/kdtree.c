@@ -265,28 +265,19 @@ struct hits {
     double first, last; /* only those from here to there are wanted */
 };
 
-static void add_hit(struct hits *all, const struct hit *hit)
+/* A ray meets a triangle once, a quadric twice at most. (block_near is for the loop of `traverse`, into which compilers
+ * put it if nobody else calls it.) */
+static void add_hits(const struct kd_block *b, const struct geometry *geo, const struct ray *ray, struct hits *all)
 {
-    if (hit->t < all->first || hit->t > all->last)
-        return;
-    all->hit = mem_append(all->hit, all->n, sizeof *all->hit);
-    all->hit[all->n++] = *hit;
-}
-
-/* A ray meets a triangle once, a quadric twice at most. */
-static void add_block(const struct kd_block *b, const struct geometry *geo, const struct block_ray *r,
-                      struct hits *all)
-{
-    int near[KD_LANES];
     struct hit hit;
-    bool quadrics = (b->prim[0] & ~KD_ALPHA) >= FIRST_QUADRIC, any = block_near(b, r, near);
-    for (int i = 0; any && i < KD_LANES; i++) {
-        struct ray rest = *r->exact.ray;
-        if (near[i] && !quadrics && lane_hit(b, i, geo, r, rest.tmax, false, &hit))
-            add_hit(all, &hit);
-        for (; near[i] && quadrics && shape_intersect(geo, (int)b->prim[i], &rest, &hit); rest.tmin = hit.t)
-            add_hit(all, &hit);
-    }
+    for (int i = 0; i < KD_LANES && b->prim[i] != KD_NONE; i++)
+        for (struct ray rest = *ray; shape_intersect(geo, (int)(b->prim[i] & ~KD_ALPHA), &rest, &hit); rest.tmin = hit.t) {
+            bool there = !(b->prim[i] & KD_ALPHA) || geo->opaque(geo->opaque_context, geo, &hit, false);
+            if (there && hit.t >= all->first && hit.t <= all->last) {
+                all->hit = mem_append(all->hit, all->n, sizeof *all->hit);
+                all->hit[all->n++] = hit;
+            }
+        }
 }
 
 static int by_distance(const void *a, const void *b)
@@ -308,7 +299,7 @@ int kd_all(const struct kdtree *kd, const struct geometry *geo, const struct ray
         all.first = range[0] - slack;
         all.last = range[1] + slack;
         for (; block < end; block++)
-            add_block(block, geo, &w.ray, &all);
+            add_hits(block, geo, ray, &all);
     }
     if (all.n > 1)
         qsort(all.hit, all.n, sizeof *all.hit, by_distance);
