@@ -180,7 +180,7 @@ static bool light(struct parser *p)
 {
     struct params *q = &p->params;
     struct light_item item = {.light = {.kind = (enum light_kind)p->type.kind, .prim = -1,
-                                        .medium = parse_medium(p, 1)}, /* at infinity: of none, see scene/medium.h */
+                                        .medium = parse_medium(p, 1)},
                               .frame.to_world = p->place.ctm, .to = {0, 0, 1}};
     if (!is_turned(p, &item) && !parse_placed(p))
         return false;
@@ -194,6 +194,8 @@ static bool light(struct parser *p)
         type_error(q, "more than %d infinite lights; use fewer", LIGHT_MAX_INFINITE);
     if (!parse_done(p))
         return false;
+    if (light_at_infinity(&item.light)) /* of none, as in pbrt-v3 */
+        item.light.medium = 0;
     struct light_set *set = &p->scene->lights;
     if (item.light.kind == LIGHT_INFINITE && p->n_infinite > 1)
         item.group = p->infinite_group;

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/maths.h"
-#include "base/mem.h"
 #include "base/warp.h"
 
 /* Nothing has happened to it yet. */
@@ -67,19 +66,18 @@ static struct crossing crossing_at(const struct scene *s, const struct ray *line
     return (struct crossing){hit->t, ray_margin(at.p) / fabs(cosine), {medium[!(cosine > 0)], medium[cosine > 0]}};
 }
 
-/* Which of n hits is passed next? Rounding decides on the order of interfaces in one place, so of those there one that
- * belongs to the medium before them comes first: it changes places with *hit. */
+/* Which of n hits is passed next? Rounding decides on the order of interfaces in one place: of those there the first that
+ * belongs to this medium, if any does. The others stay in hit[1] and after. */
 static struct crossing next_crossing(const struct scene *s, const struct ray *line, struct hit *hit, int n, int medium)
 {
     enum { LOOK_AHEAD = 16 };
     struct crossing next = crossing_at(s, line, hit);
-    for (int i = 1; next.medium[0] != medium && i < n && i < LOOK_AHEAD && hit[i].t <= next.t + next.slack; i++) {
+    double last = next.t + next.slack;
+    for (int i = 1; next.medium[0] != medium && i < n && i < LOOK_AHEAD && hit[i].t <= last; i++) {
         struct crossing other = crossing_at(s, line, &hit[i]);
         if (other.medium[0] == medium) {
-            struct hit first = hit[0];
-            hit[0] = hit[i];
-            hit[i] = first;
-            return other;
+            next = other;
+            hit[i] = hit[0];
         }
     }
     return next;
@@ -98,68 +96,46 @@ static void extent(const struct scene *s, const struct ray *ray, double *begin, 
     *end = fmax(fmin(middle + safe_sqrt(half2), ray->tmax), *begin);
 }
 
-/* What a ray passes before the next interface, or its end. */
-struct piece {
-    double end;
-    int medium;
-};
-
-/* The pieces of a ray that begins in this medium and ends at `end`; of its hits some may lie beyond. Returns how many,
- * n + 1 at most.
+/* The way along a ray: all of it, or, with a sampler, as far as a walk gets. Returns the distance at which that is
+ * scattered; infinity if it is not.
+ *   wanted  the medium at the end, or -1: that is not known
  *
  * A surface may lie in an interface, and rounding then decides on which side of that a ray begins. So about its origin
- * an interface is passed if it belongs to the medium there, and none else. On which side it ends does not matter.
- *   wanted  the medium at the end, or -1: that is not known */
-static int cut(const struct scene *s, const struct ray *line, double end, struct hit *hit, int n, int medium, int wanted,
-               struct piece *out, bool *strayed)
-{
-    double passed = -line->tmin;
-    int pieces = 0, i = 0;
-    for (; i < n && hit[i].t < end; i++) {
-        struct crossing x = next_crossing(s, line, &hit[i], n - i, medium);
-        bool fits = x.medium[0] == medium;
-        if (!fits && x.t <= passed)
-            continue;
-        out[pieces++] = (struct piece){x.t, medium};
-        *strayed |= !fits;
-        medium = x.medium[1];
-        passed = x.t + x.slack;
-    }
-    out[pieces++] = (struct piece){end, medium};
-    *strayed |= i == n && wanted >= 0 && medium != wanted;
-    return pieces;
-}
-
-/* The way along a ray: all of it, or, with a sampler, as far as a walk gets. Returns the distance at which that is
- * scattered; infinity if it is not. */
+ * an interface is passed if it belongs to the medium there, and none else. On which side it ends does not matter. */
 static double pass(const struct scene *s, const struct ray *ray, struct sampler *sampler, int wanted, struct passage *p)
 {
-    enum { FEW = 8 };
     struct ray line = {ray->o, ray->d, -ray_margin(ray->o), ray->tmax, 0, 0};
-    struct piece few[FEW], *piece = few;
     struct hit *hit;
-    double done, end, scattered = INFINITY;
+    double done, end, passed = -line.tmin;
+    bool starts = ray->from == WITHIN_MEDIUM, more = true, scattered = false;
     extent(s, ray, &done, &end);
     line.tmax = end < INFINITY ? end + ray_margin(add(ray->o, mul(ray->d, end))) : end;
-    int n = kd_all(&s->media.interfaces, &s->geo, &line, &hit);
-    if (n >= FEW)
-        piece = mem_alloc((size_t)n + 1, sizeof *piece);
-    n = cut(s, &line, end, hit, n, p->medium, wanted, piece, &p->strayed);
-    for (int i = 0; i < n && scattered == INFINITY; i++) {
-        double d = fmax(piece[i].end - done, 0), drawn = INFINITY;
-        p->medium = piece[i].medium;
+    int i = 0, n = kd_all(&s->media.interfaces, &s->geo, &line, &hit);
+    while (more && !scattered) {
+        struct crossing x = {end, 0, {p->medium, p->medium}};
+        more = i < n && hit[i].t < end;
+        if (more)
+            x = next_crossing(s, &line, &hit[i], n - i, p->medium);
+        i += more;
+        bool fits = x.medium[0] == p->medium;
+        if (!fits && x.t <= passed)
+            continue;
+        double d = fmax(x.t - done, 0), drawn = INFINITY;
         if (sampler != NULL && p->medium > 0)
             drawn = draw_distance(&s->media.medium[p->medium - 1], sampler);
-        if (drawn < d)
-            scattered = done + drawn;
-        go(s, fmin(d, drawn), i == 0 && ray->from == WITHIN_MEDIUM,
-           drawn < d || (i == n - 1 && ray->to == WITHIN_MEDIUM), p);
-        done += d;
+        scattered = drawn < d;
+        go(s, fmin(d, drawn), starts, scattered || (!more && ray->to == WITHIN_MEDIUM), p);
+        starts = false;
+        done += fmin(d, drawn);
+        if (!scattered) {
+            p->strayed |= !fits;
+            p->medium = x.medium[1];
+            passed = x.t + x.slack;
+        }
     }
-    if (piece != few)
-        free(piece);
+    p->strayed |= !scattered && i == n && wanted >= 0 && p->medium != wanted;
     free(hit);
-    return scattered;
+    return scattered ? done : INFINITY;
 }
 
 struct passage medium_pass(const struct scene *s, const struct ray *ray, vec3 ng, int around)
@@ -193,44 +169,28 @@ bool medium_fly(const struct scene *s, const struct ray *ray, vec3 ng, int aroun
     return true;
 }
 
-/* --- what is about the scene -------------------------------------------------------------------------- */
-
-/* The medium before the first shape on a ray that bounds any, -1 if none does. Is another surface before it? */
-static int first_medium(const struct scene *s, const struct ray *ray, bool *hidden)
+int medium_outermost(const struct scene *s, double far)
 {
-    struct hit surface, bound;
-    struct surface at;
-    bool bounded = kd_closest(&s->media.interfaces, &s->geo, ray, &bound);
-    *hidden = kd_closest(&s->kd, &s->geo, ray, &surface) && !(bounded && bound.t < surface.t);
-    if (*hidden) {
-        shape_surface(&s->geo, &surface, ray, &at);
-        int medium = medium_before(s, &at, ray->d);
-        *hidden = medium < 0;
-        if (medium >= 0)
-            return medium;
-    }
-    return bounded ? crossing_at(s, ray, &bound).medium[0] : -1;
-}
-
-int medium_outermost(const struct scene *s, vec3 lo, vec3 hi)
-{
-    enum { TRIES = 64 };
-    const vec3 lens = s->camera.position;
-    double far = 2 * (length(sub(hi, lo)) + length(sub(lens, lo)));
+    enum { WAYS = 64 };
     int seen = -1, behind = s->camera.medium;
-    for (int i = 0; i < TRIES; i++) {
+    for (int i = 0; i < WAYS; i++) {
         double u, v;
-        bool hidden;
+        struct hit hit;
+        struct surface at;
         sampler_r2(i, &u, &v);
         vec3 w = warp_sphere(u, v);
-        const struct ray inwards = {add(lens, mul(w, far)), neg(w), 0, far, 0, 0};
-        int medium = first_medium(s, &inwards, &hidden);
-        if (medium < 0 && !hidden)
+        struct ray inwards = {add(s->camera.position, mul(w, far)), neg(w), 0, far, 0, 0};
+        bool bounded = kd_closest(&s->media.interfaces, &s->geo, &inwards, &hit);
+        if (bounded) {
+            behind = crossing_at(s, &inwards, &hit).medium[0];
+            inwards.tmax = hit.t;
+        }
+        if (!kd_closest(&s->kd, &s->geo, &inwards, &hit) && !bounded)
             return s->camera.medium;
-        if (hidden)
-            behind = medium >= 0 ? medium : behind;
-        else
-            seen = seen < 0 || medium < seen ? medium : seen;
+        shape_surface(&s->geo, &hit, &inwards, &at);
+        int medium = medium_before(s, &at, inwards.d);
+        if (medium >= 0 && (seen < 0 || medium < seen))
+            seen = medium;
     }
     return seen >= 0 ? seen : behind;
 }

@@ -26,9 +26,9 @@ struct passage {
     bool strayed;      /* it came to the bound of a medium from another, and believed the bound */
 };
 
-/* medium_outermost: the medium about a scene whose surfaces lie in this box, as seen from outside on ways to the lens:
- * that of the lens if one of them is free. Of others that lead to different media the one of the least number counts. */
-int medium_outermost(const struct scene *s, vec3 lo, vec3 hi);
+/* medium_outermost: the medium about a scene, no surface of which is `far` from the lens: the lens' own if a straight
+ * way there is free, else what the shapes that bound media say on the ways to it, the least number if they differ. */
+int medium_outermost(const struct scene *s, double far);
 
 /* medium_pass: the way from ray->o to ray->tmax.
  *   ng      normal of the primitive ray->from

@@ -92,14 +92,12 @@ void scene_resize(struct scene *s, int width, int height)
 static void settle_media(struct scene *s, vec3 *lo, vec3 *hi)
 {
     const vec3 lens = s->camera.position;
-    bool lit = false;
-    for (int i = 0; i < s->lights.n; i++)
-        lit |= light_at_infinity(&s->lights.light[i]);
-    s->media.outer = s->media.n > 0 ? medium_outermost(s, *lo, *hi) : 0;
-    s->media.ends = lit && s->media.outer > 0;
-    for (int i = 0; i < s->lights.n; i++)
-        if (light_at_infinity(&s->lights.light[i]))
+    s->media.outer = s->media.n > 0 ? medium_outermost(s, 2 * (length(sub(*hi, *lo)) + length(sub(lens, *lo)))) : 0;
+    for (int i = 0; s->media.outer > 0 && i < s->lights.n; i++)
+        if (light_at_infinity(&s->lights.light[i])) {
             s->lights.light[i].medium = s->media.outer;
+            s->media.ends = true;
+        }
     if (s->media.ends) {
         *lo = vec(fmin(lo->x, lens.x), fmin(lo->y, lens.y), fmin(lo->z, lens.z));
         *hi = vec(fmax(hi->x, lens.x), fmax(hi->y, lens.y), fmax(hi->z, lens.z));

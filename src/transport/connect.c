@@ -32,7 +32,8 @@ static inline void pass_media(const struct scene *scene, const struct mis_counts
 {
     if (scene->media.n == 0)
         return;
-    struct passage way = vertex_pass(scene, a, w, distance, to);
+    const struct ray ray = {a->p, w, 0, distance, a->prim_id, to};
+    struct passage way = medium_pass(scene, &ray, a->ng, a->medium);
     c->value = rgb_mul(c->value, way.left);
     c->strayed = way.strayed;
     *side_a *= mis_raise(counts, way.density[0]);

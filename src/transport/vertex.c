@@ -9,12 +9,6 @@ struct light_point vertex_light_point(const struct vertex *v)
     return at;
 }
 
-struct passage vertex_pass(const struct scene *scene, const struct vertex *v, vec3 w, double distance, uint32_t to)
-{
-    const struct ray ray = {v->p, w, ray_margin(v->p), distance, v->prim_id, to};
-    return medium_pass(scene, &ray, v->ng, v->medium);
-}
-
 double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode)
 {
     vec3 ns = v->bsdf.shading.n;

@@ -96,9 +96,6 @@ static inline double vertex_cosine(const struct vertex *v, vec3 w)
     return v->kind >= VERTEX_MEDIUM ? 1 : abs_dot(v->ng, w);
 }
 
-/* vertex_pass: what media do from v on, along unit direction w, as far as `distance`, where primitive `to` is. */
-struct passage vertex_pass(const struct scene *scene, const struct vertex *v, vec3 w, double distance, uint32_t to);
-
 /* vertex_side: the normal by which a surface point is sorted into regions: ng, turned to where its walk came
  * from. The other walk through the same points comes from the other neighbour, and must find the same region, lest the
  * weights count differently. It does where no lobe transmits, for then both neighbours lie on one side of ng (bsdf.h).
