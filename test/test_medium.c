@@ -88,6 +88,81 @@ static void test_once(struct test *t)
     }
 }
 
+/* --- media without a bound, under lights at infinity ------------------------------------------------------ */
+
+/* With nothing in the scene but the camera the medium about it ends on a sphere of radius 1. Above the lights stands a
+ * MediumInterface, which does not matter. */
+static void endless(char *text, size_t size, const char *sigma_a, const char *sigma_s, double g, const char *light)
+{
+    snprintf(text, size, VIEW "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [%s]\n"
+             "\"rgb sigma_s\" [%s] \"float g\" %g MediumInterface \"fog\"\n"
+             "LookAt 0 0 0 0 0 1 0 1 0 Camera \"perspective\" \"float fov\" %s WorldBegin\n"
+             "MediumInterface \"\" \"fog\" LightSource %s WorldEnd", sigma_a, sigma_s, g,
+             light[1] == 'd' ? ".01" : "60", light);
+}
+
+/* Of a sky of 1 fog that absorbs leaves exp(-sigma); of fog that scatters all it takes nothing is seen. */
+static void test_sky(struct test *t)
+{
+    char text[1024];
+    endless(text, sizeof text, ".1 .3 .9", "0 0 0", 0, "\"infinite\"");
+    expect(t, text, (exp(-0.1) + exp(-0.3) + exp(-0.9)) / 3, 3, 3, 64);
+    endless(text, sizeof text, "0 0 0", ".1 .3 .5", 0.3, "\"infinite\"");
+    expect(t, text, 1, 3, 12, 24);
+}
+
+/* The sun, scattered once along the one ray that is seen. */
+static void test_sun(struct test *t)
+{
+    enum { STEPS = 20000 };
+    const double sigma_s[3] = {0.3, 0.5, 0.2}, sigma_t[3] = {0.4, 0.7, 0.5}, wz = 0.6, g = 0.4;
+    double wanted = 0, phase = (1 - g * g) / (4 * PI * pow(1 + g * g - 2 * g * wz, 1.5));
+    for (int k = 0; k < STEPS; k++) {
+        double d = (k + 0.5) / STEPS, out = sqrt(1 - d * d + sqr(d * wz)) - d * wz;
+        for (int c = 0; c < 3; c++)
+            wanted += sigma_s[c] * phase * 5 * exp(-sigma_t[c] * (d + out)) / STEPS / 3;
+    }
+    char text[1024];
+    endless(text, sizeof text, ".1 .2 .3", ".3 .5 .2", g, "\"distant\" \"rgb L\" [5 5 5] \"point from\" [.8 0 .6] \"point to\" [0 0 0]");
+    expect(t, text, wanted, 3, 1, 192);
+}
+
+/* --- interfaces in one place -------------------------------------------------------------------------------- */
+
+/* Two slabs that absorb, one on the other: they share a face. Below the lower lies a floor, in its face, or between
+ * them a sheet that lets half of the light through, lit from below; the sun is seen on it. All is turned, or not. */
+static void test_coplanar(struct test *t)
+{
+#define BOX(low, high)                                                                                                 \
+    "Shape \"trianglemesh\" \"integer indices\" [0 3 2 0 2 1 4 5 6 4 6 7 0 1 5 0 5 4 3 7 6 3 6 2 0 4 7 0 7 3 1 2 6 1 6 5]\n" \
+    "\"point P\" [-4 " low " -4 4 " low " -4 4 " high " -4 -4 " high " -4 -4 " low " 4 4 " low " 4 4 " high " 4 -4 " high " 4]\n"
+    const double ink[3] = {0.1, 0.3, 0.9}, tar[3] = {0.4, 0.2, 0.1}, cos_i = 1 / sqrt(1.45), cos_o = 1 / sqrt(1.25);
+    for (int i = 0; i < 4; i++) {
+        bool sheet = i % 2 == 1;
+        char text[3000];
+        double wanted = 0;
+        for (int c = 0; c < 3; c++)
+            wanted += 3 / PI * 0.5 * cos_i / 3 *
+                      (sheet ? exp(-0.5 * tar[c] / cos_o - 0.5 * ink[c] / cos_i)
+                             : exp(-0.5 * (tar[c] + ink[c]) * (1 / cos_o + 1 / cos_i)));
+        snprintf(text, sizeof text,
+                 VIEW
+                 "MakeNamedMedium \"ink\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [.1 .3 .9] \"rgb sigma_s\" [0 0 0]\n"
+                 "MakeNamedMedium \"tar\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [.4 .2 .1] \"rgb sigma_s\" [0 0 0]\n"
+                 "LookAt .6 %s .8  0 %s 0  1 0 0 Rotate %d .3 1 .2 Camera \"orthographic\"\n"
+                 "\"float screenwindow\" [-1 1 -1 1] WorldBegin Rotate %d .3 1 .2\n"
+                 "LightSource \"distant\" \"rgb L\" [3 3 3] \"point from\" [.6 %d -.3] \"point to\" [0 0 0]\n"
+                 "AttributeBegin Material \"%s\" \"rgb Kd\" [%s] \"rgb Ks\" [0 0 0]\n"
+                 "Translate 0 %s 0 Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [%s]\n"
+                 "AttributeEnd Material \"\" MediumInterface \"ink\" \"\"\n" BOX("0", ".5")
+                 "MediumInterface \"tar\" \"\"\n" BOX(".5", "1") "WorldEnd",
+                 sheet ? "2.5" : "2", sheet ? ".5" : "0", i < 2 ? 0 : -33, i < 2 ? 0 : 33, sheet ? -1 : 1,
+                 sheet ? "translucent" : "matte", sheet ? "1 1 1" : ".5 .5 .5", sheet ? ".5" : "0",
+                 sheet ? "-3.9 0 -3.9 -3.9 0 3.9 3.9 0 3.9 3.9 0 -3.9" : "-5 0 -5 -5 0 5 5 0 5 5 0 -5");
+        expect(t, text, wanted, 3, 1, 128);
+    }
+}
+
 /* Within a medium a region is one for all directions, and no surface's. */
 static void test_regions(struct test *t)
 {
@@ -111,4 +186,7 @@ void test_medium(struct test *t)
     test_furnace(t);
     test_slab(t);
     test_once(t);
+    test_sky(t);
+    test_sun(t);
+    test_coplanar(t);
 }
