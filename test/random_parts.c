@@ -214,13 +214,29 @@ void put_media(struct writer *w, double unit)
     medium(w, "fog", 0.02, 0.15, unit);
     medium(w, "milk", 0.3, 2, unit);
     w->around = chance(w, 0.6) ? "fog" : "";
+    w->boxes = chance(w, 0.5);
     put(w, "MediumInterface \"%s\"\n", w->around);
 }
 
 void put_bound(struct writer *w)
 {
+    if (chance(w, 0.4))
+        return;
     put(w, "AttributeBegin Material \"\" MediumInterface \"%s\" \"\" ", w->around);
     put(w, "Shape \"sphere\" \"float radius\" 9 AttributeEnd\n");
+}
+
+void put_boxes(struct writer *w)
+{
+    double top = between(w, -1.4, -1.15);
+    for (int i = pick(w, 2); i < 2; i++) {
+        put(w, "AttributeBegin Material \"none\" MediumInterface \"%s\" \"%s\" Shape \"trianglemesh\" "
+               "\"integer indices\"\n  [ 0 3 1 0 2 3 4 5 7 4 7 6 0 1 5 0 5 4 2 7 3 2 6 7 0 6 2 0 4 6 1 3 7 1 7 5 ] "
+               "\"point P\" [ ", i == 0 ? "fog" : "milk", w->around);
+        for (int k = 0; k < 8; k++)
+            put_vec(w, vec(k % 2 != i ? 0.1 : i == 0 ? -0.4 : 0.5, k / 2 % 2 == 0 ? -0.5 : 0.4, k < 4 ? -1.6 : top));
+        put(w, "] AttributeEnd\n");
+    }
 }
 
 void put_milk(struct writer *w)
@@ -359,8 +375,6 @@ static void light_at_infinity(struct writer *w)
 {
     struct map m = map_random(w);
     put_map(w, &m);
-    if (w->media)
-        put(w, "MediumInterface \"\" ");
     if (chance(w, 0.3)) {
         w->delta_light = true;
         put(w, "LightSource \"distant\" ");
@@ -378,7 +392,7 @@ static void light_at_infinity(struct writer *w)
 
 void put_light(struct writer *w, double unit)
 {
-    vec3 at = mul(direction(w), between(w, 2, 2.6));
+    vec3 at = mul(direction(w), between(w, 2, 2.6) + (w->boxes ? 1.2 : 0));
     struct map inwards = map_frame(normalize(neg(at))), m = map_then(map_uneven(w), inwards);
     int kind = pick(w, 8);
     put(w, "AttributeBegin\n");

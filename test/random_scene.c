@@ -358,6 +358,8 @@ static void surroundings(struct writer *w, vec3 eye, bool walls)
         put_map(w, &m);
         put(w, "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -4 -4 -1.6 4 -4 -1.6 4 4 -1.6 "
                "-4 4 -1.6 ]\n");
+        if (w->boxes)
+            put_boxes(w);
     }
     put(w, "AttributeEnd\n");
 }
@@ -374,8 +376,7 @@ static void anything(struct writer *w, struct random_scene *s)
     bool walls = chance(w, 0.35);
     if (!walls) { /* what no light reaches is not governed by the tails of rough lobes */
         double L = across(w, 0.02, 0.3);
-        put(w, "AttributeBegin %s", w->media ? "MediumInterface \"\" " : "");
-        put(w, "LightSource \"infinite\" ");
+        put(w, "AttributeBegin LightSource \"infinite\" ");
         put_rgb(w, "L", L, L, L);
         put(w, "AttributeEnd\n");
     }

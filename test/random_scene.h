@@ -6,8 +6,9 @@
  *     furnaces   every ray sees the same, by theory: walls of albedo a that shine, or a sky over one convex thing
  *     direct     a patch lit by a delta light, seen from so near that the picture is one number, which is computed
  *                here without the program's help: pbrt-v3's rules for spots, distant lights and vertex normals
- *     any        nothing is known but that all methods must agree; a third of them have media, about all things,
- *                within one closed shape, or both
+ *     any        nothing is known but that all methods must agree; a third of them have media: about all things,
+ *                with a bound or without, within one closed shape, and in boxes that stand on the ground and share a
+ *                face
  *
  * The sizes are such that pictures are neither black nor governed by rare bright samples: lights and camera stay away
  * from surfaces, rough lobes are broad, walls and lamps large.

@@ -22,6 +22,7 @@ struct writer {
     bool specular, delta_light; /* what has been written so far */
     bool media;                 /* there are some, so that every lamp has a material and stands in what is around */
     const char *around;         /* the medium that the camera is in; "": none */
+    bool boxes;                 /* boxes of media lie on the ground: no lamp comes near */
 };
 
 /* put: text, as printf. put_numbers: n numbers and blanks, some of them evil if the scene is. put_vec: three. */

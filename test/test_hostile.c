@@ -201,6 +201,11 @@ static const struct repetition REPETITIONS[] = {
      "] WorldEnd", 160000, 0, 0},
     {"lamps that rays pass", "WorldBegin Translate 0 0 3 Material \"none\" AreaLightSource \"diffuse\"",
      "Shape \"sphere\" \"float radius\" %d.5", "WorldEnd", 25000, 0, 0},
+    {"interfaces around each other",
+     "Integrator \"bdpt\" MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [ 1e-9 1e-9 1e-9 ] "
+     "WorldBegin LightSource \"point\" Material \"none\"",
+     "MediumInterface \"\" \"m\" Shape \"sphere\" \"float radius\" %d.5 MediumInterface \"m\" \"\" "
+     "Shape \"sphere\" \"float radius\" %d.7", "WorldEnd", 7000, 0, 0},
     {"instances of a million triangles", /* the last: the most memory of any run is what counts */
      "WorldBegin ObjectBegin \"o\" Shape \"loopsubdiv\" \"integer levels\" 9 "
      "\"integer indices\" [ 0 1 2 0 2 3 0 3 1 1 3 2 ] \"point P\" [ 0 0 0 1 0 0 0 1 0 0 0 1 ] ObjectEnd",

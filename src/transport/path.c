@@ -61,6 +61,7 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->kind = at->prim_id == WITHIN_MEDIUM ? VERTEX_MEDIUM : VERTEX_SURFACE;
     v->ng = at->ng;
     v->prev_delta = from->delta;
+    v->strayed = false;
     v->light = at->light;
     v->cell = at->light < 0 ? -1 : w->scene->lights.light[at->light].first_cell;
     v->p = at->p;
