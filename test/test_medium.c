@@ -134,8 +134,9 @@ static void test_sun(struct test *t)
 static void test_coplanar(struct test *t)
 {
 #define BOX(low, high)                                                                                                 \
-    "Shape \"trianglemesh\" \"integer indices\" [0 3 2 0 2 1 4 5 6 4 6 7 0 1 5 0 5 4 3 7 6 3 6 2 0 4 7 0 7 3 1 2 6 1 6 5]\n" \
-    "\"point P\" [-4 " low " -4 4 " low " -4 4 " high " -4 -4 " high " -4 -4 " low " 4 4 " low " 4 4 " high " 4 -4 " high " 4]\n"
+    "Shape \"trianglemesh\" \"integer indices\"\n"                                                                       \
+    "[0 3 2 0 2 1 4 5 6 4 6 7 0 1 5 0 5 4 3 7 6 3 6 2 0 4 7 0 7 3 1 2 6 1 6 5] \"point P\" [-4 " low "\n"               \
+    "-4 4 " low " -4 4 " high " -4 -4 " high " -4 -4 " low " 4 4 " low " 4 4 " high " 4 -4 " high " 4]\n"
     const double ink[3] = {0.1, 0.3, 0.9}, tar[3] = {0.4, 0.2, 0.1}, cos_i = 1 / sqrt(1.45), cos_o = 1 / sqrt(1.25);
     for (int i = 0; i < 4; i++) {
         bool sheet = i % 2 == 1;
@@ -147,8 +148,10 @@ static void test_coplanar(struct test *t)
                              : exp(-0.5 * (tar[c] + ink[c]) * (1 / cos_o + 1 / cos_i)));
         snprintf(text, sizeof text,
                  VIEW
-                 "MakeNamedMedium \"ink\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [.1 .3 .9] \"rgb sigma_s\" [0 0 0]\n"
-                 "MakeNamedMedium \"tar\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [.4 .2 .1] \"rgb sigma_s\" [0 0 0]\n"
+                 "MakeNamedMedium \"ink\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [.1 .3 .9]\n"
+                 "\"rgb sigma_s\" [0 0 0]\n"
+                 "MakeNamedMedium \"tar\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [.4 .2 .1]\n"
+                 "\"rgb sigma_s\" [0 0 0]\n"
                  "LookAt .6 %s .8  0 %s 0  1 0 0 Rotate %d .3 1 .2 Camera \"orthographic\"\n"
                  "\"float screenwindow\" [-1 1 -1 1] WorldBegin Rotate %d .3 1 .2\n"
                  "LightSource \"distant\" \"rgb L\" [3 3 3] \"point from\" [.6 %d -.3] \"point to\" [0 0 0]\n"

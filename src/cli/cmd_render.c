@@ -144,19 +144,17 @@ static void report(const struct job_options *o, const char *integrator, const st
                 times->wall, times->cpu, render_us_per_path(film, times));
 }
 
-/* Are there strays? Then false with a message, or, unless --strict is given, with a warning. */
-static bool media_fit(const struct job_options *o, const struct scene *scene, const struct film *film, struct error *err)
+/* Do the media fit together, or is --strict not given? Else false with a message. */
+static bool media_fit(const struct job_options *o, const struct scene *scene, const struct film *film,
+                      struct error *err)
 {
     struct error text;
-    if (film->strays == 0 || (o->quiet && !o->strict))
-        return true;
-    error_set(&text, "%s: %ld ways of light come to a shape from another medium than its MediumInterface says, the first "
-                     "to (%g %g %g); %s", o->scene_path, film->strays, film->stray.x, film->stray.y, film->stray.z,
-              scene->media.lens);
-    if (o->strict)
-        return error_set(err, "%s", text.text);
-    fprintf(stderr, "asbdpt: warning: %s\n", text.text);
-    return true;
+    error_set(&text, "%s: %ld ways of light come to a shape from another medium than its MediumInterface says, the "
+                     "first to (%g %g %g); %s", o->scene_path, film->strays, film->stray.x, film->stray.y,
+              film->stray.z, scene->media.lens != NULL ? scene->media.lens : "");
+    if (film->strays > 0 && !o->strict && !o->quiet)
+        fprintf(stderr, "asbdpt: warning: %s\n", text.text);
+    return film->strays == 0 || !o->strict || error_set(err, "%s", text.text);
 }
 
 /* Pictures, then what can only be made now, and when all are complete the statistics. `ok`: nothing has failed yet. */

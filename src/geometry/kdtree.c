@@ -270,14 +270,16 @@ struct hits {
 static void add_hits(const struct kd_block *b, const struct geometry *geo, const struct ray *ray, struct hits *all)
 {
     struct hit hit;
-    for (int i = 0; i < KD_LANES && b->prim[i] != KD_NONE; i++)
-        for (struct ray rest = *ray; shape_intersect(geo, (int)(b->prim[i] & ~KD_ALPHA), &rest, &hit); rest.tmin = hit.t) {
+    for (int i = 0; i < KD_LANES && b->prim[i] != KD_NONE; i++) {
+        int prim = (int)(b->prim[i] & ~KD_ALPHA);
+        for (struct ray rest = *ray; shape_intersect(geo, prim, &rest, &hit); rest.tmin = hit.t) {
             bool there = !(b->prim[i] & KD_ALPHA) || geo->opaque(geo->opaque_context, geo, &hit, false);
             if (there && hit.t >= all->first && hit.t <= all->last) {
                 all->hit = mem_append(all->hit, all->n, sizeof *all->hit);
                 all->hit[all->n++] = hit;
             }
         }
+    }
 }
 
 static int by_distance(const void *a, const void *b)

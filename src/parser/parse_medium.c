@@ -112,32 +112,24 @@ static bool is_blind(const char *integrator)
     return integrator == NULL;
 }
 
-/* What the camera is in, and where that is said. */
-static char *lens_text(const struct graphics_state *at_end)
-{
-    struct error text;
-    const struct token *name = &at_end->medium[1];
-    const struct source_position at = name->position;
-    if (at.file == NULL)
-        return mem_copy_text("the camera is in no medium: there is no MediumInterface before WorldEnd");
-    error_set(&text, "the camera is in %s, by the MediumInterface of %s:%d:%d, which still holds at WorldEnd",
-              name->text[0] != '\0' ? "a medium" : "none", at.file->path, at.line, at.column);
-    return mem_copy_text(text.text);
-}
-
 bool parse_settle_media(struct parser *p)
 {
     struct scene *s = p->scene;
-    struct source_position used = p->media.used_at;
+    struct source_position used = p->media.used_at, at = p->state.medium[1].position;
+    struct error lens;
     bool seen = !is_blind(p->integrator != NULL ? p->integrator : s->integrator);
-    if (used.file == NULL || !seen) {
+    if (used.file == NULL || !seen) { /* none is anywhere, or is to be seen */
         s->media.n = 0;
         if (used.file != NULL)
             source_warn(&p->messages, used, "media are left out, as by pbrt-v3's \"path\"");
         return true;
     }
     s->camera.medium = parse_medium(p, 1); /* pbrt-v3 makes the camera last */
-    s->media.lens = lens_text(&p->state);
+    error_set(&lens, "the camera is in no medium");
+    if (at.file != NULL)
+        error_set(&lens, "the camera is in %s, by the MediumInterface of %s:%d:%d, which holds at WorldEnd",
+                  s->camera.medium > 0 ? "a medium" : "none", at.file->path, at.line, at.column);
+    s->media.lens = mem_copy_text(lens.text);
     return p->media.bad_at.file == NULL || source_error(&p->messages, p->media.bad_at, "%s", p->media.bad);
 }
 

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/maths.h"
-#include "base/warp.h"
 
 /* Nothing has happened to it yet. */
 static struct passage begin(const struct scene *s, const struct ray *ray, vec3 ng, int around)
@@ -145,13 +144,6 @@ struct passage medium_pass(const struct scene *s, const struct ray *ray, vec3 ng
     return out;
 }
 
-/* The medium before a surface that a ray comes to; -1 if it does not bound any. */
-static int medium_before(const struct scene *s, const struct surface *at, vec3 d)
-{
-    const int *medium = shape_group_of(&s->geo, (int)(at->prim_id - 1))->medium;
-    return medium[0] == medium[1] ? -1 : medium[!(dot(at->ng, d) > 0)];
-}
-
 bool medium_fly(const struct scene *s, const struct ray *ray, vec3 ng, int around, struct sampler *sampler, bool meets,
                 struct surface *at, struct passage *out)
 {
@@ -159,7 +151,7 @@ bool medium_fly(const struct scene *s, const struct ray *ray, vec3 ng, int aroun
     if (meets)
         way.tmax = length(sub(at->p, ray->o));
     *out = begin(s, ray, ng, around);
-    double d = pass(s, &way, sampler, meets ? medium_before(s, at, ray->d) : s->media.outer, out);
+    double d = pass(s, &way, sampler, meets ? medium_before(&s->geo, at, ray->d) : s->media.outer, out);
     if (d == INFINITY)
         return meets;
     const struct medium *m = &s->media.medium[out->medium - 1];
@@ -167,30 +159,4 @@ bool medium_fly(const struct scene *s, const struct ray *ray, vec3 ng, int aroun
     *at = (struct surface){.p = add(ray->o, mul(ray->d, d)), .ns = neg(ray->d), .material = m->material,
                            .prim_id = WITHIN_MEDIUM, .light = -1};
     return true;
-}
-
-int medium_outermost(const struct scene *s, double far)
-{
-    enum { WAYS = 64 };
-    int seen = -1, behind = s->camera.medium;
-    for (int i = 0; i < WAYS; i++) {
-        double u, v;
-        struct hit hit;
-        struct surface at;
-        sampler_r2(i, &u, &v);
-        vec3 w = warp_sphere(u, v);
-        struct ray inwards = {add(s->camera.position, mul(w, far)), neg(w), 0, far, 0, 0};
-        bool bounded = kd_closest(&s->media.interfaces, &s->geo, &inwards, &hit);
-        if (bounded) {
-            behind = crossing_at(s, &inwards, &hit).medium[0];
-            inwards.tmax = hit.t;
-        }
-        if (!kd_closest(&s->kd, &s->geo, &inwards, &hit) && !bounded)
-            return s->camera.medium;
-        shape_surface(&s->geo, &hit, &inwards, &at);
-        int medium = medium_before(s, &at, inwards.d);
-        if (medium >= 0 && (seen < 0 || medium < seen))
-            seen = medium;
-    }
-    return seen >= 0 ? seen : behind;
 }

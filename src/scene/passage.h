@@ -26,10 +26,6 @@ struct passage {
     bool strayed;      /* it came to the bound of a medium from another, and believed the bound */
 };
 
-/* medium_outermost: the medium about a scene, no surface of which is `far` from the lens: the lens' own if a straight
- * way there is free, else what the shapes that bound media say on the ways to it, the least number if they differ. */
-int medium_outermost(const struct scene *s, double far);
-
 /* medium_pass: the way from ray->o to ray->tmax.
  *   ng      normal of the primitive ray->from
  *   around  the medium that is there, unless the primitive bounds media */

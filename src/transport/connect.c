@@ -4,10 +4,7 @@
 #include "tables/emit.h"
 #include "transport/counts.h"
 
-static struct connection nothing(void)
-{
-    return (struct connection){.light = -1, .cell = -1};
-}
+static struct connection nothing(void) { return (struct connection){.light = -1, .cell = -1}; }
 
 /* A surface vertex scattering towards wi: throughput factor and both densities (1/sr). */
 struct scatter {
