@@ -123,7 +123,8 @@ static void test_sun(struct test *t)
             wanted += sigma_s[c] * phase * 5 * exp(-sigma_t[c] * (d + out)) / STEPS / 3;
     }
     char text[1024];
-    endless(text, sizeof text, ".1 .2 .3", ".3 .5 .2", g, "\"distant\" \"rgb L\" [5 5 5] \"point from\" [.8 0 .6] \"point to\" [0 0 0]");
+    endless(text, sizeof text, ".1 .2 .3", ".3 .5 .2", g,
+            "\"distant\" \"rgb L\" [5 5 5] \"point from\" [.8 0 .6] \"point to\" [0 0 0]");
     expect(t, text, wanted, 3, 1, 192);
 }
 
@@ -134,9 +135,10 @@ static void test_sun(struct test *t)
 static void test_coplanar(struct test *t)
 {
 #define BOX(low, high)                                                                                                 \
-    "Shape \"trianglemesh\" \"integer indices\"\n"                                                                       \
-    "[0 3 2 0 2 1 4 5 6 4 6 7 0 1 5 0 5 4 3 7 6 3 6 2 0 4 7 0 7 3 1 2 6 1 6 5] \"point P\" [-4 " low "\n"               \
-    "-4 4 " low " -4 4 " high " -4 -4 " high " -4 -4 " low " 4 4 " low " 4 4 " high " 4 -4 " high " 4]\n"
+    "Shape \"trianglemesh\" \"integer indices\"\n"                                                                     \
+    "[0 3 2 0 2 1 4 5 6 4 6 7 0 1 5 0 5 4 3 7 6 3 6 2 0 4 7 0 7 3 1 2 6 1 6 5]\n"                                      \
+    "\"point P\" [-4 " low " -4 4 " low " -4 4 " high " -4 -4 " high " -4\n"                                           \
+    "-4 " low " 4 4 " low " 4 4 " high " 4 -4 " high " 4]\n"
     const double ink[3] = {0.1, 0.3, 0.9}, tar[3] = {0.4, 0.2, 0.1}, cos_i = 1 / sqrt(1.45), cos_o = 1 / sqrt(1.25);
     for (int i = 0; i < 4; i++) {
         bool sheet = i % 2 == 1;
