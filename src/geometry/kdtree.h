@@ -34,8 +34,8 @@ void kd_build(struct kdtree *kd, const struct geometry *geo, enum kd_of kind);
 void kd_free(struct kdtree *kd);
 
 /* kd_closest: the first hit in (tmin, tmax), honouring alpha. Returns false if there is none. Thread-safe.
- * kd_all: how many hits are there? *hits: all of them, the nearest first, to be given to free(); NULL if there are none.
- * Here tmin may be below 0. */
+ * kd_all: how many hits are there? *hits: all, the nearest first, to be given to free(); NULL if there are none. Here
+ * tmin may be below 0. */
 bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit);
 int kd_all(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit **hits);
 

@@ -1,7 +1,9 @@
 /* medium.h: what fills space: homogeneous media. passage.h says what becomes of light in them.
  *
  * Media are numbered from 1; 0 is none. A surface without material whose sides are in different media is an interface
- * of these, and nothing else. Where there are lights at infinity, a medium that has no bound ends on the sphere about the scene (light.h), which
+ * of these, and nothing else.
+ *
+ * Where there are lights at infinity, a medium that has no bound ends on the sphere about the scene (light.h), which
  * then holds the lens, too. Beyond are these lights alone: they stand in no medium, whatever is said above them.
  */
 #ifndef ASBDPT_MEDIUM_H

@@ -65,8 +65,8 @@ static struct crossing crossing_at(const struct scene *s, const struct ray *line
     return (struct crossing){hit->t, ray_margin(at.p) / fabs(cosine), {medium[!(cosine > 0)], medium[cosine > 0]}};
 }
 
-/* Which of n hits is passed next? Rounding decides on the order of interfaces in one place: of those there the first that
- * belongs to this medium, if any does. The others stay in hit[1] and after. */
+/* Which of n hits is passed next? Rounding decides on the order of interfaces in one place: of those there the first
+ * that belongs to this medium, if any does. The others stay in hit[1] and after. */
 static struct crossing next_crossing(const struct scene *s, const struct ray *line, struct hit *hit, int n, int medium)
 {
     enum { LOOK_AHEAD = 16 };
@@ -119,7 +119,7 @@ static double pass(const struct scene *s, const struct ray *ray, struct sampler 
         bool fits = x.medium[0] == p->medium;
         if (!fits && x.t <= passed)
             continue;
-        double d = fmax(x.t - done, 0), drawn = INFINITY;
+        double d = fmax(fmin(x.t, end) - done, 0), drawn = INFINITY;
         if (sampler != NULL && p->medium > 0)
             drawn = draw_distance(&s->media.medium[p->medium - 1], sampler);
         scattered = drawn < d;
