@@ -10,10 +10,22 @@
 #include "base/file.h"
 #include "base/os.h"
 
+/* Bytes of a file; 0 if it cannot be opened, or is none. */
+static uint64_t length_of(const char *path)
+{
+    uint64_t length = 0;
+    FILE *f = os_open_input(path);
+    if (f != NULL) {
+        os_kind_of_stream(f, &length);
+        fclose(f);
+    }
+    return length;
+}
+
 char *text_read(const char *path, size_t *size, struct error *err)
 {
     uint8_t *data = NULL;
-    bool fits = os_identify(path).size < INT32_MAX, ok = fits && file_read(path, &data, size, NULL);
+    bool fits = length_of(path) < INT32_MAX, ok = fits && file_read(path, &data, size, NULL);
     int reason = fits && !ok ? errno : 0;
     if (ok && *size < INT32_MAX)
         return (char *)data;
