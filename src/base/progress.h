@@ -21,8 +21,8 @@ void progress_start(struct progress *p, bool quiet);
 void progress_update(struct progress *p, double done);
 void progress_end(struct progress *p);
 
-/* progress_left: seconds that the rest will take at the rate since the first of the work was done; infinite in the first
- * two seconds, when it would be a guess. */
+/* progress_left: seconds that the rest will take at the rate since the first of the work was done; infinite in the
+ * first two seconds, when it would be a guess. */
 double progress_left(struct progress *p, double now, double done);
 
 /* progress_duration: "12 s", "3 min 20 s", "2 h 05 min" or "3 days 4 h" into text [size]; seconds >= 0, others count
