@@ -34,7 +34,7 @@ static const struct test_entry ENTRIES[] = {
     {"walk", test_walk, false}, {"joint", test_joint, false}, {"weights", test_formulas, false},
     {"medium", test_medium, false}, {"media", test_media, false}, {"media-long", test_media_long, true},
     {"closed", test_closed, false},
-    {"mis", test_mis, false}, {"pairs", test_pairs, false}, {"pilot", test_pilot, false},
+    {"mis", test_mis, false}, {"pairs", test_pairs, false}, {"probe", test_probe, false},
     {"figures", test_figures, false},
     {"emission", test_emission, false},
     {"learning", test_learning, false},

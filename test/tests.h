@@ -47,7 +47,7 @@ void test_medium(struct test *t);
 void test_mis(struct test *t);
 void test_options(struct test *t);
 void test_pairs(struct test *t);
-void test_pilot(struct test *t);
+void test_probe(struct test *t);
 void test_figures(struct test *t);
 void test_parser(struct test *t);
 void test_pictures(struct test *t);

@@ -7,20 +7,18 @@
  */
 #include "integrators/method.h"
 
-static void render_pixel(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y, long iteration)
+static void render_pixel(const struct tile_pass *pass, const struct frozen *f, int x, int y, long iteration)
 {
     struct workspace *work = pass->work;
     arena_reset(&work->arena);
-    struct pixel_sample sample = pixel_sample_begin(pass, counts, x, y, iteration);
+    struct pixel_sample sample = pixel_sample_begin(pass, &f->counts, x, y, iteration);
     /* Light tracing needs of the eye sub-path only the lights seen directly (s = 0, t = 2). */
-    bool light_tracing = counts->hit[LATER_HIT] == 0;
-    int n_eye = pixel_eye_path(pass, &sample, work->eye, light_tracing ? 2 : sample.max_depth + 2);
-    int n_light = 0;
-    if (counts->splat > 0)
-        n_light = pixel_light_path(pass, counts, x, y, (uint64_t)iteration, &work->arena, work->light);
+    int n_eye = pixel_eye_path(pass, &sample, work->eye, f->numbers.hits ? sample.max_depth + 2 : 2), n_light = 0;
+    if (f->numbers.path_pixels > 0)
+        n_light = pixel_light_path(pass, &f->counts, x, y, (uint64_t)iteration, &work->arena, work->light);
 
     pixel_sum_eye(&sample, work->eye, n_eye);
-    if (counts->connect[FIRST_HIT] > 0)
+    if (f->numbers.draws[FIRST_HIT] > 0)
         pixel_sum_pairs(&sample, work->eye, n_eye, work->light, n_light, NO_CHOICE);
     pixel_splat_path(&sample, work->light, n_light, 1);
     pixel_sample_end(&sample);
@@ -28,37 +26,22 @@ static void render_pixel(const struct tile_pass *pass, const struct mis_counts *
 
 static void render(const struct preparation *m, const struct tile_pass *pass)
 {
-    const struct frozen *f = m->state;
     for (long iteration = pass->first; iteration < pass->end; iteration++)
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
-            render_pixel(pass, &f->counts, x, y, iteration);
-}
-
-static void prepare_pt(const struct render_job *job, struct preparation *out)
-{
-    struct frozen *f = out->state;
-    (void)job;
-    f->counts.connect[FIRST_HIT] = f->counts.connect[LATER_HIT] = f->counts.splat = 0;
-}
-
-static void prepare_lt(const struct render_job *job, struct preparation *out)
-{
-    struct frozen *f = out->state;
-    struct mis_counts counts = {.splat = f->counts.splat, .power = f->counts.power};
-    (void)job;
-    f->counts = counts;
+            render_pixel(pass, m->state, x, y, iteration);
 }
 
 const struct method method_pt = {
     .name = "pt", .help = "path tracing: light found by chance (s = 0) or sampled (s = 1)",
-    .state_size = sizeof(struct frozen), .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .prepare = prepare_pt, .render = render};
+    .numbers = {.lights = 1, .hits = true}, .state_size = sizeof(struct frozen), .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .render = render};
 
 const struct method method_lt = {
     .name = "lt", .help = "light tracing: light sub-paths connected to the lens (t = 1); cannot see mirrors",
-    .state_size = sizeof(struct frozen), .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .prepare = prepare_lt, .render = render};
+    .numbers = {.path_pixels = 1}, .state_size = sizeof(struct frozen), .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .render = render};
 
 const struct method method_bdpt = {
     .name = "bdpt", .help = "bidirectional path tracing [Veach 1997]: all strategies",
-    .state_size = sizeof(struct frozen), .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render};
+    .numbers = NUMBERS_OF_BDPT, .state_size = sizeof(struct frozen), .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .render = render};

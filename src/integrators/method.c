@@ -30,21 +30,26 @@ bool method_check(const struct method *m, const struct scene *scene, struct erro
     return ok;
 }
 
+void method_count(const struct render_job *job, struct frozen *f, struct credits credits)
+{
+    f->counts = counts_of(f->numbers, credits, pixel_light_count(job));
+    f->counts.power = job->power_heuristic;
+    f->counts.tables = &f->tables;
+}
+
 bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err)
 {
     struct preparation standard = {.method = m, .state = mem_alloc(1, m->state_size),
                                    .size = {0, DEFAULT_TILE_SIZE, 1}};
-    struct mis_counts bdpt = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, pixel_light_count(job), .power = job->power_heuristic};
     struct frozen *f = standard.state;
     *out = standard;
-    f->counts = bdpt;
     f->max_depth = job->max_depth;
-    f->lights = f->path_pixels = 1;
+    f->numbers = m->numbers;
     if (!read(m, job->scene, out->state, err)) {
         free(out->state);
         return false;
     }
-    f->counts.splat /= f->path_pixels;
+    method_count(job, f, NO_CREDITS);
     if (f->services.tile > 0) {
         out->size.tile = f->services.tile;
         out->size.spread = f->services.spread;

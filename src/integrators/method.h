@@ -13,30 +13,29 @@
 #include "base/error.h"
 #include "base/field.h"
 #include "tables/tables.h"
+#include "transport/counts.h"
 #include "transport/pixel_sample.h"
 
 #define DEFAULT_RR_THRESHOLD 0.5
+
+/* Each of the two sub-paths once, all connections between them. */
+#define NUMBERS_OF_BDPT {.path_pixels = 1, .draws = {1, 1}, .lights = 1, .hits = true}
 
 struct method;
 
 /* What makes any choice among a tile's light sub-paths better, whichever it is: parameters (services.h). */
 struct services {
-    int guide, credit, pilot; /* off or on */
+    int guide, credit;        /* off or on */
     double emission;          /* share of rays from lights that go by power alone; 1: all */
     int tile, spread;         /* of struct pass_size */
 };
 
 /* What is settled before the first sample and stays as it is, for weights go by it. The state of every method begins
- * with it. Before `prepare` the counts are BDPT's; other numbers are 0 unless said. */
+ * with it. */
 struct frozen {
-    struct mis_counts counts;
+    struct numbers numbers; /* of samples: the row's, unless parameters or `prepare` change them */
+    struct mis_counts counts; /* what they count as: numbers without credits, unless `prepare` changes that */
     int max_depth;
-    int lights;             /* samples of s = 1 at the first hit, 1 at first; 0: the method sees to them */
-    int path_pixels;        /* pooled methods: pixels for each light sub-path, 1 at first; 0: there are none */
-    double draws[EYE_ENDS]; /* methods that draw light vertices: how many for each eye vertex, on average */
-    struct {
-        int connections, path_pixels; /* what the user wants `draws` and `path_pixels` to be; 0: chosen */
-    } given;
     struct services services;
     struct tables tables; /* owned */
 };
@@ -59,11 +58,12 @@ struct method {
 
     const struct field *parameters;  /* of the state; NULL: none */
     size_t state_size, scratch_size; /* scratch_size 0: none; else all zeros at first */
+    struct numbers numbers;          /* of samples, unless parameters or `prepare` say otherwise */
     double rr_threshold;             /* of Russian roulette unless the user gives one (path.h) */
 
     /* Do the parameters, each right in itself, fit each other and the scene? False with a message if not. NULL: yes. */
     bool (*check)(const void *state, const struct scene *scene, struct error *err);
-    /* Settle what differs from BDPT; out->state is zero but for struct frozen and the parameters. NULL: nothing. */
+    /* Settle the rest; out->state is zero except for struct frozen and the parameters. NULL: nothing is left. */
     void (*prepare)(const struct render_job *job, struct preparation *out);
     void (*release)(void *state); /* what the state owns, but not the state; NULL: nothing */
 
@@ -79,8 +79,6 @@ struct method {
     void (*draw)(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t);
 };
 
-extern const struct method method_bdpt; /* what the others differ from */
-
 /* method_parameters: the table of a row's parameters, never NULL. method_has: the one of that name, or NULL; `select`
  * is one, too, where rows share a name. */
 const struct field *method_parameters(const struct method *m);
@@ -94,6 +92,9 @@ bool method_check(const struct method *m, const struct scene *scene, struct erro
  * Returns false with a message on a bad parameter. */
 bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err);
 void method_release(struct preparation *p);
+
+/* method_count: f->counts, of its numbers with these credits, its tables, and the job's heuristic. */
+void method_count(const struct render_job *job, struct frozen *f, struct credits credits);
 
 /* method_scratch: the memory of one thread; NULL: none is needed. */
 void *method_scratch(const struct preparation *p);

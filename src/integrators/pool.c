@@ -80,7 +80,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
     const struct learn_options own = {.importance = s->metric == METRIC_IMPORTANCE, .light_cells = s->grid,
                                       .levels = 1};
     services_learn(job, out, own);
-    services_settle(job, out);
+    services_settle(job, out, NO_CREDITS);
 }
 
 #define AT(member) offsetof(struct pool_state, member)
@@ -88,7 +88,7 @@ static const struct field PARAMETERS[] = {
     {"metric", FIELD_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light sub-path is chosen by", METRICS},
     {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
     {"grid", FIELD_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
-    SERVICES(true, 1, false, false, DEFAULT_TILE_SIZE, POOL_SPREAD),
+    SERVICES(true, 1, false, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_pool = {
@@ -98,5 +98,6 @@ const struct method method_pool = {
            "+ delta / K, I the sub-path's importance; scale 1 / (K q)",
     .parameters = PARAMETERS,
     .state_size = sizeof(struct pool_state), .scratch_size = sizeof(struct pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
+    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .prepare = prepare,
     .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .connect = connect};

@@ -18,7 +18,7 @@ void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, cons
     arena_reset(&pool->arena);
     pool->n = 0;
     pool->used = 0;
-    for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i += f->path_pixels) {
+    for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i += f->numbers.path_pixels) {
         pool->vertex = mem_grow(pool->vertex, &pool->capacity, pool->used + longest, sizeof *pool->vertex);
         struct vertex *path = &pool->vertex[pool->used];
         int length = pixel_light_path(pass, &f->counts, x, y, (uint64_t)iteration, &pool->arena, path);
@@ -55,7 +55,7 @@ struct candidates candidates_find(struct light_pool *pool)
 void pooled_fill(const struct preparation *m, const struct tile_pass *pass, long iteration)
 {
     const struct frozen *f = m->state;
-    if (f->path_pixels == 0)
+    if (f->numbers.path_pixels == 0)
         return;
     light_pool_fill(pass->work->scratch, pass, f, iteration);
     if (m->method->begin != NULL)
@@ -69,14 +69,15 @@ struct pooled_pixel pooled_begin(const struct preparation *m, const struct tile_
     const struct frozen *f = m->state;
     struct pooled_pixel p = {.eye = pass->work->eye, .number = number};
     p.sample = pixel_sample_begin(pass, &f->counts, x, y, iteration);
-    p.sample.lights = f->lights;
+    p.sample.lights = f->numbers.lights;
     p.n = pixel_eye_path(pass, &p.sample, pass->work->eye, f->max_depth + 2);
     p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
-    if (f->path_pixels > 0 && number % f->path_pixels == 0) {
+    int each = f->numbers.path_pixels;
+    if (each > 0 && number % each == 0) {
         const struct light_pool *pool = pass->work->scratch;
-        p.light = light_pool_path(pool, number / f->path_pixels);
-        p.n_light = pool->length[number / f->path_pixels];
-        p.scale = (double)rect_pixels(pass->rect) / ((double)pool->n * f->path_pixels);
+        p.light = light_pool_path(pool, number / each);
+        p.n_light = pool->length[number / each];
+        p.scale = (double)rect_pixels(pass->rect) / ((double)pool->n * each);
     }
     return p;
 }
@@ -85,7 +86,7 @@ void pooled_connect(const struct preparation *m, const struct tile_pass *pass, s
 {
     const struct method *method = m->method;
     const struct frozen *f = m->state;
-    if (f->path_pixels == 0)
+    if (f->numbers.path_pixels == 0)
         return;
     if (method->connect != NULL)
         method->connect(pass->work->scratch, f, p);

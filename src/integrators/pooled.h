@@ -70,13 +70,6 @@ enum metric {
 };
 extern const char *const METRICS[];
 
-/* pooled_draws: how many draws an eye vertex has, C on average. */
-static inline int pooled_draws(struct pooled_pixel *p, double C)
-{
-    double whole = floor(C);
-    return (int)whole + (C > whole && sampler_number(&p->draws, DRAW_HOW_MANY) < C - whole);
-}
-
 /* pooled_join: the pixel's eye vertex z = z_{t-1} and a candidate, unless the path would be too long. */
 static inline void pooled_join(struct pooled_pixel *p, const struct candidate *c, const struct vertex *z, int t,
                                struct choice choice)

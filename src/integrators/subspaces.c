@@ -10,7 +10,7 @@
  * met would have to list all vertices; the sums of a region e list only the regions that hold any.)
  *
  * The MIS weights know it: the strategies count as 2 C h(e(z), l(y)) samples, a function of the two surface points at
- * the ends of the edge; 2 is what a draw is worth beside an independent sample (mis.h, DRAW_CREDIT).
+ * the ends of the edge; 2 is the credit of a draw (struct credits).
  * [Su 2022] has subspaces of both kinds and a matrix of probabilities between them; here the regions are cells of
  * grids, and the table is learnt from trial connections.
  *
@@ -26,6 +26,7 @@
 struct subspaces_state {
     struct frozen frozen;
     double delta;
+    int probe;
 };
 
 /* The candidates that lie in one region. */
@@ -117,19 +118,18 @@ static const struct candidate *find(const struct subspaces *v, const double *row
     return &v->candidate[i];
 }
 
-/* C draws on average for one eye vertex, stratified. */
+/* C draws for one eye vertex, stratified. */
 static void draw(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t)
 {
     struct subspaces *v = scratch;
     const struct subspaces_state *s = state;
     if (v->n_groups == 0)
         return;
-    double C = s->frozen.draws[z->eye_end];
-    int n = pooled_draws(p, C);
-    const double *row = n > 0 ? row_of_region(v, &s->frozen.tables, z->eye_region) : NULL;
-    for (int c = 0; c < n; c++) {
+    int C = s->frozen.numbers.draws[z->eye_end];
+    const double *row = row_of_region(v, &s->frozen.tables, z->eye_region);
+    for (int c = 0; c < C; c++) {
         struct choice choice;
-        const struct candidate *y = find(v, row, (c + sampler_number(&p->draws, DRAW_LIGHT_END)) / n, &choice.pmf);
+        const struct candidate *y = find(v, row, (c + sampler_number(&p->draws, DRAW_LIGHT_END)) / C, &choice.pmf);
         choice.scale = 1 / (C * choice.pmf * v->pool.n);
         pooled_join(p, y, z, t, choice);
     }
@@ -139,36 +139,32 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 
 enum { LIGHT_CELLS = 16 }; /* light regions along the diagonal */
 
-/* Draws are stratified over the pool: the weights count them for more than as many independent samples. */
-static const double DRAW_CREDIT = 2;
+/* Draws of one eye vertex are stratified over the pool. */
+static const struct credits CREDITS = {.hit = 1, .direct = 1, .delta = 1, .draw = 2};
 
-/* Learn, probe, plan; then the render. But first it is asked whether any of that can pay. */
 static void prepare(const struct render_job *job, struct preparation *out)
 {
     const struct subspaces_state *s = out->state;
-    struct frozen *f = out->state;
     const struct learn_options own = {.importance = true, .pairs = true, .light_cells = LIGHT_CELLS,
                                       .levels = REGION_LEVELS, .delta = s->delta};
-    if (!services_paths_matter(job, out))
+    if (s->probe && services_trace_paths(job, out))
         return;
     services_learn(job, out, own);
-    for (int end = 0; end < EYE_ENDS; end++) {
-        f->draws[end] = f->given.connections > 0 ? f->given.connections : end == FIRST_HIT ? 3 : 1;
-        f->counts.connect[end] = DRAW_CREDIT * f->draws[end];
-    }
-    f->path_pixels = f->given.path_pixels > 0 ? f->given.path_pixels : 4;
-    f->counts.splat = pixel_light_count(job) / f->path_pixels;
-    services_settle(job, out);
+    services_settle(job, out, CREDITS);
 }
 
 #define AT(member) offsetof(struct subspaces_state, member)
 static const struct field PARAMETERS[] = {
-    {"connections", FIELD_INTEGER, AT(frozen.given.connections), 0, 0, 1024,
-     "light vertices drawn for each eye vertex; 0: chosen", NULL},
-    {"pathpixels", FIELD_INTEGER, AT(frozen.given.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
-     "pixels for each light sub-path; 0: chosen", NULL},
+    {"connections", FIELD_INTEGER, AT(frozen.numbers.draws[FIRST_HIT]), 3, 1, 1024,
+     "light vertices drawn for each eye vertex that the camera sees", NULL},
+    {"later", FIELD_INTEGER, AT(frozen.numbers.draws[LATER_HIT]), 1, 1, 1024,
+     "light vertices drawn for each other eye vertex", NULL},
+    {"pathpixels", FIELD_INTEGER, AT(frozen.numbers.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+     "pixels for each light sub-path", NULL},
     {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore what was learnt", NULL},
-    SERVICES(true, 0.2, true, true, MAX_TILE_SIZE, POOL_SPREAD),
+    {"probe", FIELD_WORD, AT(probe), true, 0, 0,
+     "check first whether light sub-paths are worth their time, and trace paths if they are not", OFF_ON},
+    SERVICES(true, 0.2, true, MAX_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_subspaces = {
@@ -177,5 +173,5 @@ const struct method method_subspaces = {
            "to h(e,l) luminance(beta), by the regions of both; scale 1 / (C K P)",
     .parameters = PARAMETERS,
     .state_size = sizeof(struct subspaces_state), .scratch_size = sizeof(struct subspaces),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
+    .numbers = {.lights = 2, .hits = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render, .scratch_free = light_pool_free, .begin = begin, .draw = draw};

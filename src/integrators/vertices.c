@@ -13,7 +13,7 @@
  *
  * The MIS weights know about it: strategies s >= 2, t >= 2 ending at light position x take about n(x) samples per
  * pixel, a function of the surface point alone, so all strategies of a path agree on it (mis.h). The 2 is a credit,
- * which s = 1 has too (CREDIT says why); any frozen count is unbiased.
+ * which s = 1 has too (CREDITS says why); any frozen count is unbiased.
  *
  * Tests: test_asbdpt.c.
  */
@@ -69,11 +69,10 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 {
     const struct vertices *v = scratch;
     const struct vertices_state *s = state;
-    double C = s->frozen.draws[z->eye_end];
-    int n = v->table.n > 0 ? pooled_draws(p, C) : 0;
-    for (int c = 0; c < n; c++) {
+    int C = v->table.n > 0 ? s->frozen.numbers.draws[z->eye_end] : 0;
+    for (int c = 0; c < C; c++) {
         struct choice choice;
-        int i = alias_sample(&v->table, (c + sampler_number(&p->draws, DRAW_LIGHT_END)) / n, &choice.pmf, NULL);
+        int i = alias_sample(&v->table, (c + sampler_number(&p->draws, DRAW_LIGHT_END)) / C, &choice.pmf, NULL);
         choice.scale = 1 / (C * choice.pmf * v->pool.n);
         pooled_join(p, &v->found.item[i], z, t, choice);
     }
@@ -81,17 +80,9 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 
 /* --- preparing --------------------------------------------------------------------------------------- */
 
-/* What draws, and the one sample of s = 1, count for in the weights (mis.h): draws are stratified over a table, and the
- * point on the light comes from a low-discrepancy sequence. */
-static const double CREDIT = 2;
-
-/* As many draws as are needed, on average, to meet one light vertex that the camera can make use of; between 2, below
- * which tracing the sub-paths costs more than connecting them, and 8, where shadow rays begin to dominate. A rule of
- * our own. */
-static int choose_connections(const struct importance *importance)
-{
-    return int_within(1 / importance->useful + 0.5, 2, 8); /* `useful` of a scene in which nothing arrives is 0 */
-}
+/* What draws, and the one sample of s = 1, count for: draws are stratified over a table, and the point on the light
+ * comes from a low-discrepancy sequence. */
+static const struct credits CREDITS = {.hit = 1, .direct = 2, .delta = 2, .draw = 2};
 
 /* h(l) = (1 - delta) E(l) / mean + delta, for every eye vertex alike. */
 static struct pairs pairs_from_importance(const struct tables *t, double delta)
@@ -109,31 +100,22 @@ static void prepare(const struct render_job *job, struct preparation *out)
     const struct learn_options own = {.importance = s->metric == METRIC_IMPORTANCE, .light_cells = s->grid,
                                       .levels = 1};
     services_learn(job, out, own);
-    int C = f->given.connections > 0 ? f->given.connections
-            : own.importance         ? choose_connections(&f->tables.importance)
-                                     : 4;
-    f->path_pixels = f->given.path_pixels > 0 ? f->given.path_pixels : 2;
-    f->counts.splat = pixel_light_count(job) / f->path_pixels;
-    for (int end = 0; end < EYE_ENDS; end++) {
-        f->draws[end] = C;
-        f->counts.connect[end] = CREDIT * C;
-        f->counts.direct[end] = f->counts.delta[end] = CREDIT;
-    }
+    f->numbers.draws[LATER_HIT] = f->numbers.draws[FIRST_HIT];
     if (own.importance && f->tables.importance.mean > 0)
         f->tables.pairs = pairs_from_importance(&f->tables, s->delta);
-    services_settle(job, out);
+    services_settle(job, out, CREDITS);
 }
 
 #define AT(member) offsetof(struct vertices_state, member)
 static const struct field PARAMETERS[] = {
-    {"connections", FIELD_INTEGER, AT(frozen.given.connections), 0, 0, 1024,
-     "light vertices drawn for each eye vertex; 0: chosen", NULL},
-    {"pathpixels", FIELD_INTEGER, AT(frozen.given.path_pixels), 0, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
-     "pixels for each light sub-path; 0: 2", NULL},
+    {"connections", FIELD_INTEGER, AT(frozen.numbers.draws[FIRST_HIT]), 4, 1, 1024,
+     "light vertices drawn for each eye vertex", NULL},
+    {"pathpixels", FIELD_INTEGER, AT(frozen.numbers.path_pixels), 2, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+     "pixels for each light sub-path", NULL},
     {"metric", FIELD_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light vertex is chosen by", METRICS},
     {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
     {"grid", FIELD_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
-    SERVICES(true, 1, false, false, DEFAULT_TILE_SIZE, POOL_SPREAD),
+    SERVICES(true, 1, false, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_vertices = {
@@ -142,5 +124,5 @@ const struct method method_vertices = {
            "sub-paths, q in proportion to luminance(beta) n(x); scale 1 / (C K q)",
     .parameters = PARAMETERS,
     .state_size = sizeof(struct vertices_state), .scratch_size = sizeof(struct vertices),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
+    .numbers = {.lights = 1, .hits = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .draw = draw};

@@ -9,7 +9,6 @@ static const double GUIDE_DELTA = 0.2; /* share of s = 1 samples that choose lig
 struct eye_pass {
     struct tables tables; /* so far */
     struct guide_sums lights; /* NULL sums: no guide is wanted */
-    long n;
 };
 
 static void trace(const struct pass *p, int thread, long i, struct findings *out)
@@ -21,7 +20,7 @@ static void trace(const struct pass *p, int thread, long i, struct findings *out
     for (const struct vertex *z = l->work[thread].eye + 1; z < l->work[thread].eye + n; z++) {
         if (!vertex_connectible(z))
             continue;
-        struct finding f = {.kind = EYE_VERTEX, .x = rgb_luminance(z->beta), .first = z->eye_end == FIRST_HIT};
+        struct finding f = {.kind = EYE_VERTEX, .x = rgb_luminance(z->beta)};
         f.eye = regions_key(&e->tables.eye, z->p, vertex_side(z));
         f.light = regions_key(&e->tables.light, z->p, vertex_side(z));
         findings_add(out, f);
@@ -44,15 +43,13 @@ static void take(void *context, const struct finding *f)
         guide_sums_add(&e->lights, &t->eye, region, f->cell, f->x);
         return;
     }
-    t->importance.eye_vertices += 1.0 / (double)e->n;
-    t->importance.first_vertices += f->first / (double)e->n;
     if (t->importance.E != NULL)
         t->importance.E[regions_add(&t->light, f->light)] += f->x;
 }
 
 struct tables train_importance(struct training *t, struct tables known, long n, bool guide)
 {
-    struct eye_pass e = {.tables = known, .n = n};
+    struct eye_pass e = {.tables = known};
     struct pass pass = {t, any_counts(&NO_TABLES), 0, n, &e, trace, take};
     if (guide)
         guide_sums_init(&e.lights, &t->job->scene->lights, &known.eye);

@@ -40,11 +40,11 @@ struct tables train_emission(struct training *t, struct tables known, long n, do
 
 /* --- vertices ---------------------------------------------------------------------------------------- */
 
-/* Sums over the connectible vertices of light sub-paths; I = luminance(beta) E. */
+/* Sums over the connectible vertices of light sub-paths. */
 struct light_pass {
     struct tables tables; /* so far */
-    double vertices, E, I, square; /* square: of I */
-    long n;                        /* sub-paths */
+    double vertices, E;
+    long n; /* sub-paths */
 };
 
 static void trace_vertices(const struct pass *p, int thread, long i, struct findings *out)
@@ -67,11 +67,8 @@ static void take_vertex(void *context, const struct finding *f)
     struct importance *importance = &l->tables.importance;
     struct regions *light = &l->tables.light;
     int region = importance->vertices != NULL ? regions_add(light, f->light) : regions_find(light, f->light);
-    double E = importance_in(importance, region), I = f->x * E;
     l->vertices++;
-    l->E += E;
-    l->I += I;
-    l->square += I * I;
+    l->E += importance_in(importance, region);
     if (importance->vertices != NULL)
         importance->vertices[region] += 1.0 / (double)l->n;
 }
@@ -86,6 +83,5 @@ struct tables train_vertices(struct training *t, struct tables known, long first
     pass_run(&pass);
     importance->light_vertices = l.vertices / (double)n;
     importance->mean = l.E / (double)n;
-    importance->useful = l.square > 0 ? l.I * l.I / (l.square * l.vertices) : 1;
     return l.tables;
 }

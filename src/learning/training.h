@@ -18,7 +18,6 @@ struct finding {
     uint64_t eye, light; /* regions_key of its place as an eye vertex, as a light vertex; TRIAL: of either end's */
     int cell;            /* LIGHT_SEEN, RAY_LEFT: the light cell */
     double u[2];         /* RAY_LEFT: where in emission's square */
-    bool first;          /* EYE_VERTEX: is it the first hit? */
     double x; /* vertices: luminance of beta; LIGHT_SEEN: contribution; RAY_LEFT, TRIAL: worth */
     double w; /* TRIAL: weight */
 };

@@ -30,24 +30,15 @@ void guide_sums_add(struct guide_sums *s, const struct regions *regions, int reg
 
 /* --- the tables -------------------------------------------------------------------------------------- */
 
-/* t of every region in place of its sums, each from that of the region above it, region 0 from its own. K is SMOOTHING
- * times the number of columns that the region above effectively has [Kish 1965]: the more there are, the more
- * contributions it takes to tell them apart. */
+/* t of every region in place of its sums, each from that of the region above it. */
 static void find_shares(const struct guide_sums *s, const struct regions *regions)
 {
-    const double SMOOTHING = 16;
+    const double K = 8;
     int n = s->columns.n;
     for (int i = 0; i < regions->n; i++) {
-        double *t = arrived_in(s, i), samples = t[n], sum = sum_of(t, n), square = 0;
-        if (i == 0) {
-            for (int c = 0; c < n; c++)
-                t[c] = sum > 0 ? t[c] / sum : s->columns.power[c];
-            continue;
-        }
-        const double *above = arrived_in(s, regions->region[i].above);
-        for (int c = 0; c < n; c++)
-            square += above[c] * above[c];
-        double K = SMOOTHING / square, own = sum > 0 ? samples / (samples + K) / sum : 0, others = K / (samples + K);
+        double *t = arrived_in(s, i), samples = t[n], sum = sum_of(t, n);
+        const double *above = i > 0 ? arrived_in(s, regions->region[i].above) : s->columns.power;
+        double own = sum > 0 ? samples / (samples + K) / sum : 0, others = sum > 0 ? K / (samples + K) : 1;
         for (int c = 0; c < n; c++)
             t[c] = own * t[c] + others * above[c];
     }

@@ -7,7 +7,7 @@
  * stay neighbours and well-spread numbers are spread over the lights,
  *     q(c) = delta e(c) + (1 - delta) t(c),      t(c) = (N own(c) + K above(c)) / (N + K),
  * e being the choice by power, own the region's shares after N contributions, and above the t of the region that holds
- * it (at the top: the shares of the whole scene), on which a region seldom visited relies.
+ * it, at the top e. K = 8 contributions count as much as what is above.
  *
  * A scene with more than GUIDE_COLUMNS light cells is learnt in groups of consecutive cells; within a group the choice
  * is by power. So the memory is bounded, by 16 bytes for each of GUIDE_COLUMNS columns of each region.

@@ -1,7 +1,7 @@
 /* importance.h: where in space can the camera make use of light?
  *
  * E of a region (regions.h) is the sum of the luminances of the throughputs with which eye sub-paths arrive there:
- * large where many or strong ones pass. A light vertex y is worth about I = luminance(beta_y) E(region of y).
+ * large where many or strong ones pass. A light vertex y is worth about luminance(beta_y) E(region of y).
  *
  * Tests: test_asbdpt.c.
  */
@@ -15,10 +15,8 @@ struct importance {
     double *E;
     double *vertices; /* N of pairs.h: connectible vertices of a light sub-path, each in the finest region it lies in */
     /* Means over sub-paths: */
-    double light_vertices;               /* connectible vertices of a light sub-path altogether */
-    double eye_vertices, first_vertices; /* of an eye sub-path, and first hits among them */
-    double mean;                         /* sum of E over the vertices of a light sub-path */
-    double useful; /* share of light vertices that carries I: (mean I)^2 / mean(I^2), (0,1] */
+    double light_vertices; /* connectible vertices of a light sub-path altogether */
+    double mean;           /* sum of E over the vertices of a light sub-path */
 };
 
 /* importance_in: E of a region, >= 0; 0 where no eye sub-path came. */

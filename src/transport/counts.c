@@ -1,6 +1,20 @@
 /* counts.c: see counts.h. */
 #include "transport/counts.h"
 
+struct mis_counts counts_of(struct numbers n, struct credits c, double pixels)
+{
+    struct mis_counts m = {.splat = n.path_pixels > 0 ? pixels / n.path_pixels : 0};
+    for (int end = 0; end < EYE_ENDS; end++) {
+        struct credits worth = end == FIRST_HIT ? c : NO_CREDITS;
+        int lights = end == FIRST_HIT ? n.lights : n.lights > 0;
+        m.hit[end] = n.hits ? worth.hit : 0;
+        m.direct[end] = lights * worth.direct;
+        m.delta[end] = lights * worth.delta;
+        m.connect[end] = n.path_pixels > 0 ? n.draws[end] * c.draw : 0;
+    }
+    return m;
+}
+
 double c_light(const struct mis_counts *c, const struct light_set *lights, const struct vertex *prev,
                const struct vertex *y, enum eye_end end)
 {

@@ -8,6 +8,27 @@
 #include "tables/tables.h"
 #include "transport/vertex.h"
 
+/* How many samples of each kind a method takes, in each iteration. */
+struct numbers {
+    int path_pixels;     /* pixels for each light sub-path; 0: there are no light sub-paths */
+    int draws[EYE_ENDS]; /* light vertices that an eye vertex is joined to; BDPT: each of one sub-path once */
+    int lights;          /* light points for each eye vertex that is FIRST_HIT; a later one has 1. 0: none at all */
+    bool hits;           /* s = 0: do eye sub-paths count that find lights after two edges or more? */
+};
+
+/* What one sample counts as, in independent samples (see struct mis_counts). */
+struct credits {
+    double hit;    /* s = 0, where the edge before the light begins at a first hit */
+    double direct; /* s = 1 at a first hit, for lights that s = 0 can find */
+    double delta;  /* s = 1 at a first hit, for those that it cannot */
+    double draw;   /* s >= 2, t >= 2 */
+};
+static const struct credits NO_CREDITS = {1, 1, 1, 1};
+
+/* counts_of: what the weights count: numbers times credits.
+ *   pixels  of the film, all of which a light sub-path may reach */
+struct mis_counts counts_of(struct numbers n, struct credits c, double pixels);
+
 static inline const struct tables *counts_tables(const struct mis_counts *c)
 {
     return c->tables != NULL ? c->tables : &NO_TABLES;

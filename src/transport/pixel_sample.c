@@ -103,10 +103,18 @@ void pixel_add(struct pixel_sample *sample, const struct connection *c, int s, i
         sample->before = rgb_add(sample->before, added);
 }
 
-static void sum_direct(struct pixel_sample *sample, const struct vertex *eye, int t)
+void pixel_sum_hit(struct pixel_sample *sample, const struct vertex *eye, int t)
+{
+    struct connection c = connect_hit(sample->scene, sample->counts, &eye[t - 2], &eye[t - 1], t);
+    pixel_add(sample, &c, 0, t, NULL, &eye[t - 1], NO_CHOICE);
+}
+
+void pixel_sum_direct(struct pixel_sample *sample, const struct vertex *eye, int t)
 {
     const struct vertex *z = &eye[t - 1];
-    int n = z->eye_end == FIRST_HIT && sample->lights > 0 ? sample->lights : 1;
+    if (z->kind == VERTEX_ESCAPED || t > sample->max_depth + 1)
+        return;
+    int n = z->eye_end == FIRST_HIT ? sample->lights : 1;
     const struct choice each = {1, 1.0 / n};
     for (int i = 0; i < n; i++) {
         struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);
@@ -114,20 +122,14 @@ static void sum_direct(struct pixel_sample *sample, const struct vertex *eye, in
     }
 }
 
-static void sum_hit(struct pixel_sample *sample, const struct vertex *eye, int t)
-{
-    struct connection c = connect_hit(sample->scene, sample->counts, &eye[t - 2], &eye[t - 1], t);
-    pixel_add(sample, &c, 0, t, NULL, &eye[t - 1], NO_CHOICE);
-}
-
 void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
 {
+    bool all = sample->counts->hit[LATER_HIT] > 0;
     for (int t = 2; t <= n; t++) {
-        if (t == 2 || sample->counts->hit[LATER_HIT] > 0)
-            sum_hit(sample, eye, t);
-        bool wanted = sample->counts->direct[FIRST_HIT] > 0 && (t > 2 || sample->lights > 0);
-        if (wanted && eye[t - 1].kind != VERTEX_ESCAPED && t <= sample->max_depth + 1)
-            sum_direct(sample, eye, t);
+        if (t == 2 || all)
+            pixel_sum_hit(sample, eye, t);
+        if (all)
+            pixel_sum_direct(sample, eye, t);
     }
 }
 

@@ -22,7 +22,7 @@ struct pixel_sample {
     int x, y;               /* the pixel */
     long iteration;
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
-    int lights;             /* samples of s = 1 at a first hit, else 1; 0: the method's own for t = 2, else 1 */
+    int lights;             /* light points for an eye vertex that is FIRST_HIT */
     struct sampler sampler; /* for light and lens points */
     rgb until, before;      /* sums of what paths with t >= 2 have brought so far: of those shorter than the end of the
                              * film's gate, and of those shorter than its beginning (scene/tile.h). Without a gate
@@ -52,7 +52,11 @@ double pixel_light_count(const struct render_job *job);
 
 /* --- sums of connections ----------------------------------------------------------------------------- */
 
-/* pixel_sum_eye: s = 0 and s = 1 for every vertex of the eye sub-path of n vertices. */
+/* pixel_sum_hit: s = 0, pixel_sum_direct: s = 1, of the eye sub-path's first t vertices.
+ * pixel_sum_eye: both for every vertex of the eye sub-path of n vertices; without counts for s = 0 only what is seen
+ * directly. */
+void pixel_sum_hit(struct pixel_sample *sample, const struct vertex *eye, int t);
+void pixel_sum_direct(struct pixel_sample *sample, const struct vertex *eye, int t);
 void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n);
 
 /* What a method drew to join an eye sub-path with. */

@@ -54,16 +54,16 @@ static void connect(void *scratch, const void *state, struct pooled_pixel *p)
 static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct cbdpt_state *s = out->state;
-    s->frozen.counts.connect[FIRST_HIT] = s->frozen.counts.connect[LATER_HIT] = s->connections;
+    s->frozen.numbers.draws[FIRST_HIT] = s->frozen.numbers.draws[LATER_HIT] = s->connections;
     plain_prepare(job, out);
 }
 
 #define AT(member) offsetof(struct cbdpt_state, member)
 static const struct field PARAMETERS[] = {
     {"connections", FIELD_INTEGER, AT(connections), 8, 1, 1024, "light sub-paths for each pixel", NULL},
-    {"pathpixels", FIELD_INTEGER, AT(frozen.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+    {"pathpixels", FIELD_INTEGER, AT(frozen.numbers.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path", NULL},
-    SERVICES(false, 1, false, false, DEFAULT_TILE_SIZE, 1),
+    SERVICES(false, 1, false, DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
 const struct method method_cbdpt = {
@@ -71,5 +71,6 @@ const struct method method_cbdpt = {
     .why = "M of the tile's K light sub-paths, in random order, all used equally often; scale 1 / M",
     .parameters = PARAMETERS,
     .state_size = sizeof(struct cbdpt_state), .scratch_size = sizeof(struct cbdpt),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = light_pool_free,
+    .numbers = {.lights = 1, .hits = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render,
+    .scratch_free = light_pool_free,
     .begin = begin, .connect = connect};

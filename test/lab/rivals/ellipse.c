@@ -226,7 +226,6 @@ static void prepare(const struct render_job *job, struct preparation *out)
     struct ellipse_state *s = out->state;
     const struct geometry *geo = &job->scene->geo;
     double *area = mem_alloc((size_t)geo->n_triangles, sizeof *area);
-    method_pt.prepare(job, out);
     for (int i = 0; i < geo->n_triangles; i++)
         area[i] = shape_area(geo, i);
     alias_build(&s->own.by_area, area, geo->n_triangles);
@@ -250,5 +249,5 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
 const struct method method_ellipse = {
     .name = "ellipse", .check = surfaces_alone,
     .help = "ellipsoidal connections [Pediredla 2019]: for narrow gates; else pt",
-    .state_size = sizeof(struct ellipse_state), .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .state_size = sizeof(struct ellipse_state), .numbers = {.lights = 1, .hits = true}, .rr_threshold = DEFAULT_RR_THRESHOLD,
     .prepare = prepare, .release = release, .render = render};

@@ -19,7 +19,7 @@
 
 struct lvc_state {
     struct frozen frozen;
-    int connections; /* C; 0, the parameter: as many as a light sub-path has vertices */
+    int connections; /* 0: as many as a light sub-path has vertices; else draws */
 };
 
 struct lvc {
@@ -41,12 +41,11 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 {
     const struct lvc *v = scratch;
     const struct lvc_state *s = state;
-    double C = s->frozen.draws[z->eye_end];
-    int V = v->found.n, n = V > 0 ? pooled_draws(p, C) : 0;
+    int V = v->found.n, C = V > 0 ? s->frozen.numbers.draws[z->eye_end] : 0;
     const struct choice choice = {1.0 / V, 1 / (C * (1.0 / V) * v->pool.n)};
-    for (int c = 0; c < n; c++) {
+    for (int c = 0; c < C; c++) {
         /* below V, since what is drawn is a multiple of 2^-32 */
-        int i = (int)((c + sampler_number(&p->draws, DRAW_LIGHT_END)) / n * V);
+        int i = (int)((c + sampler_number(&p->draws, DRAW_LIGHT_END)) / C * V);
         pooled_join(p, &v->found.item[i < V ? i : V - 1], z, t, choice);
     }
 }
@@ -56,24 +55,20 @@ static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct lvc_state *s = out->state;
     double l = light_vertices_expected(job);
-    bool chosen = s->connections == 1; /* if there is a pilot */
-    if (s->connections == 0)
-        s->connections = int_within(ceil(l), 1, 1024);
-    s->frozen.given.connections = chosen ? 0 : s->connections;
-    for (int end = 0; end < EYE_ENDS; end++) {
-        s->frozen.draws[end] = s->connections;
-        s->frozen.counts.connect[end] = l > 0 ? s->connections / l : s->connections;
-    }
+    int C = s->connections > 0 ? s->connections : int_within(ceil(l), 1, 1024);
+    s->frozen.numbers.draws[FIRST_HIT] = s->frozen.numbers.draws[LATER_HIT] = C;
     plain_prepare(job, out);
+    for (int end = 0; end < EYE_ENDS && l > 0; end++)
+        s->frozen.counts.connect[end] /= l;
 }
 
 #define AT(member) offsetof(struct lvc_state, member)
 static const struct field PARAMETERS[] = {
     {"connections", FIELD_INTEGER, AT(connections), 1, 0, 1024,
      "light vertices drawn for each eye vertex; 0, as in the paper: as many as a light sub-path has on average", NULL},
-    {"pathpixels", FIELD_INTEGER, AT(frozen.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+    {"pathpixels", FIELD_INTEGER, AT(frozen.numbers.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path", NULL},
-    SERVICES(false, 1, false, false, DEFAULT_TILE_SIZE, 1),
+    SERVICES(false, 1, false, DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
 const struct method method_lvc = {
@@ -82,5 +77,6 @@ const struct method method_lvc = {
            "likely; scale V / (C K)",
     .parameters = PARAMETERS,
     .state_size = sizeof(struct lvc_state), .scratch_size = sizeof(struct lvc),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render, .scratch_free = light_pool_free,
+    .numbers = {.lights = 1, .hits = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render,
+    .scratch_free = light_pool_free,
     .begin = begin, .draw = draw};

@@ -108,10 +108,10 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
 }
 
 static const struct field PARAMETERS[] = {
-    {"pathpixels", FIELD_INTEGER, offsetof(struct frozen, path_pixels), 1, 1,
+    {"pathpixels", FIELD_INTEGER, offsetof(struct frozen, numbers.path_pixels), 1, 1,
      DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE, "pixels for each light sub-path", NULL},
     {"key", FIELD_WORD, offsetof(struct mbdpt_state, throughput), 0, 0, 0, "what sub-paths are sorted by", KEYS},
-    SERVICES(false, 1, false, false, DEFAULT_TILE_SIZE, 1),
+    SERVICES(false, 1, false, DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
 static void render(const struct preparation *m, const struct tile_pass *pass)
@@ -125,4 +125,4 @@ const struct method method_mbdpt = {
            "sorted by length or throughput, each equally likely; scale 1",
     .parameters = PARAMETERS,
     .prepare = plain_prepare, .state_size = sizeof(struct mbdpt_state), .scratch_size = sizeof(struct light_pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render, .scratch_free = light_pool_free};
+    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render, .scratch_free = light_pool_free};

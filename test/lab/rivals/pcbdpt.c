@@ -29,13 +29,12 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *pixel, c
 {
     struct ris *r = scratch;
     const struct pcbdpt_state *s = state;
-    double C = s->ris.frozen.draws[z->eye_end];
-    int V = r->found.n, n = V > 0 ? pooled_draws(pixel, C) : 0, which;
-    if (n == 0)
+    int V = r->found.n, C = s->ris.frozen.numbers.draws[z->eye_end], which;
+    if (V == 0)
         return;
     struct mixture mixture = records_mixture(&r->records, pixel->sample.scene, z, s->normals, false, V);
-    for (int c = 0; c < n; c++) {
-        int v = mixture_draw(&mixture, (c + sampler_number(&pixel->draws, DRAW_LIGHT_END)) / n, &which);
+    for (int c = 0; c < C; c++) {
+        int v = mixture_draw(&mixture, (c + sampler_number(&pixel->draws, DRAW_LIGHT_END)) / C, &which);
         double P = mixture_pmf(&mixture, v);
         const struct choice choice = {P, 1 / (C * P * r->K)};
         pooled_join(pixel, &r->found.item[v], z, t, choice);
@@ -46,7 +45,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct pcbdpt_state *s = out->state;
     for (int end = 0; end < EYE_ENDS; end++)
-        s->ris.frozen.draws[end] = s->connections;
+        s->ris.frozen.numbers.draws[end] = s->connections;
     plain_prepare(job, out);
 }
 
@@ -58,7 +57,7 @@ static const struct field PARAMETERS[] = {
     {"records", FIELD_NUMBER, AT(ris.records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
     {"normals", FIELD_NUMBER, AT(normals), 0.5, 0, 1e6, "what normals count beside places in looking for records",
      NULL},
-    SERVICES(false, 1, false, false, RECORDS_TILE, 1),
+    SERVICES(false, 1, false, RECORDS_TILE, 1),
     {.name = NULL}};
 
 const struct method method_pcbdpt = {
@@ -67,5 +66,5 @@ const struct method method_pcbdpt = {
     .why = "C draws for each eye vertex from the tile's light vertices, P the mean of the PMFs of the records nearby "
            "and of the uniform choice; scale 1 / (C K P)",
     .parameters = PARAMETERS, .state_size = sizeof(struct pcbdpt_state), .scratch_size = sizeof(struct ris),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render,
+    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = pooled_render,
     .scratch_init = ris_scratch_init, .scratch_free = ris_scratch_free, .begin = ris_begin, .draw = draw};

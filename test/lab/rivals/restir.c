@@ -101,7 +101,11 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
     struct reservoir *all = arena_alloc(&pass->work->arena, (size_t)n * sizeof *all);
     for (int i = 0; i < n; i++) {
         all[i] = resample(&pixel[i], s->candidates);
-        pixel_sum_eye(&pixel[i].sample, pixel[i].eye, pixel[i].n);
+        for (int t = 2; t <= pixel[i].n; t++) {
+            pixel_sum_hit(&pixel[i].sample, pixel[i].eye, t);
+            if (t > 2)
+                pixel_sum_direct(&pixel[i].sample, pixel[i].eye, t);
+        }
     }
     for (int i = 0; i < n; i++) {
         if (pass_enough(pass->job))
@@ -118,7 +122,6 @@ static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct restir_state *s = out->state;
     plain_prepare(job, out);
-    s->frozen.lights = 0;
     s->frozen.counts.direct[FIRST_HIT] = s->frozen.counts.delta[FIRST_HIT] = s->credit;
 }
 
@@ -140,4 +143,4 @@ const struct method method_restir = {
     .name = "restir", .check = surfaces_alone,
     .help = "reservoirs [Bitterli 2020]: light points resampled, and shared with pixels nearby",
     .parameters = PARAMETERS, .state_size = sizeof(struct restir_state), .scratch_size = sizeof(struct light_pool),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = render, .scratch_free = light_pool_free};
+    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = render, .scratch_free = light_pool_free};

@@ -440,5 +440,5 @@ const struct method method_ris = {
     .why = "one draw for each eye vertex from the tile's light vertices, by one of the records nearby or uniformly; "
            "scale 1 / (K P)",
     .parameters = PARAMETERS, .state_size = sizeof(struct ris_state), .scratch_size = sizeof(struct ris),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = ris_prepare, .render = ris_render,
+    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = ris_prepare, .render = ris_render,
     .scratch_init = ris_scratch_init, .scratch_free = ris_scratch_free, .begin = ris_begin, .draw = ris_draw};

@@ -98,9 +98,6 @@ struct connection reuse_hit(const struct pixel_sample *sample, const struct vert
 
 void reuse_prepare(const struct render_job *job, struct preparation *out)
 {
-    struct frozen *f = out->state;
     (void)job;
     out->size.tile = MAX_TILE_SIZE;
-    f->path_pixels = 0;
-    f->counts.connect[FIRST_HIT] = f->counts.connect[LATER_HIT] = f->counts.splat = 0;
 }

@@ -231,5 +231,5 @@ const struct method method_vcm = {
     .why = "the pixel's own light sub-path, and all of the tile's light vertices within the radius; scale 1, of merges "
            "1 / (K pi r^2)",
     .parameters = PARAMETERS, .state_size = sizeof(struct vcm_state), .scratch_size = sizeof(struct vcm),
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = render, .scratch_free = free_scratch,
-    .begin = begin};
+    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = render,
+    .scratch_free = free_scratch, .begin = begin};

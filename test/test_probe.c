@@ -1,0 +1,182 @@
+/* test_probe.c: what is found out before a render: where light sub-paths are worth their time, and where nothing else
+ * finds the light; credits for what hardly varies; what numbers and credits become in the weights. */
+#include <math.h>
+#include <stdio.h>
+
+#include "helpers.h"
+#include "integrators/method.h"
+#include "render/render.h"
+#include "tests.h"
+
+/* A floor that a point light shines on, the eye above it; something small of the given material out of sight. */
+static const char FLOOR[] = "LookAt 0 0 4  0 0 0  0 1 0\n"
+                            "Camera \"perspective\" \"float fov\" 40\n"
+                            "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 32\n"
+                            "WorldBegin\n"
+                            "LightSource \"point\" \"point from\" [1 2 3] \"rgb I\" [20 20 20]\n"
+                            "Material \"matte\"\n"
+                            "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+                            "  \"point P\" [-9 -9 0  9 -9 0  9 9 0  -9 9 0]\n"
+                            "Material \"%s\"\n"
+                            "Translate 0 8 1\n"
+                            "Shape \"sphere\" \"float radius\" 0.05\n"
+                            "WorldEnd\n";
+
+/* What asbdpt has settled for the scene and its settings. */
+static bool settle(struct test *t, const struct scene *scene, struct frozen *out)
+{
+    struct render_options o = {.integrator = "asbdpt", .max_depth = 5, .n_threads = 2, .seed = test_seed(t)};
+    struct render_job job = {.scene = NULL};
+    struct preparation prepared;
+    struct error err;
+    if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &job, &prepared, &err), "%s", err.text))
+        return false;
+    *out = *(const struct frozen *)prepared.state; /* not the tables, which go */
+    method_release(&prepared);
+    return true;
+}
+
+static void test_where_they_pay(struct test *t)
+{
+    static const char *const scenes[] = {"scenes/cornell-box.pbrt", "scenes/bathroom.pbrt", "scenes/corridor.pbrt"};
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        struct scene scene;
+        struct frozen f;
+        if (!scene_from_file(t, scenes[i], 48, 32, &scene))
+            continue;
+        if (settle(t, &scene, &f))
+            CHECK(t, f.numbers.path_pixels > 0 && f.counts.connect[LATER_HIT] > 0 && f.counts.splat > 0,
+                  "%s has no light sub-paths", scenes[i]);
+        scene_free(&scene);
+    }
+}
+
+/* Under an open sky nothing is learnt, and a path tracer renders. */
+static void test_where_nothing_pays(struct test *t)
+{
+    static const char *const scenes[] = {"scenes/forest.pbrt", "scenes/sky.pbrt"};
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        struct scene scene;
+        struct frozen f;
+        if (!scene_from_file(t, scenes[i], 48, 32, &scene))
+            continue;
+        if (settle(t, &scene, &f))
+            CHECK(t, f.tables.eye.n == 0 && f.numbers.path_pixels == 0 && f.counts.splat == 0 &&
+                         f.counts.connect[FIRST_HIT] == 0 && f.counts.connect[LATER_HIT] == 0,
+                  "%s: %d regions, %d pixels for a light sub-path", scenes[i], f.tables.eye.n, f.numbers.path_pixels);
+        scene_free(&scene);
+    }
+}
+
+/* Paths that only light sub-paths find keep these alive, whatever was measured. */
+static void test_where_nothing_else_does(struct test *t)
+{
+    static const char *const materials[] = {"matte", "mirror", "glass", "uber"};
+    for (size_t i = 0; i < sizeof materials / sizeof materials[0]; i++) {
+        char text[2048];
+        struct scene scene;
+        struct frozen f;
+        snprintf(text, sizeof text, FLOOR, materials[i]);
+        if (!scene_from_text(t, text, &scene))
+            continue;
+        if (settle(t, &scene, &f)) {
+            CHECK(t, (f.numbers.path_pixels > 0) == (i > 0), "a point light beside %s: %d", materials[i], f.numbers.path_pixels);
+            double delta = f.counts.delta[FIRST_HIT];
+            CHECK(t, i == 0 || delta >= 16, "a point light's samples count for %g", delta);
+        }
+        scene_free(&scene);
+    }
+}
+
+/* Without the check there are light sub-paths everywhere. */
+static void test_wish(struct test *t)
+{
+    char text[2048];
+    struct scene scene;
+    struct frozen f;
+    snprintf(text, sizeof text, FLOOR, "matte");
+    if (!scene_from_text(t, text, &scene))
+        return;
+    settings_set(&scene.settings, "probe", "off", "test");
+    settings_set(&scene.settings, "pathpixels", "5", "test");
+    if (settle(t, &scene, &f))
+        CHECK(t, f.numbers.path_pixels == 5 && f.counts.splat == 32 * 32 / 5.0 && f.counts.connect[LATER_HIT] > 0,
+              "%d pixels for a light sub-path, counted as %g", f.numbers.path_pixels, f.counts.splat);
+    scene_free(&scene);
+}
+
+/* The light of an even sky has hardly any variance, and counts for many samples; that of a bathroom comes by chance. */
+static void test_credit(struct test *t)
+{
+    static const char *const scenes[] = {"scenes/features/light-infinite.pbrt", "scenes/bathroom.pbrt"};
+    for (int i = 0; i < 2; i++) {
+        struct scene scene;
+        struct frozen f;
+        if (!scene_from_file(t, scenes[i], 32, 32, &scene))
+            continue;
+        settings_set(&scene.settings, "probe", "off", "test"); /* or paths are traced, which need no credit */
+        if (settle(t, &scene, &f)) {
+            double credit = f.counts.hit[FIRST_HIT];
+            CHECK(t, (credit > 4) == (i == 0) && f.counts.direct[FIRST_HIT] == f.numbers.lights * credit && f.counts.hit[LATER_HIT] == 1,
+                  "%s: s = 0 counts for %g, s = 1 for %g", scenes[i], credit, f.counts.direct[FIRST_HIT]);
+        }
+        scene_free(&scene);
+    }
+}
+
+/* Glass before the camera changes no credit: what it shows is as much a first hit. */
+static void test_pane(struct test *t)
+{
+    static const char ROOM[] =
+        "LookAt 0 1 -3.2  0 1 0  0 1 0\n"
+        "Camera \"perspective\" \"float fov\" 40\n"
+        "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 32\n"
+        "WorldBegin\n"
+        "LightSource \"point\" \"point from\" [0 1.8 0] \"rgb I\" [2 2 2]\n"
+        "Material \"matte\"\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 0 1  -1 2 1  1 2 1  1 0 1]\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 0 -1  -1 0 1  1 0 1  1 0 -1]\n"
+        "Material \"%s\" \"float eta\" 1.0001\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 0 -2  -1 2 -2  1 2 -2  1 0 -2]\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 2 1 0 3 2] \"point P\" [-1 0 -1.9 -1 2 -1.9 1 2 -1.9 1 0 -1.9]\n"
+        "WorldEnd\n";
+    double credit[2] = {0, 0};
+    for (int i = 0; i < 2; i++) {
+        char text[2048];
+        struct scene scene;
+        struct frozen f;
+        snprintf(text, sizeof text, ROOM, i == 0 ? "none" : "glass");
+        if (!scene_from_text(t, text, &scene))
+            return;
+        settings_set(&scene.settings, "probe", "off", "test");
+        if (settle(t, &scene, &f))
+            credit[i] = f.counts.delta[FIRST_HIT];
+        scene_free(&scene);
+    }
+    CHECK(t, credit[0] > 4 && credit[1] > 4, "a point light counts for %g, behind glass for %g", credit[0], credit[1]);
+}
+
+/* counts_of: exact. */
+static void test_counts(struct test *t)
+{
+    const struct numbers n = {.path_pixels = 4, .draws = {3, 1}, .lights = 1, .hits = true};
+    const struct mis_counts c = counts_of(n, (struct credits){5, 6, 7, 2}, 100);
+    CHECK(t, c.hit[FIRST_HIT] == 5 && c.direct[FIRST_HIT] == 6 && c.delta[FIRST_HIT] == 7, "first hit");
+    CHECK(t, c.hit[LATER_HIT] == 1 && c.direct[LATER_HIT] == 1 && c.delta[LATER_HIT] == 1, "later");
+    CHECK(t, c.connect[FIRST_HIT] == 6 && c.connect[LATER_HIT] == 2 && c.splat == 25, "light sub-paths");
+    const struct mis_counts pt = counts_of((struct numbers){.draws = {3, 1}, .lights = 1, .hits = true}, NO_CREDITS, 100);
+    CHECK(t, pt.connect[FIRST_HIT] == 0 && pt.splat == 0 && pt.hit[LATER_HIT] == 1, "a path tracer");
+    const struct mis_counts lt = counts_of((struct numbers){.path_pixels = 1}, NO_CREDITS, 100);
+    CHECK(t, lt.hit[FIRST_HIT] == 0 && lt.direct[LATER_HIT] == 0 && lt.splat == 100, "a light tracer");
+}
+
+void test_probe(struct test *t)
+{
+    test_counts(t);
+    test_where_they_pay(t);
+    test_where_nothing_pays(t);
+    test_where_nothing_else_does(t);
+    test_wish(t);
+    test_pane(t);
+    test_credit(t);
+}
