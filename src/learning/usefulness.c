@@ -6,7 +6,6 @@
 
 enum { MOST_PIXELS = 4096 };
 static const double SHARE_OF_PIXELS = 0.25;
-static const double LEAST = 0.3;    /* of the variance, what light sub-paths must save */
 static const double CLIP_TAIL = 1e4; /* of a pixel's sum: nothing else warns of a path tracer's fireflies */
 
 /* The samples of a pixel: FIRST and OTHER with different random numbers, AGAIN with FIRST's and other counts. */
@@ -109,5 +108,5 @@ bool light_paths_useful(const struct render_job *job)
     free(u.pixel);
     if (direct_square > 0)
         tail += direct_tail * direct / direct_square;
-    return p.n < wanted || !(tail < LEAST * variance);
+    return p.n < wanted || !(tail < variance);
 }
