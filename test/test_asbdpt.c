@@ -32,10 +32,10 @@ static void test_bias(struct test *t)
                                        "asbdpt select=vertices metric=constant connections=2",
                                        "asbdpt select=subspaces",
                                        "asbdpt select=subspaces connections=2",
-                                       "asbdpt guide=off emission=1 credit=off pilot=off tile=16 spread=1",
-                                       "asbdpt select=pool emission=0.2 credit=on pilot=on",
-                                       "asbdpt select=vertices emission=0.2 credit=on pilot=on tile=32",
-                                       "mbdpt emission=0.2 credit=on pilot=on spread=2",
+                                       "asbdpt guide=off emission=1 credit=off tile=16 spread=1",
+                                       "asbdpt select=pool emission=0.2 credit=on",
+                                       "asbdpt select=vertices emission=0.2 credit=on tile=32",
+                                       "mbdpt emission=0.2 credit=on spread=2",
                                        "cbdpt connections=3 emission=0.2 credit=on",
                                        "lvc connections=1",
                                        "cbdpt connections=3"};
@@ -220,7 +220,7 @@ static void test_every_scene(struct test *t)
                                          "negative-scale", "alpha", "instances"};
     static const char *const ways[] = {"asbdpt select=pool metric=importance",
                                        "asbdpt select=vertices metric=importance connections=3",
-                                       "asbdpt select=subspaces connections=0", "lvc connections=2",
+                                       "asbdpt select=subspaces probe=off", "lvc connections=2",
                                        "cbdpt connections=2"};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         char path[256];
@@ -239,9 +239,9 @@ static void test_every_scene(struct test *t)
 /* --- services ----------------------------------------------------------------------------------------- */
 
 /* Each alone, on a method whose choice learns nothing; and what rivals have of them. */
-static const char *const ALONE[] = {"lvc guide=on", "lvc emission=0.2", "lvc credit=on", "lvc pilot=on",
+static const char *const ALONE[] = {"lvc guide=on", "lvc emission=0.2", "lvc credit=on",
                                     "lvc tile=5 spread=3", "asbdpt select=pool guide=off credit=on", NULL};
-static const char *const RIVALS[] = {"pcbdpt guide=on emission=0.2 credit=on pilot=on tile=9 spread=2 records=.05",
+static const char *const RIVALS[] = {"pcbdpt guide=on emission=0.2 credit=on tile=9 spread=2 records=.05",
                                      "ris emission=0.2 tile=9 spread=2 records=.05",
                                      "ris2 emission=0.2 tile=9 spread=2 records=.05",
                                      "restir guide=on emission=0.2 tile=9 spread=2", NULL};
@@ -379,9 +379,9 @@ static void test_counts(struct test *t)
                 (struct draws){.number = 3, .paths = 64, .region = -1}, 0);
     check_draws(t, &scene, "asbdpt select=vertices connections=3 pathpixels=256",
                 (struct draws){.number = 3, .paths = 1, .region = -1}, 0.999);
-    check_draws(t, &scene, "asbdpt connections=3 pathpixels=4",
+    check_draws(t, &scene, "asbdpt connections=3 later=3 pathpixels=4",
                 (struct draws){.number = 3, .paths = 64, .region = -1}, 0);
-    check_draws(t, &scene, "asbdpt connections=3 pathpixels=256",
+    check_draws(t, &scene, "asbdpt connections=3 later=3 pathpixels=256",
                 (struct draws){.number = 3, .paths = 1, .region = -1}, 0.999);
     scene_free(&scene);
 }

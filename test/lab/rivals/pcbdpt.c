@@ -47,6 +47,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
     for (int end = 0; end < EYE_ENDS; end++)
         s->ris.frozen.numbers.draws[end] = s->connections;
     plain_prepare(job, out);
+    s->ris.frozen.counts.connect[FIRST_HIT] = s->ris.frozen.counts.connect[LATER_HIT] = 1;
 }
 
 #define AT(member) offsetof(struct pcbdpt_state, member)
