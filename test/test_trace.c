@@ -75,16 +75,13 @@ static int longest_pair(const struct trace *trace)
     return t;
 }
 
-/* At the first hit as many light points are taken as the method has chosen, by default one. */
-static void check_light_points(struct test *t, const char *name, const struct trace *trace, const struct film *film)
+/* At the first hit `subspaces` tries two light points, the others one. */
+static void check_light_points(struct test *t, const char *name, const struct trace *trace)
 {
-    int chosen = 1, n = 0;
-    for (const struct film_number *k = film->number; k->name != NULL; k++)
-        if (strcmp(k->name, "light_points_first_hit") == 0)
-            chosen = (int)k->value;
+    int wanted = strcmp(name, "subspaces") == 0 ? 2 : 1, n = 0;
     for (int i = 0; i < trace->n_connections; i++)
         n += trace->connection[i].s == 1 && trace->connection[i].t == 2;
-    CHECK(t, n == 0 || n == chosen, "%s: %d light points at the first hit, %d were chosen", name, n, chosen);
+    CHECK(t, n == 0 || n == wanted, "%s: %d light points at the first hit, not %d", name, n, wanted);
 }
 
 static int differing(const struct film *a, const struct film *b)
@@ -135,7 +132,7 @@ static void check_film(struct test *t, const struct scene *scene, int way, struc
         struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
         CHECK(t, trace_render(scene, &options, &trace, &err), "%s", err.text);
         check_parts(t, name, &trace);
-        check_light_points(t, name, &trace, &rendered);
+        check_light_points(t, name, &trace);
         added += trace.n_connections;
         longest = longest_pair(&trace) > longest ? longest_pair(&trace) : longest;
         if (2 * i == ALL)
