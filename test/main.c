@@ -1,6 +1,7 @@
 /* main.c: the test runner:
  *   build/test [-l] [--slow] [--once | --first] [--show] [--seed N] [--scenes FIRST:END] [NAME...]
  *   build/test --scene N    prints random scene N; --evil N: with numbers that no scene should have
+ *   build/test --structure N   prints random scene N of those for efficiency
  * --once: doubtful hypotheses fail at once; --first: they do, and the first failure is the end. --show: every p is
  * printed.
  * Exit status 0 only if every check and every hypothesis came out as it must. The last line is
@@ -12,6 +13,7 @@
 #include "base/os.h"
 #include "helpers.h"
 #include "random_scene.h"
+#include "random_structure.h"
 #include "tests.h"
 
 static const struct test_entry ENTRIES[] = {
@@ -51,7 +53,7 @@ static const struct test_entry ENTRIES[] = {
     {"balance", test_balance, false}, {"strategies", test_strategies, false}, {"caustic", test_caustic, false},
     {"streams", test_streams, false},
     {"scenes", test_scenes, false},   {"reference", test_references, false},
-    {"random", test_random, false}, {"random-long", test_random_long, true},
+    {"structure", test_structure, false}, {"random", test_random, false}, {"random-long", test_random_long, true},
     {"family-long", test_family_long, true}, {"rivals-long", test_rivals_long, true},
     {"chains-long", test_chains_long, true},
     {"scenes-long", test_scenes_long, true}, {"reference-long", test_references_long, true},
@@ -105,10 +107,16 @@ int main(int argc, char **argv)
             fputs(scene.text, stdout);
             free(scene.text);
             return 0;
+        } else if (strcmp(argv[first], "--structure") == 0 && first + 1 < argc) {
+            const char *kind;
+            char *text = random_structure(strtoull(argv[first + 1], NULL, 10), &kind);
+            fputs(text, stdout);
+            free(text);
+            return 0;
         } else {
             fprintf(stderr, "usage: build/test [-l] [--slow] [--once | --first] [--show] [--seed N]"
                             " [--scenes FIRST:END] [NAME...]\n"
-                            "       build/test --scene N | --evil N\n");
+                            "       build/test --scene N | --evil N | --structure N\n");
             return 2;
         }
     }

@@ -75,6 +75,7 @@ void test_sheet(struct test *t);
 void test_shape(struct test *t);
 void test_smooth(struct test *t); /* part of test_shape */
 void test_stats(struct test *t);
+void test_structure(struct test *t);
 void test_subdivide(struct test *t);
 void test_curve(struct test *t);
 void test_fourier(struct test *t);
