@@ -114,6 +114,7 @@ check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject #
 	CC="$(CC)" sh test/course.sh prove
 	sh doc/tour/figures.sh $(PROGRAM) out/figures
 	diff -r -x equal.png -x gains.svg doc/tour/figures out/figures
+	BUILD=$(BUILD) sh test/structures.sh out/structures
 
 check-ref: asbdpt asbdpt-lab ## are the stored references still what the program converges to?
 	sh ref/check-ref.sh $(PROGRAM)

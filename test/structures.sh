@@ -1,0 +1,27 @@
+#!/bin/sh
+# structures.sh DIR: bdpt, pt and asbdpt after the same CPU time in the first COUNT (40) scenes of
+# test/random_structure.h: RES (128x96), the time of SPP (64) samples of bdpt, SEEDS (3) seeds. Into DIR, going on with
+# what is there: what equal-time writes, and structures.txt and structures.svg (structures.awk). Needs BUILD/test.
+# Exit status 1 if asbdpt surely has more than WORST (1.15) of the squared error of the better of the others in a
+# scene, or more than MEAN (0.55) in the geometric mean, or no sample in that time.
+# structures.sh draw: structures.svg of structures.txt.
+draw() {
+    awk '/^== / { on = $2 == "data" } on && NF == 7 { print $1, $2, $3, $4 }' | awk -v zero=1 -v axis=log \
+        -v title="asbdpt over the better of bdpt and pt: squared error, 95 %" -f doc/tour/chart.awk
+}
+[ "$1" != draw ] || { draw; exit; }
+dir=$1
+mkdir -p "$dir/scenes" || exit 1
+set --
+for number in $(seq 0 $((${COUNT:-40} - 1))); do
+    "${BUILD:-build}/test" --structure "$number" >"$dir/scene" || exit 1
+    to=$dir/scenes/$(sed -n 's/^# structure \([0-9]*\): /\1-/p' "$dir/scene").pbrt
+    mv "$dir/scene" "$to" && set -- "$@" "$to"
+done
+./asbdpt-lab equal-time "$@" -o "$dir" --methods bdpt,pt,asbdpt --res "${RES:-128x96}" --spp "${SPP:-64}" \
+    --seeds "${SEEDS:-3}" --quiet >"$dir/said" || exit 1
+awk -v worst="${WORST:-1.15}" -v mean="${MEAN:-0.55}" -f test/evidence/structures.awk \
+    "$dir/equal-time.md" >"$dir/structures.txt"
+status=$?
+draw <"$dir/structures.txt" >"$dir/structures.svg"
+exit $status
