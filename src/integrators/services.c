@@ -41,11 +41,14 @@ static bool path_tracer_sees_all(const struct scene *scene)
 
 bool services_trace_paths(const struct render_job *job, struct preparation *out)
 {
-    const struct numbers path_tracer = {.lights = 1, .hits = true};
     struct frozen *f = out->state;
-    if (!path_tracer_sees_all(job->scene) || light_paths_useful(job))
+    if (light_paths_useful(job))
         return false;
-    f->numbers = path_tracer;
+    if (!path_tracer_sees_all(job->scene)) {
+        f->numbers = (struct numbers){.path_pixels = 8, .draws = {1, 1}, .lights = 1, .hits = true};
+        return false;
+    }
+    f->numbers = (struct numbers){.lights = 1, .hits = true};
     method_count(job, f, NO_CREDITS);
     out->size.tile = DEFAULT_TILE_SIZE; /* pixels share nothing but what is in the cache */
     out->size.spread = 1;
