@@ -144,13 +144,14 @@ static const struct credits CREDITS = {.hit = 1, .direct = 1, .delta = 1, .draw 
 
 static void prepare(const struct render_job *job, struct preparation *out)
 {
-    const struct subspaces_state *s = out->state;
+    struct subspaces_state *s = out->state;
     const struct learn_options own = {.importance = true, .pairs = true, .light_cells = LIGHT_CELLS,
                                       .levels = REGION_LEVELS, .delta = s->delta};
     if (s->probe && services_trace_paths(job, out))
         return;
     services_learn(job, out, own);
     services_settle(job, out, CREDITS);
+    s->frozen.counts.most = fmin(sqr(out->size.tile), pixel_light_count(job)) / s->frozen.numbers.path_pixels;
 }
 
 #define AT(member) offsetof(struct subspaces_state, member)

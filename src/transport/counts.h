@@ -34,10 +34,12 @@ static inline const struct tables *counts_tables(const struct mis_counts *c)
     return c->tables != NULL ? c->tables : &NO_TABLES;
 }
 
-/* n_connect: n of the strategy s >= 2, t >= 2 whose light end is in region l and whose eye end in region e. */
+/* n_connect: n of the strategy s >= 2, t >= 2 whose light end is in region l and whose eye end in region e. Draws can be
+ * worth no more samples than there are sub-paths to draw from. */
 static inline double n_connect(const struct mis_counts *c, int l, int e, enum eye_end end)
 {
-    return c->connect[end] * pairs_worth(&counts_tables(c)->pairs, e, l);
+    double n = c->connect[end] * pairs_worth(&counts_tables(c)->pairs, e, l);
+    return c->most > 0 ? n * c->most / (n + c->most) : n;
 }
 
 /* n_direct: n of the strategy s = 1, t >= 2 that joins a surface point in region e to the end point y0.

@@ -64,6 +64,7 @@ struct mis_counts {
     double direct[EYE_ENDS];   /* s = 1: connection to fresh points on a light that s = 0 can find */
     double delta[EYE_ENDS];    /* s = 1: connection to a light that it cannot, without extent or of one direction */
     double connect[EYE_ENDS];  /* s >= 2, t >= 2: connection to light vertices */
+    double most;               /* of connect, whatever the tables say: sub-paths that share a pool; 0: no bound */
     double splat;              /* s >= 2, t = 1: light sub-paths joined to the lens, of the whole film's pixels */
     const struct tables *tables;     /* what is known about places: factors of connect and direct, and of the density
                                       * of the light walk's first ray (counts.h); NULL: nothing */
