@@ -229,7 +229,7 @@ static void work_batch(void *context, int64_t k, int slot, int thread)
 {
     struct batch_run *r = context;
     const struct scene *scene = r->job.scene;
-    struct tile tile = {.rect = r->job.film_rect};
+    struct tile tile = {.sum = NULL};
     struct tiling tiling = tiling_of(r->job.film_rect, &r->prepared.size);
     struct tile_pass pass = {.job = &r->job, .tile = &tile, .work = &r->work[thread]};
     long block = r->prepared.size.block > 0 ? r->prepared.size.block : LONGEST_BLOCK;
@@ -240,8 +240,7 @@ static void work_batch(void *context, int64_t k, int slot, int thread)
     for (pass.first = first; pass.first < end; pass.first = pass.end) {
         pass.end = (pass.first / block + 1) * block < end ? (pass.first / block + 1) * block : end;
         for (int64_t i = 0; i < tiling_count(&tiling); i++) {
-            pass.rect = tiling_rect(&tiling, i);
-            tile_start(&tile, pass.rect, r->job.film_rect, &scene->filter);
+            tile_start(&tile, tiling_pixels(&tiling, i), r->job.film_rect, &scene->filter);
             if (r->gate.end > 0)
                 tile.gate = r->gate;
             r->prepared.method->render(&r->prepared, &pass);

@@ -257,7 +257,7 @@ static void test_path(struct test *t)
 static void test_variance(struct test *t)
 {
     struct film film;
-    struct pixel_rect one = {0, 0, 1, 1, 0, 0};
+    struct pixel_rect one = {0, 0, 1, 1};
     const double sum[3] = {6, 0, 4}, square[3] = {20, 0, 16}; /* of 2 and 4; 0 and 0; 0 and 4 */
     float variance[3];
     film_init(&film, one, 1, 1);

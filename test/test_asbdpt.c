@@ -341,12 +341,12 @@ static void check_draws(struct test *t, struct scene *scene, const char *way, st
     struct preparation p;
     if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &job, &p, &err), "%s", err.text))
         return;
-    struct tile tile = {.rect = job.film_rect};
+    struct tile tile = {.sum = NULL};
     const struct observer observer = {.context = &d, .joined = note_draw};
     struct workspace *work = workspaces_new(1, job.max_depth);
-    struct tile_pass pass = {&job, job.film_rect, 0, 1, &tile, work, &observer};
+    struct tile_pass pass = {&job, 0, 1, &tile, work, &observer};
     work->scratch = method_scratch(&p);
-    tile_start(&tile, job.film_rect, job.film_rect, &scene->filter);
+    tile_start(&tile, pixels_all(job.film_rect), job.film_rect, &scene->filter);
     struct method spoiling = *p.method;
     spoiling.begin = spoil;
     d.method = p.method;

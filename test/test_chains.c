@@ -210,12 +210,12 @@ static rgb bdpt_of(struct bench *b, struct tape *number)
 {
     const struct scene *scene = b->scene;
     const struct mis_counts *counts = &((const struct frozen *)b->prepared.state)->counts;
-    struct tile tile = {.rect = b->job.film_rect};
-    struct tile_pass pass = {&b->job, b->job.film_rect, 0, 1, &tile, b->work, NULL};
+    struct tile tile = {.sum = NULL};
+    struct tile_pass pass = {&b->job, 0, 1, &tile, b->work, NULL};
     struct sampler from[STRATEGY_NUMBERS];
     rgb sum;
     bool all = true;
-    tile_start(&tile, b->job.film_rect, b->job.film_rect, &scene->filter);
+    tile_start(&tile, pixels_all(b->job.film_rect), b->job.film_rect, &scene->filter);
     arena_reset(&b->work->arena);
     for (int i = 0; i < STRATEGY_NUMBERS; i++) {
         from[i] = sampler_start(0, RNG_TEST, 0, 0);

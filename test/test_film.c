@@ -97,7 +97,7 @@ static void count_full(void *context, struct tile *tile)
 /* A splat is one, however many pixels it covers, and a tile that is full is emptied before an iteration is added. */
 static void test_memory(struct test *t)
 {
-    struct pixel_rect all = {0, 0, 64, 64, 0, 0}, one = {0, 0, 1, 1, 0, 0};
+    struct pixel_rect all = {0, 0, 64, 64}, one = {0, 0, 1, 1};
     struct filter f;
     struct tile tile;
     int calls = 0;
@@ -105,7 +105,7 @@ static void test_memory(struct test *t)
     filter_default("gaussian", &f);
     f.radius[0] = f.radius[1] = 32;
     filter_prepare(&f);
-    tile_start(&tile, one, all, &f);
+    tile_start(&tile, pixels_all(one), all, &f);
     tile.full = count_full;
     tile.context = &calls;
     for (int i = 0; i < 5 * TILE_FULL / 2; i++) {
@@ -121,7 +121,7 @@ static void test_memory(struct test *t)
 /* A splat of value 1 spread over the film, summed: 1 inside, less at the edges; a box puts it in exactly one pixel. */
 static void test_splats(struct test *t)
 {
-    struct pixel_rect all = {0, 0, 20, 12, 0, 0};
+    struct pixel_rect all = {0, 0, 20, 12};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 3, 0);
     for (int i = 0; i < N_FILTERS; i++) {
         struct filter f;
@@ -132,14 +132,14 @@ static void test_splats(struct test *t)
         double total = 0;
         int pixels;
         for (int k = 0; k < 2000; k++) {
-            tile_start(&tile, all, all, &f);
+            tile_start(&tile, pixels_all(all), all, &f);
             tile_add_splat(&tile, 6 + 8 * rng_uniform(&r), 5 + 2 * rng_uniform(&r), rgb_grey(1), 0, 0);
             total += spread(&tile, &pixels);
             CHECK(t, f.kind != FILTER_BOX || pixels == 1, "a box splat fell on %d pixels", pixels);
         }
         /* Averaged over positions, the sum over pixels is the filter's integral. */
         CHECK(t, fabs(total / 2000 - 1) < 0.02, "%s: a splat of 1 sums to %g", NAMES[i], total / 2000);
-        tile_start(&tile, all, all, &f);
+        tile_start(&tile, pixels_all(all), all, &f);
         tile_add_splat(&tile, 20, 5, rgb_grey(1), 0, 0);
         tile_add_splat(&tile, -1e30, 5, rgb_grey(1), 0, 0);
         tile_add_splat(&tile, 1e30, 1e30, rgb_grey(1), 0, 0);
@@ -155,10 +155,10 @@ static void test_splats(struct test *t)
  * sub-path and the first light, and 2 by splats of the second, a quarter of them from each tile; and it is opaque. */
 static void even_tile(struct tile *tile, int number, int iterations, const struct filter *box)
 {
-    struct pixel_rect all = {0, 0, 8, 8, 0, 0}, rect = {4 * (number % 2), 4 * (number / 2), 0, 0, 0, 0};
+    struct pixel_rect all = {0, 0, 8, 8}, rect = {4 * (number % 2), 4 * (number / 2), 0, 0};
     rect.x1 = rect.x0 + 4;
     rect.y1 = rect.y0 + 4;
-    tile_start(tile, rect, all, box);
+    tile_start(tile, pixels_all(rect), all, box);
     for (int i = 0; i < iterations; i++) {
         for (int y = rect.y0; y < rect.y1; y++)
             for (int x = rect.x0; x < rect.x1; x++) {
@@ -175,7 +175,7 @@ static void even_tile(struct tile *tile, int number, int iterations, const struc
 static void test_unfinished(struct test *t)
 {
     static const float MEANS[] = {5, 3, 2, 1};
-    struct pixel_rect all = {0, 0, 8, 8, 0, 0};
+    struct pixel_rect all = {0, 0, 8, 8};
     const struct planes planes = {2, true};
     struct filter box;
     filter_default("box", &box);
@@ -211,7 +211,7 @@ static void test_unfinished(struct test *t)
 /* Standard errors of known noise: own values uniform in [0,1) plus rare splats. */
 static void test_errors(struct test *t)
 {
-    struct pixel_rect all = {0, 0, 8, 8, 0, 0};
+    struct pixel_rect all = {0, 0, 8, 8};
     enum { ITERATIONS = 500, SPLATS = 20, PIXELS = 64 };
     struct filter box;
     filter_default("box", &box);
@@ -222,7 +222,7 @@ static void test_errors(struct test *t)
     film_keep_errors(&film);
     struct tile tile;
     memset(&tile, 0, sizeof tile);
-    tile_start(&tile, all, all, &box);
+    tile_start(&tile, pixels_all(all), all, &box);
     for (int i = 0; i < ITERATIONS; i++) {
         for (int p = 0; p < PIXELS; p++)
             tile_add_between(&tile, p % 8, p / 8, rgb_grey(rng_uniform(&r)), rgb_black());
@@ -250,7 +250,7 @@ static void test_errors(struct test *t)
 /* What no float holds is left out and counted, or cut and counted; a raster point that is no number covers nothing. */
 static void test_overflow(struct test *t)
 {
-    struct pixel_rect all = {0, 0, 4, 4, 0, 0};
+    struct pixel_rect all = {0, 0, 4, 4};
     struct filter f;
     filter_default("gaussian", &f);
     filter_prepare(&f);
@@ -260,7 +260,7 @@ static void test_overflow(struct test *t)
     memset(&tile, 0, sizeof tile);
     film_init(&film, all, 4, 4);
     film_keep_errors(&film);
-    tile_start(&tile, all, all, &f);
+    tile_start(&tile, pixels_all(all), all, &f);
     tile_add_between(&tile, 0, 0, rgb_grey(1e39), rgb_black());
     tile_add_between(&tile, 1, 0, rgb_grey(NAN), rgb_black());
     tile_add_splat(&tile, 2, 2, rgb_grey(-1e39), 0, 0);
@@ -350,13 +350,13 @@ static void test_exact_range(struct test *t)
 static void test_one_lost(struct test *t)
 {
     static const double BAD[] = {NAN, INFINITY, -INFINITY};
-    struct pixel_rect one = {0, 0, 1, 1, 0, 0};
+    struct pixel_rect one = {0, 0, 1, 1};
     const struct vertex z = {.kind = VERTEX_SURFACE};
     for (int i = 0; i < 6; i++) {
         struct filter box;
-        struct tile tile = {.rect = {0, 0, 0, 0, 0, 0}};
+        struct tile tile = {.sum = NULL};
         filter_default("box", &box);
-        tile_start(&tile, one, one, &box);
+        tile_start(&tile, pixels_all(one), one, &box);
         struct pixel_sample sample = {.tile = &tile, .filter_weight = 1};
         for (int k = 0; k < 3; k++) {
             double x = k == 1 ? BAD[i / 2] : 1;

@@ -118,13 +118,13 @@ static void test_fog(struct test *t)
 static void test_left_out(struct test *t)
 {
     static const double UNTIL[] = {0, 1, 1e39, NAN, 2}; /* running sums at the bounds of four gates */
-    struct pixel_rect one = {0, 0, 1, 1, 0, 0};
+    struct pixel_rect one = {0, 0, 1, 1};
     struct filter box;
-    struct tile tile = {.rect = {0, 0, 0, 0, 0, 0}};
+    struct tile tile = {.sum = NULL};
     struct exact_sum sum = {{0, 0, 0}, 0};
     filter_default("box", &box);
     for (int i = 0; i < 4; i++) {
-        tile_start(&tile, one, one, &box);
+        tile_start(&tile, pixels_all(one), one, &box);
         tile_add_between(&tile, 0, 0, rgb_grey(UNTIL[i + 1]), rgb_grey(UNTIL[i]));
         CHECK(t, tile.nonfinite == (i == 1 || i == 2), "gate %d: %ld left out", i, tile.nonfinite);
         exact_join(&sum, &tile.sum[0]);

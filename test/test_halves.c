@@ -17,7 +17,7 @@
 static void test_known(struct test *t)
 {
     enum { SIDE = 64, ITERATIONS = 8, SPLATS = SIDE * SIDE / 4 };
-    struct pixel_rect all = {0, 0, SIDE, SIDE, 0, 0};
+    struct pixel_rect all = {0, 0, SIDE, SIDE};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 61, 0);
     struct filter box;
     struct tile tile = {.splat = NULL};
@@ -31,7 +31,7 @@ static void test_known(struct test *t)
     for (int i = 0; i < ITERATIONS; i++) {
         bool whole = i > 0 && i % 4 == 0;
         CHECK(t, halves_noise(&film, 1) == whole, "an estimate at %d iterations", i);
-        tile_start(&tile, all, all, &box);
+        tile_start(&tile, pixels_all(all), all, &box);
         tile.first_half = i / 2 % 2 == 0;
         for (int p = 0; p < SIDE * SIDE; p++)
             tile_add_between(&tile, p % SIDE, p / SIDE,

@@ -128,11 +128,11 @@ static void test_fog(struct test *t)
 static void test_left_out(struct test *t)
 {
     static const double STEP[] = {0, 1, 1e39, NAN, 2};
-    struct pixel_rect one = {0, 0, 1, 1, 0, 0};
+    struct pixel_rect one = {0, 0, 1, 1};
     struct filter box;
     struct tile tile = {.planes = {2, false}};
     filter_default("box", &box);
-    tile_start(&tile, one, one, &box);
+    tile_start(&tile, pixels_all(one), one, &box);
     for (int i = 0; i < 4; i++)
         tile_add_light(&tile, 0, 0, i % 2, rgb_grey(STEP[i + 1]), rgb_grey(STEP[i]));
     CHECK(t, exact_value(&tile.sum[3]) == 1 && exact_value(&tile.sum[6]) == 1, "lights of %g and %g",

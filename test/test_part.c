@@ -27,7 +27,7 @@ static void set_up(struct test *t, int width, int height, struct fixture *f)
 {
     struct part p = {.width = width, .height = height, .place = {0, 0, width, height}, .scale = 1, .planned = 8,
                      .first = 2, .end = 7};
-    struct pixel_rect rect = {0, 0, width, height, 0, 0};
+    struct pixel_rect rect = {0, 0, width, height};
     snprintf(f->path, sizeof f->path, "%s/film.part", test_tmp(t));
     strcpy(f->identity, "version 0\n");
     f->part = p;
@@ -68,7 +68,7 @@ static bool load(const char *path, struct film *film)
 /* Do these bytes make a part for a film of this size? */
 static bool accepted(const struct fixture *f, const uint8_t *data, size_t n, int width, int height)
 {
-    struct pixel_rect rect = {0, 0, width, height, 0, 0};
+    struct pixel_rect rect = {0, 0, width, height};
     struct film film;
     write_bytes(f->path, data, n);
     film_init(&film, rect, width, height);
@@ -87,7 +87,7 @@ static void test_bytes(struct test *t)
                                    128, 128, 128, 128, 128, 128, 128, 128, 128, 1,
                                    255, 7,   6,   0,   0,   255}; /* and what splats have brought */
     const struct exact_sum sums[3] = {{{0, 0, 0}, 0}, {{0, -1, 63}, 7}, {{64, -65, INT64_MAX / 2 + 1}, 12}};
-    struct pixel_rect one = {0, 0, 1, 1, 0, 0};
+    struct pixel_rect one = {0, 0, 1, 1};
     struct fixture f;
     struct film back;
     size_t n = 0, text = sizeof TEXT - 1 + 9;

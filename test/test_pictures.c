@@ -52,7 +52,7 @@ static void test_pyramid(struct test *t)
 {
     struct strategy_images images;
     struct image img;
-    struct pixel_rect rect = {0, 0, 8, 4, 0, 0};
+    struct pixel_rect rect = {0, 0, 8, 4};
     strategies_init(&images, rect, 2);
     images.iterations = 4;
     plant(&images, 1, 3, 0.015625, 0.015625); /* depth 2: 1/64 + 3/64, twice as bright 1/8 */
@@ -79,7 +79,7 @@ static void test_dark_pyramid(struct test *t)
 {
     struct strategy_images images;
     struct image img;
-    struct pixel_rect rect = {0, 0, 8, 4, 0, 0};
+    struct pixel_rect rect = {0, 0, 8, 4};
     strategies_init(&images, rect, 2);
     images.iterations = 4;
     for (int c = 0; c < 3; c++)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lab/methods.h"
+#include "lab/stats.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -29,6 +30,33 @@ static void all_see(struct test *t, const char *text, rgb expected)
 /* No shapes at all: every ray sees the sky. */
 static const char EMPTY[] = "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8\n"
                             "WorldBegin LightSource \"infinite\" \"rgb L\" [.25 .5 .75] WorldEnd\n";
+
+/* Of films and tiles of any size every pixel belongs to one tile, and each finds it where it has put it. */
+static void test_tiling(struct test *t)
+{
+    enum { ROUNDS = 200, SIDE = 40 };
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 11, 0);
+    for (int round = 0; round < ROUNDS; round++) {
+        int x0 = (int)(9 * rng_uniform(&r)), y0 = (int)(9 * rng_uniform(&r));
+        int width = 1 + (int)(SIDE * rng_uniform(&r)), height = 1 + (int)(SIDE * rng_uniform(&r));
+        struct pixel_rect film = {x0, y0, x0 + width, y0 + height};
+        struct pass_size size = {1, 1 + (int)(9 * rng_uniform(&r)), 1 + (int)(7 * rng_uniform(&r))};
+        struct tiling tiling = tiling_of(film, &size);
+        int seen[SIDE * SIDE] = {0}, wrong = 0;
+        for (int64_t k = 0; k < tiling_count(&tiling); k++) {
+            struct tile_pixels p = tiling_pixels(&tiling, k);
+            for (int i = 0, x, y; pixels_get(p, i, &x, &y); i++) {
+                wrong += pixels_cell(p, x, y) != i;
+                if (x >= film.x0 && x < film.x1 && y >= film.y0 && y < film.y1)
+                    seen[(y - y0) * width + x - x0]++;
+            }
+        }
+        for (size_t i = 0; i < rect_pixels(film); i++)
+            wrong += seen[i] != 1;
+        CHECK(t, wrong == 0, "%d x %d pixels from %d,%d, tiles of %d, %d together: %d are wrong", width, height,
+              x0, y0, size.tile, size.spread, wrong);
+    }
+}
 
 /* However the picture is cut into tiles, and these are interleaved: every sample of every pixel sees the sky once. */
 static void test_tiles(struct test *t)
@@ -59,14 +87,95 @@ static void test_tiles(struct test *t)
 static void test_order(struct test *t)
 {
     const struct pass_size size = {.tile = 16, .spread = 1};
-    const struct tiling tiling = tiling_of((struct pixel_rect){0, 0, 320, 192, 0, 0}, &size);
+    const struct tiling tiling = tiling_of((struct pixel_rect){0, 0, 320, 192}, &size);
     for (int first = 0; first < tiling_count(&tiling); first += 16) {
         int n[4] = {0, 0, 0, 0};
         for (int i = first; i < first + 16 && i < tiling_count(&tiling); i++)
-            n[tiling_rect(&tiling, i).y0 / 48]++;
+            n[tiling_pixels(&tiling, i).rect.y0 / 48]++;
         CHECK(t, first + 16 > tiling_count(&tiling) || (n[0] > 2 && n[1] > 2 && n[2] > 2 && n[3] > 2),
               "tiles from %d on: %d, %d, %d and %d in the quarters of the film", first, n[0], n[1], n[2], n[3]);
     }
+}
+
+/* --- what pixels of one tile share forms no pattern ----------------------------------------------------- */
+
+enum { CELL = 4, CELLS = 16, PATTERN_SIDE = CELL * CELLS };
+
+/* A wall that has all its light from a small patch overhead, which a few of a tile's light sub-paths meet. */
+static const char PATCH[] =
+    "LookAt 0 1 -3  0 1 0  0 1 0 Camera \"perspective\" \"float fov\" 40\n"
+    "Film \"image\" \"integer xresolution\" 64 \"integer yresolution\" 64\n"
+    "WorldBegin LightSource \"spot\" \"point from\" [0 2.5 0] \"point to\" [0 3 0] \"float coneangle\" 60\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-.2 3 -.2  .2 3 -.2  .2 3 .2  -.2 3 .2]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-3 -2 2  3 -2 2  3 2 2  -3 2 2] WorldEnd\n";
+
+/* How far two films are apart, by cells from the mean of which it is taken; each in the place that it has in the cell,
+ * or where it would be if tiles had the same in all cells. */
+static void residual(const struct film film[2], bool same_places, double out[CELLS][CELLS][CELL * CELL])
+{
+    const struct pass_size size = {1, PATTERN_SIDE / 8, CELL};
+    const struct tiling tiling = tiling_of(film->rect, &size);
+    for (int64_t k = 0; k < tiling_count(&tiling); k++) {
+        struct tile_pixels p = tiling_pixels(&tiling, k);
+        for (int i = 0, x, y; pixels_get(p, i, &x, &y); i++) {
+            size_t at = 3 * (size_t)(y * PATTERN_SIDE + x);
+            double a = film_value(&film[0], at), b = film_value(&film[1], at);
+            int place = same_places ? p.y * CELL + p.x : y % CELL * CELL + x % CELL;
+            out[y / CELL][x / CELL][place] = a + b > 0 ? (a - b) / (a + b) : 0;
+        }
+    }
+    for (int cell = 0; cell < CELLS * CELLS; cell++) {
+        double *v = out[cell / CELLS][cell % CELLS], mean = 0;
+        for (int i = 0; i < CELL * CELL; i++)
+            mean += v[i] / (CELL * CELL);
+        for (int i = 0; i < CELL * CELL; i++)
+            v[i] -= mean;
+    }
+}
+
+static double product(const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < CELL * CELL; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* Of the covariance of pixels CELL apart, to the right or below. If n values whose sum is 0 have random places in one
+ * of two cells, the sum of products has the mean 0 and the variance |a|^2 |b|^2 / (n - 1). */
+static double pattern_p(double v[CELLS][CELLS][CELL * CELL], int right, int below)
+{
+    double sum = 0, variance = 0;
+    for (int y = 0; y + below < CELLS; y++)
+        for (int x = 0; x + right < CELLS; x++) {
+            const double *a = v[y][x], *b = v[y + below][x + right];
+            sum += product(a, b);
+            variance += product(a, a) * product(b, b) / (CELL * CELL - 1);
+        }
+    return stats_normal_p(sum / sqrt(variance));
+}
+
+static void test_pattern(struct test *t)
+{
+    static double shown[CELLS][CELLS][CELL * CELL], same[CELLS][CELLS][CELL * CELL];
+    struct scene scene;
+    struct film film[2];
+    if (!scene_from_text(t, PATCH, &scene))
+        return;
+    const char *method = set_method(&scene, "asbdpt select=vertices connections=4 tile=8 spread=4");
+    for (int i = 0; i < 2; i++) {
+        struct render_options o = {.integrator = method, .end = 2, .max_depth = 3, .seed = test_seed(t) + (uint64_t)i};
+        render_film(t, &scene, &o, &film[i]);
+    }
+    residual(film, false, shown);
+    residual(film, true, same);
+    for (int below = 0; below < 2; below++) {
+        TEST_ACCEPT(t, pattern_p(shown, !below, below), "pixels %d apart, %s", CELL, below ? "below" : "to the right");
+        TEST_REJECT(t, pattern_p(same, !below, below), "the same if each tile had one place in all cells");
+    }
+    film_free(&film[0]);
+    film_free(&film[1]);
+    scene_free(&scene);
 }
 
 /* Lamps on one side of a wall, the camera on the other: no strategy may see through it. */
@@ -347,8 +456,10 @@ void test_render(struct test *t)
 {
     all_see(t, EMPTY, rgb_make(.25, .5, .75));
     all_see(t, WALL, rgb_black());
+    test_tiling(t);
     test_tiles(t);
     test_order(t);
+    test_pattern(t);
     test_agreement(t);
     test_blocks(t);
     test_stop(t);

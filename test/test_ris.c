@@ -139,11 +139,11 @@ static void test_weights(struct test *t, const char *path, const char *method)
     struct preparation prepared;
     if (!CHECK(t, render_prepare(&scene, &o, render_crop(&scene), &job, &prepared, &err), "%s", err.text))
         return;
-    struct tile tile = {.rect = job.film_rect};
+    struct tile tile = {.sum = NULL};
     struct workspace *work = workspaces_new(1, job.max_depth);
     struct ris *r = work->scratch = method_scratch(&prepared);
-    struct tile_pass pass = {&job, job.film_rect, 3, 4, &tile, work, NULL};
-    tile_start(&tile, job.film_rect, job.film_rect, &scene.filter);
+    struct tile_pass pass = {&job, 3, 4, &tile, work, NULL};
+    tile_start(&tile, pixels_all(job.film_rect), job.film_rect, &scene.filter);
     prepared.method->render(&prepared, &pass);
     check_expected(t, r);
     double worst = 0, weight[16];

@@ -175,14 +175,14 @@ static void trace_all(struct test *t, const struct scene *scene, const char *int
         return;
     int block = prepared.size.block == 0 ? LONGEST_BLOCK : prepared.size.block;
     block = block < ITERATIONS ? block : ITERATIONS;
-    struct tile tile = {.rect = job.film_rect};
+    struct tile tile = {.sum = NULL};
     struct keys *light_or_eye[] = {light, eye};
     const struct observer observer = {.context = light_or_eye, .joined = joined};
     struct workspace *work = workspaces_new(1, job.max_depth);
     work->scratch = method_scratch(&prepared);
     for (long first = 0; first < ITERATIONS; first += block) {
-        struct tile_pass pass = {&job, job.film_rect, first, first + block, &tile, work, &observer};
-        tile_start(&tile, job.film_rect, job.film_rect, &scene->filter);
+        struct tile_pass pass = {&job, first, first + block, &tile, work, &observer};
+        tile_start(&tile, pixels_all(job.film_rect), job.film_rect, &scene->filter);
         prepared.method->render(&prepared, &pass);
     }
     tile_free(&tile);
@@ -214,7 +214,7 @@ static void test_end_points(struct test *t)
         return;
     const struct mis_counts *counts = &((const struct frozen *)prepared.state)->counts;
     struct workspace *work = workspaces_new(1, job.max_depth);
-    struct tile_pass pass = {.job = &job, .rect = job.film_rect, .end = 1, .work = work};
+    struct tile_pass pass = {.job = &job, .end = 1, .work = work};
     struct pixel_sample sample = pixel_sample_begin(&pass, counts, 1, 1, 0);
     struct vertex path[3];
     int n = pixel_eye_path(&pass, &sample, path, 3);

@@ -30,9 +30,9 @@ static struct render_options options_of(int way)
 /* What the witness of one sample says, as a tile takes it. */
 static void add_trace(const struct scene *scene, const struct trace *trace, struct film *film)
 {
-    struct tile tile = {.rect = film->rect};
-    struct pixel_rect one = {trace->x, trace->y, trace->x + 1, trace->y + 1, 0, 0};
-    tile_start(&tile, one, film->rect, &scene->filter);
+    struct tile tile = {.sum = NULL};
+    struct pixel_rect one = {trace->x, trace->y, trace->x + 1, trace->y + 1};
+    tile_start(&tile, pixels_all(one), film->rect, &scene->filter);
     tile_add_between(&tile, trace->x, trace->y, trace_sum(trace), rgb_black());
     for (int i = 0; i < trace->n_connections; i++) {
         const struct trace_connection *k = &trace->connection[i];
@@ -95,7 +95,7 @@ static int differing(const struct film *a, const struct film *b)
 /* The most that a sample brings to a pixel, by what its witness says. */
 static struct brought most_of_trace(const struct scene *scene, const struct trace *trace)
 {
-    const struct pixel_rect all = {0, 0, SIZE, SIZE, 0, 0};
+    const struct pixel_rect all = {0, 0, SIZE, SIZE};
     struct brought most = {rgb_luminance(trace_sum(trace)), trace->x, trace->y, trace->iteration, trace->x, trace->y};
     for (int i = 0; i < trace->n_connections; i++) {
         const struct trace_connection *k = &trace->connection[i];

@@ -151,7 +151,7 @@ static bool merge(const struct merge_options *o, struct merge *m, bool picture, 
     if (m->n_wrong == 0) {
         struct film film;
         const struct part *first = &m->part[0].part;
-        struct pixel_rect rect = {0, 0, first->width, first->height, 0, 0};
+        struct pixel_rect rect = {0, 0, first->width, first->height};
         long end = check_ranges(m, picture ? 0 : first->first, picture ? first->planned : 0, o->partial);
         film_init(&film, rect, rect.x1, rect.y1);
         film_keep_planes(&film, first->planes);

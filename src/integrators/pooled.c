@@ -31,7 +31,9 @@ void light_pool_fill(struct light_pool *pool, const struct tile_pass *pass, cons
 /* Fisher and Yates, from the inside out. [Durstenfeld 1964] */
 void light_pool_shuffle(const struct light_pool *pool, const struct tile_pass *pass, long iteration, int *order)
 {
-    struct sampler sampler = pixel_sampler(pass, RNG_SHUFFLE, pass->rect.x0, pass->rect.y0, iteration);
+    int x, y;
+    pixels_get(pass->tile->pixels, 0, &x, &y);
+    struct sampler sampler = pixel_sampler(pass, RNG_SHUFFLE, x, y, iteration);
     for (int i = 0; i < pool->n; i++) {
         /* at most i, since what is drawn is below 1 by more than rounding can add */
         int j = (int)(sampler_number(&sampler, DRAW_ORDER) * (i + 1));
@@ -77,7 +79,7 @@ struct pooled_pixel pooled_begin(const struct preparation *m, const struct tile_
         const struct light_pool *pool = pass->work->scratch;
         p.light = light_pool_path(pool, number / each);
         p.n_light = pool->length[number / each];
-        p.scale = (double)rect_pixels(pass->rect) / ((double)pool->n * each);
+        p.scale = pixels_count(pass->tile->pixels) / ((double)pool->n * each);
     }
     return p;
 }

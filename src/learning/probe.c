@@ -43,10 +43,10 @@ void probe_sample(const struct probe *p, const struct mis_counts *counts, uint64
     struct render_job job = *p->job;
     struct workspace *work = &p->work[thread];
     struct tile *tile = &p->tile[thread];
-    struct tile_pass pass = {.job = &job, .rect = {x, y, x + 1, y + 1, 0, 0}, .first = iteration, .end = iteration + 1,
-                             .tile = tile, .work = work, .observer = joined};
+    struct tile_pass pass = {.job = &job, .first = iteration, .end = iteration + 1, .tile = tile, .work = work,
+                             .observer = joined};
     job.seed = job.eye_seed = hash_combine(hash_combine(job.seed, 0x3c6ef372fe94f82bu), seed);
-    tile_start(tile, pass.rect, job.film_rect, &job.scene->filter);
+    tile_start(tile, pixels_all((struct pixel_rect){x, y, x + 1, y + 1}), job.film_rect, &job.scene->filter);
     arena_reset(&work->arena);
     struct pixel_sample sample = pixel_sample_begin(&pass, counts, x, y, iteration);
     int n_eye = pixel_eye_path(&pass, &sample, work->eye, job.max_depth + 2);

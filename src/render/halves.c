@@ -65,7 +65,7 @@ bool halves_noise(struct film *f, double scale)
     for (int64_t i = 0; i < (int64_t)nx * ny; i++) {
         int64_t column = i % nx, row = i / nx;
         struct pixel_rect r = {(int)(width * column / nx), (int)(height * row / ny), (int)(width * (column + 1) / nx),
-                               (int)(height * (row + 1) / ny), 0, 0};
+                               (int)(height * (row + 1) / ny)};
         add_pixels(f, scale, r, blocks);
     }
     for (int s = 0; s < N_NOISE_SCALES; s++)

@@ -15,7 +15,7 @@ struct pixel_rect render_crop(const struct scene *scene)
 {
     const double *c = scene->crop;
     struct pixel_rect r = {(int)ceil(scene->width * c[0]), (int)ceil(scene->height * c[2]),
-                           (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3]), 0, 0};
+                           (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3])};
     return r;
 }
 
@@ -119,9 +119,9 @@ static void run_pass(void *context, int64_t number, int slot, int thread)
         other.next = pass.observer;
         pass.observer = &other;
     }
-    pass.rect = tiling_rect(&r->tiling, (r->begun + number) % tiles_per_block(r));
     block_range(r, (r->begun + number) / tiles_per_block(r), &pass.first, &pass.end);
-    tile_start(pass.tile, pass.rect, r->job.film_rect, &r->job.scene->filter);
+    tile_start(pass.tile, tiling_pixels(&r->tiling, (r->begun + number) % tiles_per_block(r)), r->job.film_rect,
+               &r->job.scene->filter);
     if (r->options->gate.end > 0)
         pass.tile->gate = r->options->gate;
     if (r->film->half != NULL)
@@ -233,7 +233,7 @@ static bool cut(struct run *r, struct error *err)
     r->film->run = halves_run(size->block);
     r->begun = r->film->passes;
     for (int64_t i = 0; i < r->begun && i < tiles_per_block(r); i++)
-        film_mark(r->film, tiling_rect(&r->tiling, i));
+        film_mark(r->film, tiling_pixels(&r->tiling, i));
     return r->begun < tiles_per_block(r) ||
            error_set(err, "the film has more tile passes in it than a block of samples has");
 }

@@ -79,7 +79,7 @@ bool render_prepare(const struct scene *scene, const struct render_options *opti
 /* planes_observer: what adds to the tile of a sample the planes that it has; all NULL if there are none. */
 struct observer planes_observer(struct planes planes);
 
-/* tiling_of: a film in tiles as a method wants them. tiling_count: how many; tiling_rect: number 0 <= i < count. The
+/* tiling_of: a film in tiles as a method wants them. tiling_count: how many; tiling_pixels: number 0 <= i < count. The
  * first few lie all over the film: they show what it is of, and how long the others will take. */
 struct tiling {
     struct pixel_rect film;
@@ -89,7 +89,7 @@ struct tiling {
 };
 struct tiling tiling_of(struct pixel_rect film, const struct pass_size *size);
 static inline int64_t tiling_count(const struct tiling *t) { return (int64_t)t->nx * t->ny; }
-struct pixel_rect tiling_rect(const struct tiling *t, int64_t i);
+struct tile_pixels tiling_pixels(const struct tiling *t, int64_t i);
 
 /* identity_text: what a picture by these options is of, whatever its number of samples; lines, each a word and what it
  * says, to be given to free(). Threads, names of files and what is written do not belong to it; what the scene's files

@@ -98,32 +98,30 @@ void film_take_splats(struct film *f, struct tile *t)
 
 void film_merge_tile(struct film *f, struct tile *t)
 {
-    size_t from = 0, film_plane = 3 * rect_pixels(f->rect), tile_plane = 3 * rect_pixels(t->rect);
-    for (int y = t->rect.y0; y < t->rect.y1; y += t->rect.skip_y + 1)
-        for (int x = t->rect.x0; x < t->rect.x1; x += t->rect.skip_x + 1)
-            for (size_t to = 3 * pixel_of(f, x, y), c = 0; c < 3; c++, to++, from++) {
-                for (size_t p = 0; p < (size_t)plane_count(f->planes); p++)
-                    f->nonfinite += !exact_join(&f->sum[p * film_plane + to], &t->sum[p * tile_plane + from]);
-                if (f->half != NULL && t->first_half) /* part of the sum: it cannot overflow before it */
-                    exact_join(&f->half[to], &t->sum[from]);
-                if (f->square != NULL) {
-                    f->eye[to] += exact_value(&t->sum[from]);
-                    f->square[to] += t->square[from];
-                }
+    size_t from = 0, film_plane = 3 * rect_pixels(f->rect), tile_plane = 3 * (size_t)pixels_count(t->pixels);
+    for (int i = 0, x, y; pixels_get(t->pixels, i, &x, &y); i++)
+        for (size_t to = 3 * pixel_of(f, x, y), c = 0; c < 3; c++, to++, from++) {
+            for (size_t p = 0; p < (size_t)plane_count(f->planes); p++)
+                f->nonfinite += !exact_join(&f->sum[p * film_plane + to], &t->sum[p * tile_plane + from]);
+            if (f->half != NULL && t->first_half) /* part of the sum: it cannot overflow before it */
+                exact_join(&f->half[to], &t->sum[from]);
+            if (f->square != NULL) {
+                f->eye[to] += exact_value(&t->sum[from]);
+                f->square[to] += t->square[from];
             }
+        }
     film_take_splats(f, t);
-    film_mark(f, t->rect);
+    film_mark(f, t->pixels);
     f->nonfinite += t->nonfinite;
     f->stray = f->strays > 0 ? f->stray : t->stray;
     f->strays += t->strays;
 }
 
-void film_mark(struct film *f, struct pixel_rect tile)
+void film_mark(struct film *f, struct tile_pixels tile)
 {
-    for (int y = tile.y0; y < tile.y1; y += tile.skip_y + 1)
-        for (int x = tile.x0; x < tile.x1; x += tile.skip_x + 1)
-            f->block.in[pixel_of(f, x, y)] = true;
-    f->block.n_in += rect_pixels(tile);
+    for (int i = 0, x, y; pixels_get(tile, i, &x, &y); i++)
+        f->block.in[pixel_of(f, x, y)] = true;
+    f->block.n_in += (size_t)pixels_count(tile);
 }
 
 void film_end_block(struct film *f)

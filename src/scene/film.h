@@ -71,7 +71,7 @@ void film_take_splats(struct film *f, struct tile *t);
 /* film_merge_tile: add these and a tile's sums. film_mark: its pixels are in. film_end_block: all tiles of the block
  * are in, and count from now on. */
 void film_merge_tile(struct film *f, struct tile *t);
-void film_mark(struct film *f, struct pixel_rect tile);
+void film_mark(struct film *f, struct tile_pixels tile);
 void film_end_block(struct film *f);
 
 /* film_value: the sum so far in place i of [planes][pixels*3]. */

@@ -4,12 +4,31 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/number.h"
 
-void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_rect, const struct filter *filter)
+/* Of the tiles that share a cell each takes the pixel whose number is the rank of its own hash. Ranks differ, since
+ * hash_combine is a bijection of its second argument. */
+bool pixels_get(struct tile_pixels p, int i, int *x, int *y)
 {
-    size_t n = rect_pixels(rect) * 3;
-    t->rect = rect;
+    if (i >= pixels_count(p))
+        return false;
+    *x = p.rect.x0 + i % pixels_columns(p) * p.nx;
+    *y = p.rect.y0 + i / pixels_columns(p) * p.ny;
+    int w = p.rect.x1 - *x < p.nx ? p.rect.x1 - *x : p.nx, h = p.rect.y1 - *y < p.ny ? p.rect.y1 - *y : p.ny;
+    uint64_t cell = hash_combine((uint64_t)*x, (uint64_t)*y), own = hash_combine(cell, (uint64_t)(p.y * w + p.x));
+    int rank = 0;
+    for (int k = 0; k < w * h; k++)
+        rank += hash_combine(cell, (uint64_t)k) < own;
+    *x += rank % w;
+    *y += rank / w;
+    return true;
+}
+
+void tile_start(struct tile *t, struct tile_pixels pixels, struct pixel_rect film_rect, const struct filter *filter)
+{
+    size_t n = (size_t)pixels_count(pixels) * 3;
+    t->pixels = pixels;
     t->film_rect = film_rect;
     t->filter = filter;
     size_t sums = n * (size_t)plane_count(t->planes);
@@ -38,12 +57,6 @@ static void make_room(struct tile *t)
         t->full(t->context, t);
 }
 
-static size_t place_of(const struct tile *t, int x, int y)
-{
-    int column = (x - t->rect.x0) / (t->rect.skip_x + 1), row = (y - t->rect.y0) / (t->rect.skip_y + 1);
-    return 3 * ((size_t)row * (size_t)rect_width(t->rect) + (size_t)column);
-}
-
 /* NaN, infinities and values beyond FLT_MAX are left out of every sum alike. */
 static rgb term(rgb c) { return rgb_fits_float(c) ? c : rgb_black(); }
 
@@ -63,7 +76,7 @@ void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before)
     t->nonfinite += !rgb_fits_float(until);
     until = term(until);
     before = term(before);
-    size_t i = place_of(t, x, y);
+    size_t i = 3 * (size_t)pixels_cell(t->pixels, x, y);
     add_difference(&t->sum[i], until, before);
     t->square[i] += sqr(until.r - before.r);
     t->square[i + 1] += sqr(until.g - before.g);
@@ -73,7 +86,7 @@ void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before)
 /* Where a pixel has its place in a plane. */
 static struct exact_sum *in_plane(struct tile *t, int plane, int x, int y)
 {
-    return &t->sum[(size_t)plane * 3 * rect_pixels(t->rect) + place_of(t, x, y)];
+    return &t->sum[3 * (size_t)(plane * pixels_count(t->pixels) + pixels_cell(t->pixels, x, y))];
 }
 
 void tile_add_light(struct tile *t, int x, int y, int lights, rgb after, rgb before)
@@ -112,7 +125,7 @@ static void filter_span(double p, double radius, int low, int high, int *first, 
 
 struct pixel_rect splat_pixels(const struct splat *s, const struct filter *filter, struct pixel_rect within)
 {
-    struct pixel_rect r = {0, 0, 0, 0, 0, 0};
+    struct pixel_rect r = {0, 0, 0, 0};
     filter_span(s->px, filter->radius[0], within.x0, within.x1, &r.x0, &r.x1);
     filter_span(s->py, filter->radius[1], within.y0, within.y1, &r.y0, &r.y1);
     return r;

@@ -41,6 +41,27 @@ static inline bool gate_holds(struct gate g, double length)
     return gate_before(length, g.end) && !gate_before(length, g.begin);
 }
 
+/* The pixels of a tile, one in each cell of nx x ny pixels of a rectangle that interleaved tiles share. A hash of the
+ * cell says which, so that what a tile's pixels have in common forms no pattern. Cells at the right and at the bottom
+ * may be incomplete: w x h pixels are those of the tiles with x < w and y < h. */
+struct tile_pixels {
+    struct pixel_rect rect;
+    int nx, ny, x, y; /* 0 <= x < nx, 0 <= y < ny tell the tiles apart */
+};
+
+/* pixels_all: of a tile alone. pixels_columns, pixels_rows, pixels_count: cells in which the tile has a pixel.
+ * pixels_get: the one in cell number i >= 0, row by row; false if there are not so many. pixels_cell: the number of the
+ * cell of (x,y), in which the tile has one. */
+static inline struct tile_pixels pixels_all(struct pixel_rect r) { return (struct tile_pixels){r, 1, 1, 0, 0}; }
+static inline int pixels_columns(struct tile_pixels p) { return (rect_width(p.rect) - p.x + p.nx - 1) / p.nx; }
+static inline int pixels_rows(struct tile_pixels p) { return (rect_height(p.rect) - p.y + p.ny - 1) / p.ny; }
+static inline int pixels_count(struct tile_pixels p) { return pixels_columns(p) * pixels_rows(p); }
+static inline int pixels_cell(struct tile_pixels p, int x, int y)
+{
+    return (y - p.rect.y0) / p.ny * pixels_columns(p) + (x - p.rect.x0) / p.nx;
+}
+bool pixels_get(struct tile_pixels p, int i, int *x, int *y);
+
 /* What a light sub-path sent to a raster point. */
 struct splat {
     double px, py;
@@ -71,12 +92,12 @@ enum { TILE_FULL = 1 << 18 };
 
 /* What a tile pass produces. Reused from pass to pass. */
 struct tile {
-    struct pixel_rect rect;
+    struct tile_pixels pixels;
     struct pixel_rect film_rect; /* of the film: splats land anywhere in it */
     const struct filter *filter;
     struct planes planes;  /* set before tile_start */
-    struct exact_sum *sum; /* [planes][pixels of rect * 3], sum over the iterations of the pass; owned */
-    double *square;        /* [pixels of rect * 3], sum of squares of the per-iteration values; owned */
+    struct exact_sum *sum; /* [planes][pixels * 3], sum over the iterations of the pass; owned */
+    double *square;        /* [pixels * 3], sum of squares of the per-iteration values; owned */
     size_t capacity, square_capacity;
     struct splat *splat; /* [n_splats], owned */
     size_t n_splats, splat_capacity;
@@ -97,7 +118,7 @@ static inline void tile_stray(struct tile *t, bool strayed, vec3 p)
 }
 
 /* tile_start: begin a pass: clear the sums. */
-void tile_start(struct tile *t, struct pixel_rect rect, struct pixel_rect film_rect, const struct filter *filter);
+void tile_start(struct tile *t, struct tile_pixels pixels, struct pixel_rect film_rect, const struct filter *filter);
 void tile_free(struct tile *t);
 
 /* tile_add_between: the whole value of pixel (x,y) of the tile for one iteration, the difference of two sums, of what

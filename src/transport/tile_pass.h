@@ -51,7 +51,6 @@ void workspaces_free(struct workspace *work, int n);
 /* One tile, iterations [first, end). */
 struct tile_pass {
     const struct render_job *job;
-    struct pixel_rect rect;
     long first, end;
     struct tile *tile; /* started; receives the result */
     struct workspace *work;
@@ -60,7 +59,7 @@ struct tile_pass {
 
 /* pass_enough: is the rest of a tile pass not wanted? Every method asks before each of its samples. After the first yes
  * the answer stays yes, and nobody looks at what the tile holds.
- * pass_pixel: the pass' pixel number i in row order; false if there are not so many, or the first are enough. */
+ * pass_pixel: pixels_get of the tile; false, too, if the first are enough. */
 static inline bool pass_enough(const struct render_job *job)
 {
     return job->enough != NULL && job->enough(job->enough_context);
@@ -68,10 +67,7 @@ static inline bool pass_enough(const struct render_job *job)
 
 static inline bool pass_pixel(const struct tile_pass *pass, int i, int *x, int *y)
 {
-    int width = rect_width(pass->rect);
-    *x = pass->rect.x0 + i % width * (pass->rect.skip_x + 1);
-    *y = pass->rect.y0 + i / width * (pass->rect.skip_y + 1);
-    return *y < pass->rect.y1 && !(i > 0 && pass_enough(pass->job));
+    return pixels_get(pass->tile->pixels, i, x, y) && !(i > 0 && pass_enough(pass->job));
 }
 
 #endif

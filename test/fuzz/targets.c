@@ -206,7 +206,7 @@ static void fuzz_part(const uint8_t *data, size_t size, const char *directory)
     struct error err = {.text = ""};
     FILE *f = part_open(path, &part, &err);
     if (f != NULL && (int64_t)part.width * part.height <= (int64_t)size) {
-        struct pixel_rect all = {0, 0, part.width, part.height, 0, 0};
+        struct pixel_rect all = {0, 0, part.width, part.height};
         float *pixels = mem_alloc((size_t)part.width * (size_t)part.height * 3, sizeof *pixels);
         film_init(&film, all, part.width, part.height);
         if (part_add(f, path, &part, &film, &err)) {

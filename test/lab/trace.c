@@ -109,11 +109,10 @@ static bool check_sample(const struct render_options *o, struct pixel_rect film,
                      o->end - 1);
 }
 
-/* Is a pixel one of those that are not left out? */
-static bool rect_has(struct pixel_rect r, int x, int y)
+static bool pixels_have(struct tile_pixels p, int x, int y)
 {
-    return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1 && (x - r.x0) % (r.skip_x + 1) == 0 &&
-           (y - r.y0) % (r.skip_y + 1) == 0;
+    int i = pixels_cell(p, x, y), has_x, has_y;
+    return i >= 0 && pixels_get(p, i, &has_x, &has_y) && x == has_x && y == has_y;
 }
 
 /* The tile pass that holds the sample, from where what it depends on begins: in blocks of a length that the integrator
@@ -122,16 +121,15 @@ static void render_pass(const struct render_job *job, const struct preparation *
 {
     const struct tiling tiling = tiling_of(job->film_rect, &prepared->size);
     const struct observer observer = {trace, walked, joined, NULL, NULL};
-    struct tile tile = {.rect = {0, 0, 0, 0, 0, 0}};
+    struct tile tile = {.sum = NULL};
     struct workspace *work = workspaces_new(1, job->max_depth);
     long block = prepared->size.block > 0 ? prepared->size.block : 1;
     int64_t number = 0;
-    while (!rect_has(tiling_rect(&tiling, number), trace->x, trace->y))
+    while (!pixels_have(tiling_pixels(&tiling, number), trace->x, trace->y))
         number++;
     work->scratch = method_scratch(prepared);
-    struct tile_pass pass = {job, tiling_rect(&tiling, number), trace->iteration / block * block, trace->iteration + 1,
-                             &tile, work, &observer};
-    tile_start(&tile, pass.rect, job->film_rect, &job->scene->filter);
+    struct tile_pass pass = {job, trace->iteration / block * block, trace->iteration + 1, &tile, work, &observer};
+    tile_start(&tile, tiling_pixels(&tiling, number), job->film_rect, &job->scene->filter);
     prepared->method->render(prepared, &pass);
     tile_free(&tile);
     method_scratch_free(prepared, work->scratch);

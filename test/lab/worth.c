@@ -100,7 +100,7 @@ bool worth_values(const struct scene *scene, const struct render_options *option
 {
     struct view v = {.worth = worth, .draws = draws};
     struct preparation prepared;
-    struct pixel_rect all = {0, 0, scene->width, scene->height, 0, 0};
+    struct pixel_rect all = {0, 0, scene->width, scene->height};
     if (!render_prepare(scene, options, all, &v.job, &prepared, err))
         return false;
     v.counts = ((const struct frozen *)prepared.state)->counts;

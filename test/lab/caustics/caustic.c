@@ -402,8 +402,8 @@ bool caustics_pay(struct one_more *self, const struct render_job *job, const str
         double u, v;
         sampler_r2(i, &u, &v);
         int x = film.x0 + (int)(u * rect_width(film)), y = film.y0 + (int)(v * rect_height(film));
-        struct tile_pass pass = {&other, {x, y, x + 1, y + 1, 0, 0}, i, i + 1, &tile, work, NULL};
-        tile_start(&tile, pass.rect, film, &job->scene->filter);
+        struct tile_pass pass = {&other, i, i + 1, &tile, work, NULL};
+        tile_start(&tile, pixels_all((struct pixel_rect){x, y, x + 1, y + 1}), film, &job->scene->filter);
         arena_reset(&work->arena);
         struct pixel_sample sample = pixel_sample_begin(&pass, counts, x, y, i);
         int length = pixel_eye_path(&pass, &sample, work->eye, job->max_depth + 2);

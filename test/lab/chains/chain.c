@@ -116,7 +116,7 @@ double chain_start(struct chain *c, double u)
 /* What a pass begins with. */
 static void start(struct chain *c, const struct tile_pass *pass)
 {
-    const struct pixel_rect r = pass->rect;
+    const struct pixel_rect r = pass->tile->pixels.rect; /* of no other tile */
     uint64_t width = (uint64_t)pass->job->scene->width, pixels = width * (uint64_t)pass->job->scene->height;
     uint64_t tile = (uint64_t)r.y0 * width + (uint64_t)r.x0;
     c->pass = (uint64_t)pass->first * pixels + tile;
@@ -144,7 +144,7 @@ static void send(const struct chain *c, const struct tile_pass *pass, const stru
 void chain_render(const struct preparation *m, const struct tile_pass *pass)
 {
     struct chain *c = pass->work->scratch;
-    long n = rect_width(pass->rect) * rect_height(pass->rect) * (pass->end - pass->first);
+    long n = pixels_count(pass->tile->pixels) * (pass->end - pass->first);
     double held = 0; /* what the present state has counted since it was reached */
     (void)m;
     c->job = pass->job;

@@ -21,7 +21,8 @@ void records_place(struct records *r, const struct tile_pass *pass, const struct
                    double share)
 {
     const struct render_job *job = pass->job;
-    int width = rect_width(pass->rect), height = rect_height(pass->rect);
+    const struct tile_pixels pixels = pass->tile->pixels;
+    int width = pixels_columns(pixels), height = pixels_rows(pixels), x, y;
     int n = share > 0 ? (int)ceil(share * width * height) : 0, longest = RECORDS_DEPTH;
     longest = longest < f->max_depth ? longest : f->max_depth;
     arena_reset(&r->arena);
@@ -30,8 +31,7 @@ void records_place(struct records *r, const struct tile_pass *pass, const struct
     for (int i = 0; i < n; i++) {
         double u, v, filter_weight;
         sampler_r2((int64_t)iteration * n + i, &u, &v);
-        int x = pass->rect.x0 + (int)(u * width) * (pass->rect.skip_x + 1);
-        int y = pass->rect.y0 + (int)(v * height) * (pass->rect.skip_y + 1);
+        pixels_get(pixels, (int)(v * height) * width + (int)(u * width), &x, &y);
         struct sampler sampler = pixel_sampler(pass, RNG_RECORD, x, y, iteration);
         struct walk walk = {job->scene, &f->counts, &r->arena, &sampler, job->rr_threshold};
         struct vertex *eye = arena_alloc(&r->arena, (size_t)longest * sizeof *eye);

@@ -20,7 +20,9 @@ void ris2_presample(struct ris *r, const struct tile_pass *pass, long iteration)
 {
     const struct candidates all = r->found;
     int M2 = r->state->presampled;
-    struct sampler sampler = pixel_sampler(pass, RNG_SHUFFLE, pass->rect.x0, pass->rect.y0, iteration);
+    int x, y;
+    pixels_get(pass->tile->pixels, 0, &x, &y);
+    struct sampler sampler = pixel_sampler(pass, RNG_SHUFFLE, x, y, iteration);
     double *before = arena_alloc(&r->arena, (size_t)all.n * sizeof *before), S = 0;
     r->u = arena_alloc(&r->arena, (size_t)M2 * sizeof *r->u);
     for (int v = 0; v < all.n; v++) {

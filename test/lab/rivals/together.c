@@ -11,7 +11,7 @@ static void render_iteration(const struct preparation *m, const struct tile_pass
     struct arena *arena = &pass->work->arena;
     int n = 0;
     arena_reset(arena);
-    struct pooled_pixel *all = arena_alloc(arena, rect_pixels(pass->rect) * sizeof *all);
+    struct pooled_pixel *all = arena_alloc(arena, (size_t)pixels_count(pass->tile->pixels) * sizeof *all);
     for (int x, y; pass_pixel(pass, n, &x, &y); n++) {
         all[n] = pooled_begin(m, pass, x, y, n, iteration);
         size_t size = (size_t)all[n].n * sizeof *all[n].eye;
