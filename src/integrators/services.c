@@ -1,7 +1,7 @@
 /* services.c: see services.h. */
 #include "integrators/services.h"
 
-#include <stdio.h>
+#include <string.h>
 
 #include "learning/learn.h"
 #include "learning/probe.h"
@@ -39,6 +39,17 @@ static bool path_tracer_sees_all(const struct scene *scene)
     return !(delta_light && delta_lobe);
 }
 
+/* For --stats. */
+static void tell(struct preparation *out)
+{
+    const struct frozen *f = out->state;
+    const struct film_number numbers[] = {
+        {"draws_first_hit", f->numbers.draws[FIRST_HIT]}, {"draws_after", f->numbers.draws[LATER_HIT]},
+        {"light_points_first_hit", f->numbers.lights}, {"pixels_per_light_path", f->numbers.path_pixels},
+        {"eye_regions", f->tables.eye.n}, {"light_regions", f->tables.light.n}};
+    memcpy(out->number, numbers, sizeof numbers); /* fewer than there is room for: a NULL name stays behind them */
+}
+
 bool services_trace_paths(const struct render_job *job, struct preparation *out)
 {
     struct frozen *f = out->state;
@@ -52,7 +63,7 @@ bool services_trace_paths(const struct render_job *job, struct preparation *out)
     method_count(job, f, NO_CREDITS);
     out->size.tile = DEFAULT_TILE_SIZE; /* pixels share nothing but what is in the cache */
     out->size.spread = 1;
-    snprintf(out->note, sizeof out->note, "light sub-paths are not worth their time here: path tracing instead");
+    tell(out);
     return true;
 }
 
@@ -64,4 +75,5 @@ void services_settle(const struct render_job *job, struct preparation *out, stru
         credits = credit_measure(job, &f->tables);
     credits.draw = draw;
     method_count(job, f, credits);
+    tell(out);
 }
