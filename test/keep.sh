@@ -10,7 +10,7 @@ done_in() { LC_ALL=C sed -n 's/^done \([0-9]*\) .*/\1/p' "$1" | head -n 1; } # s
 work_in() { LC_ALL=C awk '/^done / { print 1000 * $2 + $3; exit }' "$1"; }      # and tile passes
 
 # ---- every integrator, which the laboratory has: parts add up to the whole, and a checkpoint goes on to it ----
-size="--res 12x20 --spp 70 --maxdepth 3 --quiet"
+size="--res 8x12 --spp 70 --maxdepth 3 --quiet"
 while read -r cuts options; do
     # shellcheck disable=SC2086
     {
@@ -65,7 +65,7 @@ check "$program" render $lit --alpha -o sum.png --resume sum.part
 same whole.png sum.png "alpha resumed"
 same whole.pfm lit/light01_key.pfm "a light in parts"
 check "$program" render $lit --samples 32:70 -o 32:70.part
-expect 1 'another picture: it has "size 12 20, planes 3 0", not "size 12 20, planes 3 1"' \
+expect 1 'another picture: it has "size 8 12, planes 3 0", not "size 8 12, planes 3 1"' \
     "$program" merge -o sum.png 0:32.part 32:70.part
 
 # ---- a picture is gone on with, parts are of one whole: each learns the same, and has the same bytes ----
@@ -167,7 +167,7 @@ wait_until() {
     done
 }
 # A render stops between two tile passes, says so at once, and goes on from there to the same bytes.
-stopped="--integrator bdpt --res 160x160 --spp 8 --maxdepth 3 --quiet" end=8000 # passes and thousandths of samples
+stopped="--integrator bdpt --res 112x112 --spp 8 --maxdepth 3 --quiet" end=8000 # passes and thousandths of samples
 check "$program" render "$box" $stopped -o whole.pfm -o whole.part
 rm -f state
 for pair in TERM:143 HUP:129 TERM:143; do
@@ -195,7 +195,7 @@ same whole.part sum.part "after signals"
 # However large the picture is.
 if heard TERM; then
     rm -f state
-    "$program" render "$box" --integrator bdpt --res 1000x1000 --spp 16 --quiet --checkpoint state --interval 0.1 \
+    "$program" render "$box" --integrator bdpt --res 1000x1000 --spp 16 --quiet --checkpoint state --interval 0.05 \
         -o caught.pfm 2>stderr.txt &
     wait_until [ -e state ]
     kill -s TERM $!
@@ -204,11 +204,11 @@ if heard TERM; then
     check [ -s caught.pfm ]
     expect 1 'state: stands in the middle of a block' "$program" merge --partial -o again.pfm state
 fi
-long="--integrator bdpt --res 64x64 --spp 4000 --quiet" some='at ([1-9][0-9]{0,2}|[1-3][0-9]{3}) of 4000'
+long="--integrator bdpt --res 32x32 --spp 4000 --quiet -j 1" some='at ([1-9][0-9]{0,2}|[1-3][0-9]{3}) of 4000'
 if ! command -v timeout >/dev/null || ! timeout --preserve-status 5 true 2>/dev/null; then
     echo "skipped: a render stopped by timeout (not installed)"
 elif heard INT; then
-    for seconds in 0.5 4 16; do # the last is for a machine that is very busy
+    for seconds in 0.5 2 16; do # the last is for a machine that is very busy
         timeout --preserve-status -s INT $seconds "$program" render "$box" $long -o caught.pfm 2>stderr.txt
         got=$?
         grep -Eq "$some" stderr.txt && break
@@ -229,7 +229,7 @@ if heard TERM; then
     no_temporaries "after a signal before the first pass"
     # The picture is there before --aov is made, which ends at a signal, too.
     rm -f first.*
-    "$program" render "$box" --integrator pt --res 160x160 --spp 32 --maxdepth 1 --quiet --aov albedo,variance --seen \
+    "$program" render "$box" --integrator pt --res 96x96 --spp 32 --maxdepth 1 --quiet --aov albedo,variance --seen \
         -o first.pfm 2>stderr.txt &
     wait_until [ -s first.pfm ]
     cp first.pfm early.pfm
@@ -291,7 +291,7 @@ check grep -q 'asbdpt: -: cannot be written' stderr.txt
 no_temporaries "after failed writes"
 
 # ---- killed again and again ----
-slow="--integrator asbdpt --res 100x100 --spp 8 --maxdepth 3 --quiet"
+slow="--integrator asbdpt --res 48x48 --spp 8 --maxdepth 3 --quiet"
 check "$program" render "$box" $slow -o unbroken.pfm
 rm -f state
 echo old >killed.pfm
