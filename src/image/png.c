@@ -294,11 +294,16 @@ static uint64_t filter_row(enum row_filter f, const uint8_t *row, const uint8_t 
     return sum;
 }
 
-/* Pixel i of the picture. Of premultiplied light PNG keeps the colour, and what covers the pixel as a share of 255. */
+/* Pixel i of the picture. Of premultiplied light PNG keeps the colour, and what covers the pixel as a share of 255.
+ * Enlarged pictures repeat pixels, and a power is slow. */
 static void put_rgba(const struct raster *r, size_t i, uint8_t *out)
 {
     const struct channel *a = raster_alpha(r);
     double alpha = a == NULL ? 1 : (double)a->value[i * a->step];
+    if (a == NULL && i % (size_t)r->width > 0 && memcmp(r->pixels + 3 * i, r->pixels + 3 * (i - 1), 12) == 0) {
+        memcpy(out, out - 3, 3);
+        return;
+    }
     for (size_t c = 0; c < 3; c++)
         out[c] = alpha > 0 ? srgb_byte((double)r->pixels[3 * i + c] / alpha) : 0;
     if (a != NULL)
