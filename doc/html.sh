@@ -77,9 +77,12 @@ fi
 
 # page FILE: one page of the tree.
 page() {
-    mkdir -p "$out/$(dirname "$1")"
-    root=$(dirname "$1" | sed 's/[^/]\{1,\}/../g; s/^\.$/./; s/^\.\.$/../')
-    [ "$(dirname "$1")" = . ] && root=.
+    root=. rest=$1
+    while [ "${rest#*/}" != "$rest" ]; do
+        root=$root/.. rest=${rest#*/}
+    done
+    [ "$root" = . ] || root=${root#./}
+    [ -d "$out/${1%"$rest"}" ] || mkdir -p "$out/${1%"$rest"}"
     case $1 in
     *.md) math=0 && case $1 in README.md) math=2 ;;
         doc/tour/* | doc/course/* | doc/selection.md | doc/add-a-method.md) math=1 ;; esac
@@ -92,8 +95,8 @@ page() {
 
 documents=$(find . \( -name 'build*' -o -name out -o -name .git \) -prune -o -name '*.md' -print | sed 's/^\.\///' | sort)
 # What they link to, as paths from the top.
-linked=$(for document in $documents; do
-    awk -v folder="$(dirname "$document")" '
+linked=$(awk '
+        { folder = index(FILENAME, "/") ? FILENAME : "."; sub(/\/[^\/]*$/, "", folder) }
         { while (match($0, /\]\([^() ]+\)/)) {
             url = substr($0, RSTART + 2, RLENGTH - 3)
             $0 = substr($0, RSTART + RLENGTH)
@@ -107,8 +110,7 @@ linked=$(for document in $documents; do
             path = kept[1]
             for (i = 2; i <= depth; i++) path = path "/" kept[i]
             print path
-        } }' "$document"
-done | sort -u)
+        } }' $documents | sort -u)
 for file in $documents $linked; do
     [ -f "$file" ] && page "$file"
 done

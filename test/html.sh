@@ -54,9 +54,9 @@ for text in '<msub><mi>p</mi><mrow><mi>s</mi></mrow></msub>' '<mo>&#x2211;</mo><
     '<li><a href="../../src/transport/mis.h.html#L' '<td>dVCM</td>' '<img src="figures/' '<h2 id="mirrors">'; do
     grep -qF "$text" "$weights" "$dir/html/doc/tour/06-connections.html" || { echo "html: no $text"; exit 1; }
 done
-echo '<a href="nothing.html">x</a>' >"$dir/html/damaged.html"
-[ -n "$(whole "$dir/html")" ] || { echo "html: a link that leads nowhere is not noticed"; exit 1; }
-echo '<p>x' >"$dir/html/damaged.html"
-[ -n "$(whole "$dir/html")" ] || { echo "html: a tag that is not closed is not noticed"; exit 1; }
-rm "$dir/html/damaged.html"
+mkdir "$dir/damaged"
+echo '<a href="nothing.html">x</a>' >"$dir/damaged/damaged.html"
+[ -n "$(whole "$dir/damaged")" ] || { echo "html: a link that leads nowhere is not noticed"; exit 1; }
+echo '<p>x' >"$dir/damaged/damaged.html"
+[ -n "$(whole "$dir/damaged")" ] || { echo "html: a tag that is not closed is not noticed"; exit 1; }
 echo "html: $(find "$dir/html" -name '*.html' | wc -l | tr -d ' ') pages are whole"

@@ -1,6 +1,7 @@
 #!/bin/sh
-# check.sh: does every fault of list.txt, and every variant of test/lab/tune.txt, still apply? The text to be replaced
-# must occur in its file exactly once, no two may have the same name, and doc/mutants.md must be the list as a table.
+# check.sh: does every fault of list.txt, every variant of test/lab/tune.txt, and every plant of the course still apply?
+# The text to be replaced must occur in its file exactly once, no two may have the same name, and doc/mutants.md must be
+# the list as a table.
 #   sh test/mutants/check.sh renew    writes doc/mutants.md
 page=doc/mutants.md
 table() {
@@ -46,5 +47,5 @@ awk '
     /^#/ { next }
     /^[^-+ \t]/ && NF > 3 { check(); name = $1; file = $2; old = ""; next }
     /^-/ { old = old (old == "" ? "" : "\n") substr($0, 3) }
-    END { check(); print "mutants and variants: " n - bad " of " n " apply"; exit bad > 0 || n == 0 || lists != 2 }' \
-    test/mutants/list.txt test/lab/tune.txt
+    END { check(); print "mutants, variants and plants: " n - bad " of " n " apply"; exit bad > 0 || n == 0 || lists != 3 }' \
+    test/mutants/list.txt test/lab/tune.txt test/course/plants.txt
