@@ -2,7 +2,7 @@
 # layers.sh [SRC [CC...]]: the folders of SRC are rooms; SRC/LAYERS lists them, bottom up. Checked:
 #   1. every file lies in a room that is listed, and includes only files of its own room and of rooms below;
 #   2. inside a room there is no circle, a .c and its .h counting as one;
-#   3. every header compiles alone;
+#   3. every header compiles alone: its own .c file includes it before all else, or it is tried;
 #   4. what a header offers is called in SRC: whatever only others call, they bring. A planted function is not missed.
 # ABOVE names folders elsewhere that are rooms over all these, bottom up, and that they know nothing of.
 # Prints what is wrong; exit status 0 only if nothing is.
@@ -10,9 +10,10 @@ src=${1:-src}
 [ $# -gt 0 ] && shift
 [ $# -gt 0 ] || set -- cc
 pairs=$(mktemp) || exit 1
-trap 'rm -f "$pairs" "$pairs.circle" "$pairs.h"' EXIT
+trap 'rm -f "$pairs" "$pairs.circle" "$pairs.first" "$pairs.h"' EXIT
+: >"$pairs.first"
 
-awk -v pairs="$pairs" -v top="$src/" -v above="$ABOVE" '
+awk -v pairs="$pairs" -v first="$pairs.first" -v top="$src/" -v above="$ABOVE" '
     NR == FNR { rank[$1] = NR; next }
     FNR == 1 {
         if (n++ == 0)
@@ -23,6 +24,11 @@ awk -v pairs="$pairs" -v top="$src/" -v above="$ABOVE" '
         if (!((room = last_part(room)) in rank)) { print FILENAME ": not in a room of LAYERS"; bad = 1 }
         me = room "/" me
         print me, me > pairs
+        began = FILENAME ~ /\.h$/
+    }
+    !began && /^[ \t]*#/ {
+        began = 1
+        if ($2 == "\"" me ".h\"") print me > first
     }
     /^[ \t]*#[ \t]*include[ \t]*"/ {
         dep = $0
@@ -53,7 +59,10 @@ for room in "$src"/*/ $ABOVE; do
     set -- "$@" "-I$room/.."
 done
 for header in $(find "$src" $ABOVE -name '*.h' | sort -u); do
-    printf '#include "%s/%s"\nint main(void);\n' "$(basename "$(dirname "$header")")" "$(basename "$header")" |
+    name=${header%.h} folder=${header%/*}
+    name=${folder##*/}/${name##*/}
+    grep -qxF "$name" "$pairs.first" && continue
+    printf '#include "%s.h"\nint main(void);\n' "$name" |
         "$@" -std=c99 -pedantic -fsyntax-only -x c - || {
         echo "$header does not compile alone"
         exit 1

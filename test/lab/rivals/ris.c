@@ -22,15 +22,15 @@
  *
  * Tests: test_ris.c, test_rivals.c.
  */
-#include "caustics/surfaces.h"
-#include "rivals/plain.h"
 #include "rivals/ris.h"
-#include "rivals/together.h"
 
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "caustics/surfaces.h"
+#include "rivals/plain.h"
+#include "rivals/together.h"
 #include "tables/emit.h"
 #include "transport/counts.h"
 
