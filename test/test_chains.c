@@ -401,6 +401,7 @@ static void test_means(struct test *t, const char *const *methods, int more)
 }
 
 static const char *const METHODS[] = {"pssmlt", "mmlt", "mlt", NULL};
+static const char *const QUICK[] = {"mmlt", NULL}; /* they all share chain.c, which makes pictures of states */
 
 void test_chains(struct test *t)
 {
@@ -410,8 +411,8 @@ void test_chains(struct test *t)
     test_no_start(t);
     for (int i = 0; METHODS[i] != NULL; i++)
         test_stays(t, METHODS[i]);
-    test_converges(t, METHODS, 2048);
-    test_means(t, METHODS, 1);
+    test_converges(t, QUICK, 2048);
+    test_means(t, QUICK, 1);
 }
 
 void test_chains_long(struct test *t)

@@ -6,6 +6,7 @@
 
 void test_part(struct test *t);
 void test_asbdpt(struct test *t);
+void test_asbdpt_long(struct test *t);
 void test_aov(struct test *t);
 void test_alias(struct test *t);
 void test_bsdf(struct test *t);
