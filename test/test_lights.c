@@ -1,7 +1,7 @@
 /* Lights apart, and what the lens does not see. The planes of all lights are the picture, to the bit, by every method
  * and within gates; each is what a render by that light alone expects. Alpha: 0 of an empty scene, 1 of a closed one,
- * else what is covered; a light that is hidden is missing where the lens meets it first, and nowhere else. And what
- * many lights cost. */
+ * else what is covered; a light that is hidden is missing where the lens meets it first, and nowhere else. The
+ * slow suite measures what many lights cost. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -343,7 +343,25 @@ static void check_many(struct test *t, int kind, const char *integrator)
         scene_free(&scene[i]);
 }
 
-static void test_many_lights(struct test *t)
+/* The quick suite has no clock: who asks for the light of a direction asks the skies of the list, and no others. */
+static void test_skies(struct test *t)
+{
+    struct scene scene;
+    if (!scene_beside(t, LIGHT_POINT, 2, &scene))
+        return;
+    struct light_set one = scene.lights;
+    const vec3 up = vec(0, 1, 0);
+    one.n_infinite = 1;
+    double light = rgb_luminance(light_Le_environment(&scene.lights, up, false)),
+           density = light_pdf_environment(&scene.lights, up);
+    CHECK(t, scene.lights.n_infinite == 2 && scene.lights.n == 4 && light > 0 && density > 0, "two skies, two lights");
+    CHECK(t, fabs(rgb_luminance(light_Le_environment(&one, up, false)) - light / 2) < 1e-9 * light,
+          "the radiance of one sky of two is not half");
+    CHECK(t, fabs(light_pdf_environment(&one, up) - density / 2) < 1e-9 * density, "the density of one is not half");
+    scene_free(&scene);
+}
+
+void test_lights_long(struct test *t)
 {
     for (int kind = LIGHT_AREA; kind <= LIGHT_DISTANT; kind++) {
         check_many(t, kind, "pt");
@@ -361,5 +379,5 @@ void test_lights(struct test *t)
         test_alone(t, WAYS[i]);
     test_alpha(t);
     test_unseen(t);
-    test_many_lights(t);
+    test_skies(t);
 }

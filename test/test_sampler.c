@@ -240,15 +240,19 @@ static void watch(struct test *t, struct usage *all, const char *integrator, uin
 {
     struct render_options o = {.integrator = integrator, .seed = seed, .end = SAMPLES * stride,
                                .n_threads = 1, .max_depth = DEPTH};
+    struct render_job job = {.scene = NULL};
+    struct preparation prepared;
+    struct error err;
+    if (!CHECK(t, render_prepare(all->scene, &o, render_crop(all->scene), &job, &prepared, &err), "%s", err.text))
+        return;
     for (int i = 0; i < SAMPLES; i++) {
         struct trace trace = {.iteration = i * stride};
-        struct error err;
-        if (!CHECK(t, trace_render(all->scene, &o, &trace, &err), "%s", err.text))
-            return;
+        trace_sample(&job, &prepared, &trace);
         note_sub_paths(all, &trace, i);
         note_connections(all, &trace, i);
         trace_free(&trace);
     }
+    method_release(&prepared);
 }
 
 /* How many decisions were seen often; whether all are nets, for all powers of two. */

@@ -7,21 +7,33 @@
 #include "helpers.h"
 #include "tests.h"
 
-enum { SIZE = 4, SAMPLES = 2, ALL = SIZE * SIZE * SAMPLES };
+enum { SIZE = 4, SAMPLES = 2, ALL = SIZE * SIZE * SAMPLES, DEPTH = 4 };
 
 static const struct {
     const char *name, *integrator, *select;
-} WAYS[] = {{"pt", "pt", ""}, {"lt", "lt", ""}, {"bdpt", "bdpt", ""}, {"bins", "asbdpt", "bins"},
-            {"pool", "asbdpt", "pool"}, {"vertices", "asbdpt", "vertices"}, {"subspaces", "asbdpt", "subspaces"},
-            {"lvc", "lvc", ""}, {"cbdpt", "cbdpt", ""}, {"mbdpt", "mbdpt", ""}, {"pcbdpt", "pcbdpt", ""},
-            {"ris", "ris", ""}, {"ris2", "ris2", ""}, {"restir", "restir", ""},
-            {"restirgi", "restirgi", ""}, {"pathgraph", "pathgraph", ""}};
+    int longest; /* t of the longest pair; -1: there is less than one draw for a later vertex */
+} WAYS[] = {{"pt", "pt", "", 0},
+            {"lt", "lt", "", 1},
+            {"bdpt", "bdpt", "", DEPTH},
+            {"bins", "asbdpt", "bins", DEPTH},
+            {"pool", "asbdpt", "pool", DEPTH},
+            {"vertices", "asbdpt", "vertices", DEPTH},
+            {"subspaces", "asbdpt", "subspaces", -1},
+            {"lvc", "lvc", "", DEPTH},
+            {"cbdpt", "cbdpt", "", DEPTH},
+            {"mbdpt", "mbdpt", "", DEPTH},
+            {"pcbdpt", "pcbdpt", "", DEPTH},
+            {"ris", "ris", "", DEPTH},
+            {"ris2", "ris2", "", DEPTH},
+            {"restir", "restir", "", DEPTH},
+            {"restirgi", "restirgi", "", 0}, /* the last two share pt's eye sub-paths */
+            {"pathgraph", "pathgraph", "", 0}};
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
 
 static struct render_options options_of(int way)
 {
     struct render_options o = {.integrator = WAYS[way].integrator, .seed = 7, .end = SAMPLES,
-                               .n_threads = 1, .max_depth = 4};
+                               .n_threads = 1, .max_depth = DEPTH};
     return o;
 }
 
@@ -128,9 +140,13 @@ static void check_film(struct test *t, const struct scene *scene, int way, struc
     film_init(&rendered, render_crop(scene), SIZE, SIZE);
     film_init(&told, render_crop(scene), SIZE, SIZE);
     CHECK(t, render_scene(scene, &options, &rendered, &err), "%s", err.text);
+    struct render_job job = {.scene = NULL};
+    struct preparation prepared;
+    if (!CHECK(t, render_prepare(scene, &options, render_crop(scene), &job, &prepared, &err), "%s", err.text))
+        return;
     for (int i = 0; i < ALL; i++) {
         struct trace trace = {.x = i % SIZE, .y = i / SIZE % SIZE, .iteration = i / (SIZE * SIZE)};
-        CHECK(t, trace_render(scene, &options, &trace, &err), "%s", err.text);
+        trace_sample(&job, &prepared, &trace);
         check_parts(t, name, &trace);
         check_light_points(t, name, &trace);
         added += trace.n_connections;
@@ -141,11 +157,9 @@ static void check_film(struct test *t, const struct scene *scene, int way, struc
         most[i] = most_of_trace(scene, &trace);
         trace_free(&trace);
     }
-    bool seldom = strcmp(name, "subspaces") == 0; /* less than one draw for a later vertex */
+    method_release(&prepared);
     CHECK(t, added > ALL, "%s: only %d connections told", name, added);
-    bool none = way == 0 || way >= N_WAYS - 2; /* pt, and those that share its eye sub-paths */
-    CHECK(t, seldom || longest == (none ? 0 : way == 1 ? 1 : options.max_depth),
-          "%s: no pair is longer than t = %d", name, longest);
+    CHECK(t, WAYS[way].longest < 0 || longest == WAYS[way].longest, "%s: no pair is longer than t = %d", name, longest);
     CHECK(t, differing(&rendered, &told) == 0 && halfway > 0, "%s: %d values differ from what was told, half way %d",
           name, differing(&rendered, &told), halfway);
     film_free(&rendered);

@@ -117,7 +117,7 @@ static bool pixels_have(struct tile_pixels p, int x, int y)
 
 /* The tile pass that holds the sample, from where what it depends on begins: in blocks of a length that the integrator
  * has chosen one iteration builds on another. */
-static void render_pass(const struct render_job *job, const struct preparation *prepared, struct trace *trace)
+void trace_sample(const struct render_job *job, const struct preparation *prepared, struct trace *trace)
 {
     const struct tiling tiling = tiling_of(job->film_rect, &prepared->size);
     const struct observer observer = {trace, walked, joined, NULL, NULL};
@@ -134,6 +134,8 @@ static void render_pass(const struct render_job *job, const struct preparation *
     tile_free(&tile);
     method_scratch_free(prepared, work->scratch);
     workspaces_free(work, 1);
+    trace->why = prepared->method->why;
+    memcpy(trace->number, prepared->number, sizeof trace->number);
 }
 
 bool trace_render(const struct scene *scene, const struct render_options *options, struct trace *trace,
@@ -146,9 +148,7 @@ bool trace_render(const struct scene *scene, const struct render_options *option
     if (m == NULL || !method_observable(m, err) || !check_sample(options, film, trace, err) ||
         !render_prepare(scene, options, film, &job, &prepared, err))
         return false;
-    trace->why = m->why;
-    memcpy(trace->number, prepared.number, sizeof trace->number);
-    render_pass(&job, &prepared, trace);
+    trace_sample(&job, &prepared, trace);
     method_release(&prepared);
     return true;
 }

@@ -50,6 +50,9 @@ void trace_free(struct trace *trace);
 bool trace_render(const struct scene *scene, const struct render_options *options, struct trace *trace,
                   struct error *err);
 
+/* trace_sample: the same by a method that render_prepare has prepared, of a sample that there is. */
+void trace_sample(const struct render_job *job, const struct preparation *prepared, struct trace *trace);
+
 /* trace_sum: what was added to the sample's own pixel: all with t >= 2, in their order. */
 rgb trace_sum(const struct trace *trace);
 
