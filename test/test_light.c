@@ -264,7 +264,7 @@ static void test_slide_places(struct test *t)
     rgb g[4] = {slide_goniometric(s, vec(0, a, a)), slide_goniometric(s, vec(0, a, -a)),
                 slide_goniometric(s, vec(0, -a, a)), slide_goniometric(s, vec(0, -a, -a))};
     for (int i = 0; i < 4; i++) {
-        rgb want = rgb_of_floats(&pixels[3 * i]);
+        rgb want = rgb_make(pixels[3 * i], pixels[3 * i + 1], pixels[3 * i + 2]);
         CHECK(t, fabs(p[i].r - want.r) + fabs(p[i].g - want.g) + fabs(p[i].b - want.b) < 1e-9, "projection, %d", i);
         CHECK(t, fabs(g[i].r - want.r) + fabs(g[i].g - want.g) + fabs(g[i].b - want.b) < 1e-9, "goniometric, %d", i);
     }

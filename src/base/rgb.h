@@ -13,8 +13,6 @@ typedef struct {
 } rgb;
 
 static inline rgb rgb_make(double r, double g, double b) { return (rgb){r, g, b}; }
-
-static inline rgb rgb_of_floats(const float c[3]) { return rgb_make((double)c[0], (double)c[1], (double)c[2]); }
 static inline rgb rgb_grey(double v) { return rgb_make(v, v, v); }
 static inline rgb rgb_black(void) { return rgb_grey(0); }
 static inline rgb rgb_add(rgb a, rgb b) { return rgb_make(a.r + b.r, a.g + b.g, a.b + b.b); }

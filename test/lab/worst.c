@@ -54,7 +54,7 @@ static void joined(void *context, const struct pixel_sample *sample, const struc
     for (int y = range.y0; y < range.y1; y++)
         for (int x = range.x0; x < range.x1; x++)
             if (splat_part(&s, tile->filter, x, y, part))
-                offer(context, sample, rgb_of_floats(part), x, y);
+                offer(context, sample, rgb_make(part[0], part[1], part[2]), x, y);
 }
 
 static void ended(void *context, const struct pixel_sample *sample)
