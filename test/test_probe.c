@@ -80,7 +80,8 @@ static void test_where_nothing_else_does(struct test *t)
         if (!scene_from_text(t, text, &scene))
             continue;
         if (settle(t, &scene, &f)) {
-            CHECK(t, (f.numbers.path_pixels > 0) == (i > 0), "a point light beside %s: %d", materials[i], f.numbers.path_pixels);
+            CHECK(t, (f.numbers.path_pixels > 0) == (i > 0), "a point light beside %s: %d", materials[i],
+                  f.numbers.path_pixels);
             double delta = f.counts.delta[FIRST_HIT];
             CHECK(t, i == 0 || delta >= 16, "a point light's samples count for %g", delta);
         }
@@ -117,7 +118,8 @@ static void test_credit(struct test *t)
         settings_set(&scene.settings, "probe", "off", "test"); /* or paths are traced, which need no credit */
         if (settle(t, &scene, &f)) {
             double credit = f.counts.hit[FIRST_HIT];
-            CHECK(t, (credit > 4) == (i == 0) && f.counts.direct[FIRST_HIT] == f.numbers.lights * credit && f.counts.hit[LATER_HIT] == 1,
+            CHECK(t, (credit > 4) == (i == 0) && f.counts.direct[FIRST_HIT] == f.numbers.lights * credit &&
+                         f.counts.hit[LATER_HIT] == 1,
                   "%s: s = 0 counts for %g, s = 1 for %g", scenes[i], credit, f.counts.direct[FIRST_HIT]);
         }
         scene_free(&scene);
@@ -164,7 +166,8 @@ static void test_counts(struct test *t)
     CHECK(t, c.hit[FIRST_HIT] == 5 && c.direct[FIRST_HIT] == 6 && c.delta[FIRST_HIT] == 7, "first hit");
     CHECK(t, c.hit[LATER_HIT] == 1 && c.direct[LATER_HIT] == 1 && c.delta[LATER_HIT] == 1, "later");
     CHECK(t, c.connect[FIRST_HIT] == 6 && c.connect[LATER_HIT] == 2 && c.splat == 25, "light sub-paths");
-    const struct mis_counts pt = counts_of((struct numbers){.draws = {3, 1}, .lights = 1, .hits = true}, NO_CREDITS, 100);
+    const struct numbers path_tracer = {.draws = {3, 1}, .lights = 1, .hits = true};
+    const struct mis_counts pt = counts_of(path_tracer, NO_CREDITS, 100);
     CHECK(t, pt.connect[FIRST_HIT] == 0 && pt.splat == 0 && pt.hit[LATER_HIT] == 1, "a path tracer");
     const struct mis_counts lt = counts_of((struct numbers){.path_pixels = 1}, NO_CREDITS, 100);
     CHECK(t, lt.hit[FIRST_HIT] == 0 && lt.direct[LATER_HIT] == 0 && lt.splat == 100, "a light tracer");

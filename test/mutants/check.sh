@@ -47,5 +47,9 @@ awk '
     /^#/ { next }
     /^[^-+ \t]/ && NF > 3 { check(); name = $1; file = $2; old = ""; next }
     /^-/ { old = old (old == "" ? "" : "\n") substr($0, 3) }
-    END { check(); print "mutants, variants and plants: " n - bad " of " n " apply"; exit bad > 0 || n == 0 || lists != 3 }' \
+    END {
+        check()
+        print "mutants, variants and plants: " n - bad " of " n " apply"
+        exit bad > 0 || n == 0 || lists != 3
+    }' \
     test/mutants/list.txt test/lab/tune.txt test/course/plants.txt
