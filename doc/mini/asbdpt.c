@@ -377,7 +377,7 @@ static void splat_path(const struct counts *n, const struct light_path *light, r
  *                 P(v|z) = (1 - delta) h(e(z),l(v)) L_v / sum + delta / size,     L_v = luminance(beta_v).
  *             Unbiased whatever h is. The weights count n = DRAWS h(e,l) samples, a function of both ends of the edge.
  *             A table for each cell that asks costs more time here than it saves; in src a tile shares them, regions
- *             are found, and a pilot chooses how many to draw. */
+ *             are found, and a probe finds out whether light sub-paths pay. */
 enum method { PT, BDPT, BINS, POOL, VERTICES, SUBSPACES, METHODS };
 static const char *const NAMES[METHODS] = {"pt", "bdpt", "bins", "pool", "vertices", "subspaces"};
 #define CHOICES "pt|bdpt|bins|pool|vertices|subspaces"
