@@ -254,7 +254,7 @@ wrong='ways of light come to a shape .* the camera is in a medium, by the Medium
 expect 0 "warning: media.pbrt: [0-9]* $wrong" "$program" render media.pbrt --res 8x8 --spp 2 -o media.pfm
 expect 1 "^asbdpt: media.pbrt: [0-9]* $wrong" "$program" render media.pbrt --res 8x8 --spp 2 -o media.pfm --strict
 sed 's/"point"/"infinite"/' media.pbrt >sky.pbrt
-expect 0 'a medium without a bound ends on a sphere of radius 1.* about (0 0 0), beyond which' \
+expect 0 'a medium without a bound ends on a sphere of radius 1.* about .0 0 0., beyond which' \
     "$program" render sky.pbrt --res 8x8 --spp 2 -o sky.pfm
 printf 'WorldBegin\nShpae "sphere"\nShape "cuboid"\nWorldEnd\n' >errors.pbrt
 expect 1 '^asbdpt: errors.pbrt:2:1: unknown directive' "$program" render errors.pbrt --quiet

@@ -186,8 +186,8 @@ static void agree(struct test *t, const char *path, const char *one, const char 
 
 static void test_partition(struct test *t)
 {
-    agree(t, "scenes/test/caustic-ball.pbrt", "caustics with=bdpt longest=2", "lt", 160);
-    agree(t, "scenes/test/caustic-bulb.pbrt", "caustics with=pt longest=2", "bdpt", 96);
+    agree(t, "scenes/test/caustic-ball.pbrt", "caustics with=bdpt longest=2", "lt", 64);
+    agree(t, "scenes/test/caustic-bulb.pbrt", "caustics with=pt longest=2", "bdpt", 64);
     agree(t, "scenes/test/caustic-diver.pbrt", "caustics with=asbdpt longest=1", "lt", 32);
     agree(t, "scenes/test/mirror-glass.pbrt", "caustics with=pt longest=2", "bdpt", 24);
     agree(t, "scenes/test/mirror-glass.pbrt", "caustics with=bdpt longest=2 heuristic=power", "bdpt", 16);

@@ -373,7 +373,7 @@ static void check_both_ways(struct test *t)
     snprintf(directory, sizeof directory, "%s/both", test_tmp(t));
     small_plan(&p, scenes, directory, "bdpt,pt,lvc");
     p.n_scenes = 1;
-    p.n_seeds = 12;
+    p.n_seeds = 8;
     p.seconds = 0;
     double all = 0; /* mean logarithm of the ratio: seeds are the same, so it scatters less than each */
     bool ok = measure(&p, &by_pairs, &err);

@@ -119,16 +119,15 @@ static void test_told(struct test *t, const struct scene *scene, const struct si
     free(mean);
 }
 
-static void test_pictures_told(struct test *t)
+static void test_pictures_told(struct test *t, const char *const *methods)
 {
-    static const char *const METHODS[] = {"pt", "lt", "asbdpt"};
     struct scene scene;
     struct side ref = {0};
     if (!read_reference(t, "ref/cornell-box.pfm", &ref) ||
         !scene_from_file(t, "scenes/cornell-box.pbrt", ref.width, ref.height, &scene))
         return;
-    for (int i = 0; i < 3; i++)
-        test_told(t, &scene, &ref, METHODS[i]);
+    for (; *methods != NULL; methods++)
+        test_told(t, &scene, &ref, *methods);
     scene_free(&scene);
     batches_free(&ref.pixels);
 }
@@ -187,11 +186,18 @@ static void test_blocks(struct test *t)
     scene_free(&scene);
 }
 
+void test_halves_long(struct test *t)
+{
+    static const char *const ways[] = {"pt", "lt", "asbdpt", NULL};
+    test_pictures_told(t, ways);
+}
+
 void test_halves(struct test *t)
 {
+    static const char *const ways[] = {"bdpt", NULL};
     test_blocks(t);
     test_known(t);
-    test_pictures_told(t);
+    test_pictures_told(t, ways);
     test_end(t, "bdpt", 64);
     test_end(t, "asbdpt select=bins restart=24", 96);
     CHECK(t, halves_run(1) == 32 && halves_run(24) == 48 && halves_run(INT_MAX) == INT_MAX, "runs");

@@ -281,7 +281,7 @@ void test_mis(struct test *t)
             known.emission = emission ? all_known.emission : NO_TABLES.emission;
             counts.tables = k % 8 > 0 ? &known : NULL;
             struct comparison c = {.t = t, .name = VARIANTS[v].name, .scene = &scene, .counts = &counts, .skew = 1};
-            compare_paths(&c, 400);
+            compare_paths(&c, 500);
             CHECK(t, c.worst < bound && c.compared > 100,
                   "%s, %s%s%s%s: %ld weights, largest difference %.3g (bound %g)", VARIANTS[v].name, sets[k / 8].name,
                   guide ? ", guide" : "", pairs ? ", pairs" : "", emission ? ", emission" : "",

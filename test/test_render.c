@@ -240,8 +240,6 @@ static void test_agreement(struct test *t)
         const char *name, *light1, *light2, *light3, *objects;
         bool light_tracing; /* all paths are within reach of lt */
     } cases[] = {
-        {"area light, diffuse and glossy", AREA, "", "", "", true},
-        {"point, spot, distant", DELTAS, "", "", "", true},
         {"area and sky, mirror and glass", AREA, SKY, "", SPECULAR, false},
         {"all lights together", AREA, DELTAS, SKY, "", true},
     };

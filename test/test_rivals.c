@@ -305,14 +305,17 @@ static void test_useless(struct test *t)
 static void test_expectations(struct test *t, int more)
 {
     test_small_pools(t, more);
-    test_rooms(t, more);
     test_every_scene(t, more);
     test_gradient(t, more);
-    test_bias(t, more);
     test_furnace(t, more);
 }
 
-void test_rivals_long(struct test *t) { test_expectations(t, 8); }
+void test_rivals_long(struct test *t)
+{
+    test_expectations(t, 8);
+    test_rooms(t, 8);
+    test_bias(t, 8);
+}
 
 void test_rivals(struct test *t)
 {

@@ -29,7 +29,7 @@ static struct batches noise(struct rng *r, int n_batches, long n, double share, 
 /* Many comparisons of equal batches: each of the three p-values must be uniform or, by Sidak's bound, too large. */
 static void test_level(struct test *t, double share)
 {
-    enum { TRIALS = 300, BATCHES = 10, VALUES = 20 };
+    enum { TRIALS = 200, BATCHES = 10, VALUES = 20 };
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 801, 0);
     double mean[TRIALS], uniform[TRIALS], low_smallest = 0, low_uniform = 0;
     for (int i = 0; i < TRIALS; i++) {

@@ -28,6 +28,7 @@ void test_frame(struct test *t);
 void test_fuzz(struct test *t);
 void test_gates(struct test *t);
 void test_halves(struct test *t);
+void test_halves_long(struct test *t);
 void test_hdr(struct test *t);
 void test_hostile(struct test *t);
 void test_image(struct test *t);
