@@ -49,8 +49,8 @@ static inline double probe_scale(double local, double all) { return sqr(0.75 * l
  * samples, where X is what it contributes and V_N the variance of the mean of N [Grittmann 2019]. Some pixels take 16
  * samples by path tracing, twice; half the squared difference of the two means estimates V_16. */
 
-/* credit_measure: for lights as `tables` choose them; that of draws is 1. As many samples as the image has pixels, or a few more, but at
- * most 32768. */
+/* credit_measure: for lights as `tables` choose them; that of draws is 1. As many samples as the image has
+ * pixels, or a few more, but at most 32768. */
 struct credits credit_measure(const struct render_job *job, const struct tables *tables);
 
 /* --- is this a scene for a path tracer: usefulness.c -------------------------------------------------- */

@@ -4,7 +4,7 @@
 #include "base/number.h"
 #include "learning/probe.h"
 
-enum { MOST_PIXELS = 4096 };
+enum { LEAST_PIXELS = 512, MOST_PIXELS = 4096 };
 static const double SHARE_OF_PIXELS = 0.25;
 static const double CLIP_TAIL = 1e4; /* of a pixel's sum: nothing else warns of a path tracer's fireflies */
 
@@ -87,7 +87,7 @@ bool light_paths_useful(const struct render_job *job)
     struct usefulness u = {.counts = counts_of(bdpt, NO_CREDITS, pixel_light_count(job))};
     struct probe p = {.job = job, .context = &u, .measure = measure};
     double all = 0, variance = 0, tail = 0, direct = 0, direct_square = 0, direct_tail = 0;
-    p.n = int_within(SHARE_OF_PIXELS * pixel_light_count(job), 64, MOST_PIXELS);
+    p.n = int_within(SHARE_OF_PIXELS * pixel_light_count(job), LEAST_PIXELS, MOST_PIXELS);
     int64_t wanted = p.n;
     u.again = u.counts;
     u.again.connect[FIRST_HIT] = u.again.connect[LATER_HIT] = 0.5;

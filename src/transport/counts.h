@@ -34,8 +34,8 @@ static inline const struct tables *counts_tables(const struct mis_counts *c)
     return c->tables != NULL ? c->tables : &NO_TABLES;
 }
 
-/* n_connect: n of the strategy s >= 2, t >= 2 whose light end is in region l and whose eye end in region e. Draws can be
- * worth no more samples than there are sub-paths to draw from. */
+/* n_connect: n of the strategy s >= 2, t >= 2 whose light end is in region l and whose eye end in region e. Draws
+ * count as no more samples than there are sub-paths to draw from. */
 static inline double n_connect(const struct mis_counts *c, int l, int e, enum eye_end end)
 {
     double n = c->connect[end] * pairs_worth(&counts_tables(c)->pairs, e, l);

@@ -80,7 +80,7 @@ struct chain_rules {
 
 /* Of a row of the table. */
 #define CHAIN_ROW                                                                                                      \
-    .numbers = NUMBERS_OF_BDPT, .state_size = sizeof(struct chains), .scratch_size = sizeof(struct chain),                          \
+    .numbers = NUMBERS_OF_BDPT, .state_size = sizeof(struct chains), .scratch_size = sizeof(struct chain),             \
     .render = chain_render, .scratch_init = chain_scratch, .scratch_free = chain_scratch_free
 
 /* chain_propose: what is proposed, by the rules. chain_swap: go there. */

@@ -249,5 +249,6 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
 const struct method method_ellipse = {
     .name = "ellipse", .check = surfaces_alone,
     .help = "ellipsoidal connections [Pediredla 2019]: for narrow gates; else pt",
-    .state_size = sizeof(struct ellipse_state), .numbers = {.lights = 1, .hits = true}, .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .state_size = sizeof(struct ellipse_state), .numbers = {.lights = 1, .hits = true},
+    .rr_threshold = DEFAULT_RR_THRESHOLD,
     .prepare = prepare, .release = release, .render = render};

@@ -125,4 +125,5 @@ const struct method method_mbdpt = {
            "sorted by length or throughput, each equally likely; scale 1",
     .parameters = PARAMETERS,
     .prepare = plain_prepare, .state_size = sizeof(struct mbdpt_state), .scratch_size = sizeof(struct light_pool),
-    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render, .scratch_free = light_pool_free};
+    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render,
+    .scratch_free = light_pool_free};
