@@ -45,8 +45,8 @@ void services_learn(const struct render_job *job, struct preparation *out, struc
  * otherwise, and for draws, `credits` hold. */
 void services_settle(const struct render_job *job, struct preparation *out, struct credits credits);
 
-/* services_trace_paths: is this a scene for a path tracer (probe.h)? If so, *out is settled as one, with nothing learnt.
- * Where a path tracer would miss light a few light sub-paths remain, and false is returned. */
+/* services_trace_paths: is this a scene for a path tracer (probe.h)? If so, *out is settled as one, with nothing
+ * learnt. Where a path tracer would miss light a few light sub-paths remain, and false is returned. */
 bool services_trace_paths(const struct render_job *job, struct preparation *out);
 
 #endif

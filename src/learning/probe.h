@@ -18,7 +18,7 @@
 
 struct probe {
     const struct render_job *job; /* of the render */
-    int64_t n;                    /* pixels: points 0 .. n-1 of an even sequence over the film. probe_run: those measured */
+    int64_t n; /* pixels: points 0 .. n-1 of an even sequence over the film; those measured after probe_run */
     void *context;
     /* Take the samples of pixel number k at (x,y), called on several threads. */
     void (*measure)(struct probe *p, int64_t k, int x, int y, int thread);
