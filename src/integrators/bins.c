@@ -181,5 +181,6 @@ const struct method method_bins = {
     .why = "of the pixel's bins of two light sub-paths one is visited, of its two elements one taken with probability "
            "beta_e^2 / (beta_0^2 + beta_1^2); no weight makes up for it",
     .parameters = PARAMETERS, .state_size = sizeof(struct bins_state), .scratch_size = sizeof(struct bins),
-    .numbers = NUMBERS_OF_BDPT, .rr_threshold = 0, .check = check, .prepare = prepare, .render = render, .scratch_init = init_scratch,
+    .numbers = NUMBERS_OF_BDPT,
+    .rr_threshold = 0, .check = check, .prepare = prepare, .render = render, .scratch_init = init_scratch,
     .scratch_free = free_scratch};
