@@ -6,7 +6,6 @@ BEGIN {
         "regions on four levels; by direction; by sides; shifted:no-levels,no-faces,no-sides,no-shift|" \
         "grids that lie where vertices are:no-extent|credits of what comes straight:no-credit|" \
         "emission:no-emission|lights that a region sees:no-guide|" \
-        "the pilot: numbers; noise in blocks:no-optimum,no-blocks|" \
         "the first question (error; CPU time):no-question", part, "|")
 }
 NF > 10 { error[$2] = $4; cpu[$2] = $8; worst[$2] = $10; gsub(/\*/, "", error[$2]) }

@@ -20,7 +20,7 @@
 
 struct pcbdpt_state {
     struct ris_state ris; /* weights = counts, one stage */
-    int connections;      /* C, where no pilot chooses it */
+    int connections;      /* C */
     double normals;
 };
 

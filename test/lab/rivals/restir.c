@@ -15,7 +15,7 @@
  * BDPT but for the order in which it adds.
  *
  * Densities cancel in f / p, so p is never asked for: f stands for f / p below, p being that of the pixel that drew y.
- * A guide (services.h) may have another p in each. How many light points there are is M, so no pilot chooses it.
+ * A guide (services.h) may have another p in each. M says how many light points there are.
  *
  * Tests: test_rivals.c.
  */
