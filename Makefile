@@ -161,6 +161,11 @@ links: ## check that links, functions, tests and mutants named in the documents 
 	@sh test/pages.sh
 	@sh test/html.sh
 
+.PHONY: words
+words: ## count the words of pages and sentences, and find phrases that readers stumble over
+	@sh test/words_test.sh
+	@sh test/words.sh
+
 san: ## run the tests (or SUITES="...") under the address and undefined-behaviour sanitizers
 	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test
 	sh test/suites.sh $(if $(SUITES),$(foreach suite,$(SUITES),"build-san/test $(suite)"),build-san/test)
