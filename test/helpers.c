@@ -221,7 +221,7 @@ struct batch_run {
     int spp;
     struct batches *pixels;
     struct workspace *work; /* [threads] */
-    long *nonfinite, *strays; /* [batches] */
+    long *nonfinite; /* [batches] */
 };
 
 /* Batch k, by hand, tile by tile as render.c does, on one thread. */
@@ -250,7 +250,6 @@ static void work_batch(void *context, int64_t k, int slot, int thread)
     for (long i = 0; i < r->pixels->n; i++)
         r->pixels->value[r->pixels->n * k + i] = film_value(&film, (size_t)i) / r->spp;
     r->nonfinite[k] = film.nonfinite;
-    r->strays[k] = film.strays;
     tile_free(&tile);
     film_free(&film);
 }
@@ -277,7 +276,6 @@ struct batches render_gated(struct test *t, const struct scene *scene, const cha
     if (!CHECK(t, render_prepare(scene, &o, crop, &r.job, &r.prepared, &err), "%s", err.text))
         return pixels;
     r.nonfinite = mem_alloc((size_t)n_batches, sizeof *r.nonfinite);
-    r.strays = mem_alloc((size_t)n_batches, sizeof *r.strays);
     r.work = workspaces_new(o.n_threads, r.job.max_depth);
     for (int i = 0; i < o.n_threads; i++)
         r.work[i].scratch = method_scratch(&r.prepared);
@@ -286,12 +284,9 @@ struct batches render_gated(struct test *t, const struct scene *scene, const cha
         method_scratch_free(&r.prepared, r.work[i].scratch);
     workspaces_free(r.work, o.n_threads);
     method_release(&r.prepared);
-    for (int k = 0; k < n_batches; k++) {
+    for (int k = 0; k < n_batches; k++)
         CHECK(t, r.nonfinite[k] == 0, "%s: %ld contributions are not finite", integrator, r.nonfinite[k]);
-        CHECK(t, r.strays[k] == 0, "%s: on %ld ways media do not fit together", integrator, r.strays[k]);
-    }
     free(r.nonfinite);
-    free(r.strays);
     struct batches tiles = batches_tiles(&pixels, rect_width(crop), rect_height(crop), tile);
     batches_free(&pixels);
     return tiles;

@@ -144,19 +144,6 @@ static void report(const struct job_options *o, const char *integrator, const st
                 times->wall, times->cpu, render_us_per_path(film, times));
 }
 
-/* Do the media fit together, or is --strict not given? Else false with a message. */
-static bool media_fit(const struct job_options *o, const struct scene *scene, const struct film *film,
-                      struct error *err)
-{
-    struct error text;
-    error_set(&text, "%s: %ld ways of light come to a shape from another medium than its MediumInterface says, the "
-                     "first to (%g %g %g); %s", o->scene_path, film->strays, film->stray.x, film->stray.y,
-              film->stray.z, scene->media.lens != NULL ? scene->media.lens : "");
-    if (film->strays > 0 && !o->strict && !o->quiet)
-        fprintf(stderr, "asbdpt: warning: %s\n", text.text);
-    return film->strays == 0 || !o->strict || error_set(err, "%s", text.text);
-}
-
 /* Pictures, then what can only be made now, and when all are complete the statistics. `ok`: nothing has failed yet. */
 static bool write_files(const struct job_options *o, const struct scene *scene, struct render_options *options,
                         const struct film *film, struct keep *keep, struct files *f, bool ok, struct error *err)
@@ -164,7 +151,6 @@ static bool write_files(const struct job_options *o, const struct scene *scene, 
     float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels), *alpha = film_alpha(film);
     film_warn(film, film_develop(film, scene->film_scale, pixels));
     f->pictures.alpha = f->aov.out.alpha = alpha;
-    ok = media_fit(o, scene, film, ok ? err : NULL) && ok;
     ok = outputs_write(&f->pictures, rect_width(film->rect), rect_height(film->rect), pixels, o->quiet,
                        ok ? err : NULL) && ok;
     keep_after(keep, options);

@@ -136,8 +136,8 @@ static void warn_of_media(const struct scene *scene, struct job_loading *to)
 {
     const struct light_set *l = &scene->lights;
     struct error text;
-    error_set(&text, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the lights "
-                     "at infinity are; %s", l->radius, l->center.x, l->center.y, l->center.z, scene->media.lens);
+    error_set(&text, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the "
+                     "infinite and distant lights are", l->radius, l->center.x, l->center.y, l->center.z);
     if (scene->media.ends)
         warn(to, "%s", text.text);
 }

@@ -115,8 +115,7 @@ static bool is_blind(const char *integrator)
 bool parse_settle_media(struct parser *p)
 {
     struct scene *s = p->scene;
-    struct source_position used = p->media.used_at, at = p->state.medium[1].position;
-    struct error lens;
+    struct source_position used = p->media.used_at;
     bool seen = !is_blind(p->integrator != NULL ? p->integrator : s->integrator);
     if (used.file == NULL || !seen) { /* none is anywhere, or is to be seen */
         s->media.n = 0;
@@ -125,11 +124,6 @@ bool parse_settle_media(struct parser *p)
         return true;
     }
     s->camera.medium = parse_medium(p, 1); /* pbrt-v3 makes the camera last */
-    error_set(&lens, "the camera is in no medium");
-    if (at.file != NULL)
-        error_set(&lens, "the camera is in %s, by the MediumInterface of %s:%d:%d, which holds at WorldEnd",
-                  s->camera.medium > 0 ? "a medium" : "none", at.file->path, at.line, at.column);
-    s->media.lens = mem_copy_text(lens.text);
     return p->media.bad_at.file == NULL || source_error(&p->messages, p->media.bad_at, "%s", p->media.bad);
 }
 

@@ -113,8 +113,6 @@ void film_merge_tile(struct film *f, struct tile *t)
     film_take_splats(f, t);
     film_mark(f, t->pixels);
     f->nonfinite += t->nonfinite;
-    f->stray = f->strays > 0 ? f->stray : t->stray;
-    f->strays += t->strays;
 }
 
 void film_mark(struct film *f, struct tile_pixels tile)

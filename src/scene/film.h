@@ -49,8 +49,6 @@ struct film {
     double *eye, *square;        /* for standard errors, [pixels*3] sums of eye values, and of squares of these and of
                                   * splats; NULL unless asked for; owned */
     long nonfinite;
-    long strays; /* of this run, as a tile counts them; `stray`: the first */
-    vec3 stray;
     struct film_number number[FILM_NUMBERS]; /* ended by a NULL name */
     bool learnt_short;   /* its samples are by what was learnt in haste */
 };

@@ -24,7 +24,6 @@ struct medium_set {
     struct kdtree interfaces;
     int outer;  /* what is about the scene; set by scene_prepare */
     bool ends;  /* and does it end on the sphere? */
-    char *lens; /* for messages: what the lens is said to be in, and where; owned */
 };
 
 /* medium_before: the medium before a surface that a ray of direction d comes to; -1 if its shape does not bound any. */

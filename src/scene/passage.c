@@ -8,7 +8,7 @@
 /* Nothing has happened to it yet. */
 static struct passage begin(const struct scene *s, const struct ray *ray, vec3 ng, int around)
 {
-    struct passage p = {rgb_grey(1), {1, 1}, around, 0};
+    struct passage p = {rgb_grey(1), {1, 1}, around};
     if (ray->from != 0 && ray->from != WITHIN_MEDIUM) {
         const int *medium = shape_group_of(&s->geo, (int)(ray->from - 1))->medium;
         p.medium = medium[0] == medium[1] ? around : medium[dot(ng, ray->d) > 0];
@@ -97,11 +97,10 @@ static void extent(const struct scene *s, const struct ray *ray, double *begin, 
 
 /* The way along a ray: all of it, or, with a sampler, as far as a walk gets. Returns the distance at which that is
  * scattered; infinity if it is not.
- *   wanted  the medium at the end, or -1: that is not known
  *
  * A surface may lie in an interface, and rounding then decides on which side of that a ray begins. So about its origin
  * an interface is passed if it belongs to the medium there, and none else. On which side it ends does not matter. */
-static double pass(const struct scene *s, const struct ray *ray, struct sampler *sampler, int wanted, struct passage *p)
+static double pass(const struct scene *s, const struct ray *ray, struct sampler *sampler, struct passage *p)
 {
     struct ray line = {ray->o, ray->d, -ray_margin(ray->o), ray->tmax, 0, 0};
     struct hit *hit;
@@ -127,12 +126,10 @@ static double pass(const struct scene *s, const struct ray *ray, struct sampler 
         starts = false;
         done += fmin(d, drawn);
         if (!scattered) {
-            p->strayed |= !fits;
             p->medium = x.medium[1];
             passed = x.t + x.slack;
         }
     }
-    p->strayed |= !scattered && i == n && wanted >= 0 && p->medium != wanted;
     free(hit);
     return scattered ? done : INFINITY;
 }
@@ -140,7 +137,7 @@ static double pass(const struct scene *s, const struct ray *ray, struct sampler 
 struct passage medium_pass(const struct scene *s, const struct ray *ray, vec3 ng, int around)
 {
     struct passage out = begin(s, ray, ng, around);
-    pass(s, ray, NULL, ray->tmax == INFINITY ? s->media.outer : -1, &out);
+    pass(s, ray, NULL, &out);
     return out;
 }
 
@@ -151,7 +148,7 @@ bool medium_fly(const struct scene *s, const struct ray *ray, vec3 ng, int aroun
     if (meets)
         way.tmax = length(sub(at->p, ray->o));
     *out = begin(s, ray, ng, around);
-    double d = pass(s, &way, sampler, meets ? medium_before(&s->geo, at, ray->d) : s->media.outer, out);
+    double d = pass(s, &way, sampler, out);
     if (d == INFINITY)
         return meets;
     const struct medium *m = &s->media.medium[out->medium - 1];

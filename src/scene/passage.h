@@ -23,7 +23,6 @@ struct passage {
     double density[2]; /* of stopping at its start, for one who comes from its end, and of stopping at its end: 1, or
                         * 1/m where that is within a medium; of such as go on as far as possible but for media */
     int medium;        /* at its end */
-    bool strayed;      /* it came to the bound of a medium from another, and believed the bound */
 };
 
 /* medium_pass: the way from ray->o to ray->tmax.

@@ -25,7 +25,6 @@ void scene_free(struct scene *s)
     kd_free(&s->kd_lamps);
     kd_free(&s->media.interfaces);
     free(s->media.medium);
-    free(s->media.lens);
     geometry_free(&s->geo);
     texture_set_free(&s->textures);
     for (int i = 0; i < s->n_materials; i++)

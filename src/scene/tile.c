@@ -40,7 +40,7 @@ void tile_start(struct tile *t, struct tile_pixels pixels, struct pixel_rect fil
     t->first_half = false;
     t->gate.begin = 0;
     t->gate.end = INFINITY;
-    t->nonfinite = t->strays = 0;
+    t->nonfinite = 0;
 }
 
 void tile_free(struct tile *t)

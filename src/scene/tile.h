@@ -106,16 +106,7 @@ struct tile {
     void (*full)(void *context, struct tile *tile); /* empties a full list of splats; NULL: it grows */
     void *context;
     long nonfinite; /* contributions that were NaN, infinite or beyond FLT_MAX, and were left out */
-    long strays;    /* ways on which media do not fit together (passage.h) */
-    vec3 stray;     /* where the first of them ends */
 };
-
-/* tile_stray: count a way to p, if it is a stray. */
-static inline void tile_stray(struct tile *t, bool strayed, vec3 p)
-{
-    if (strayed && t->strays++ == 0)
-        t->stray = p;
-}
 
 /* tile_start: begin a pass: clear the sums. */
 void tile_start(struct tile *t, struct tile_pixels pixels, struct pixel_rect film_rect, const struct filter *filter);

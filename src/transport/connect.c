@@ -32,7 +32,6 @@ static inline void pass_media(const struct scene *scene, const struct mis_counts
     const struct ray ray = {a->p, w, 0, distance, a->prim_id, to};
     struct passage way = medium_pass(scene, &ray, a->ng, a->medium);
     c->value = rgb_mul(c->value, way.left);
-    c->strayed = way.strayed;
     *side_a *= mis_raise(counts, way.density[0]);
     *side_b *= mis_raise(counts, way.density[1]);
 }

@@ -20,7 +20,6 @@
 struct connection {
     rgb value;       /* W/(sr m^2), a pixel's radiance; black if the vertices cannot see each other */
     double weight;   /* [0,1]; meaningless when value is black */
-    bool strayed;    /* media do not fit together (passage.h) */
     double length;   /* of the path, see vertex.h */
     double px, py;   /* connect_lens: a raster point it arrives at, see camera_images */
     vec3 end;        /* connect_direct: the point on the light, at infinity its direction; connect_lens: on the lens */

@@ -27,7 +27,6 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
         v->pdf_fwd *= from->way->density[1];
         v->mis *= mis_raise(w->counts, from->way->density[0]); /* of g */
         v->medium = from->way->medium;
-        v->strayed = from->way->strayed;
     }
 }
 
@@ -61,7 +60,6 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->kind = at->prim_id == WITHIN_MEDIUM ? VERTEX_MEDIUM : VERTEX_SURFACE;
     v->ng = at->ng;
     v->prev_delta = from->delta;
-    v->strayed = false;
     v->light = at->light;
     v->cell = at->light < 0 ? -1 : w->scene->lights.light[at->light].first_cell;
     v->p = at->p;

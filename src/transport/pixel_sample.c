@@ -42,19 +42,12 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
     return sample;
 }
 
-static void count_strays(const struct tile_pass *pass, const struct vertex *path, int n)
-{
-    for (int i = 1; i < n; i++)
-        tile_stray(pass->tile, path[i].strayed, path[i].p);
-}
-
 int pixel_eye_path(const struct tile_pass *pass, struct pixel_sample *sample, struct vertex *path, int max_vertices)
 {
     struct sampler sampler = stream(pass->job, pass->job->eye_seed, RNG_EYE, sample->x, sample->y,
                                     (uint64_t)sample->iteration);
     struct walk w = {sample->scene, sample->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
     int n = path_eye_pixel(&w, sample->x, sample->y, path, max_vertices, &sample->filter_weight);
-    count_strays(pass, path, n);
     tell_walked(sample, RADIANCE, path, n);
     return n;
 }
@@ -71,7 +64,6 @@ int pixel_light_path(const struct tile_pass *pass, const struct mis_counts *coun
     struct sampler sampler = stream(job, job->seed, RNG_LIGHT, x, y, number);
     struct walk w = {job->scene, counts, arena, &sampler, job->rr_threshold};
     int n = path_light(&w, path, job->max_depth + 1);
-    count_strays(pass, path, n);
     return n;
 }
 
@@ -87,7 +79,6 @@ void pixel_add(struct pixel_sample *sample, const struct connection *c, int s, i
 {
     bool black = rgb_is_black(c->value);
     double scale = choice.scale * sample->filter_weight;
-    tile_stray(sample->tile, c->strayed, z != NULL ? z->p : c->end);
     rgb added = black ? rgb_black() : rgb_scale(rgb_scale(c->value, scale), c->weight);
     if (!black && !rgb_is_finite(added)) { /* which would take the rest of the sample with it */
         sample->tile->nonfinite++;
@@ -152,7 +143,6 @@ void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int 
 void pixel_splat(struct pixel_sample *sample, const struct connection *c, int s, const struct vertex *y, double scale)
 {
     const double *radius = sample->scene->filter.radius;
-    tile_stray(sample->tile, c->strayed, y->p);
     bool seen = !rgb_is_black(c->value) && gate_holds(sample->tile->gate, c->length);
     rgb added = seen ? rgb_scale(c->value, scale * c->weight) : rgb_black();
     if (!seen && sample->observer == NULL)

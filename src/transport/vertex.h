@@ -53,7 +53,6 @@ enum vertex_kind {
 struct vertex {
     enum vertex_kind kind;
     bool prev_delta; /* the walk left the previous vertex by a delta lobe */
-    bool strayed;    /* on the way to it media do not fit together (passage.h) */
     enum eye_end eye_end;
     int light, cell;
     vec3 p, ng;
