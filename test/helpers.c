@@ -213,6 +213,23 @@ struct batches render_batches(struct test *t, const struct scene *scene, const c
     return render_gated(t, scene, integrator, max_depth, all, spp, n_batches, tile, seed);
 }
 
+/* What comes through a gate goes into a tile of its own. */
+struct gated {
+    struct gate gate;
+    struct tile tile;
+};
+
+static void gate_joined(void *context, const struct pixel_sample *sample, const struct joined *path)
+{
+    struct gated *g = context;
+    if (rgb_is_black(path->added) || !(path->c->length >= g->gate.begin && path->c->length < g->gate.end))
+        return;
+    if (path->t == 1)
+        tile_add_splat(&g->tile, path->c->px, path->c->py, path->added, 0);
+    else
+        tile_add(&g->tile, sample->x, sample->y, path->added);
+}
+
 /* Batches of a render, whose method is prepared. */
 struct batch_run {
     struct render_job job;
@@ -230,6 +247,8 @@ static void work_batch(void *context, int64_t k, int slot, int thread)
     struct batch_run *r = context;
     const struct scene *scene = r->job.scene;
     struct tile tile = {.sum = NULL};
+    struct gated gated = {.gate = r->gate};
+    const struct observer observer = {.context = &gated, .joined = gate_joined};
     struct tiling tiling = tiling_of(r->job.film_rect, &r->prepared.size);
     struct tile_pass pass = {.job = &r->job, .tile = &tile, .work = &r->work[thread]};
     long block = r->prepared.size.block > 0 ? r->prepared.size.block : LONGEST_BLOCK;
@@ -241,16 +260,18 @@ static void work_batch(void *context, int64_t k, int slot, int thread)
         pass.end = (pass.first / block + 1) * block < end ? (pass.first / block + 1) * block : end;
         for (int64_t i = 0; i < tiling_count(&tiling); i++) {
             tile_start(&tile, tiling_pixels(&tiling, i), r->job.film_rect, &scene->filter);
-            if (r->gate.end > 0)
-                tile.gate = r->gate;
+            tile_start(&gated.tile, tiling_pixels(&tiling, i), r->job.film_rect, &scene->filter);
+            pass.observer = r->gate.end > 0 ? &observer : NULL;
             r->prepared.method->render(&r->prepared, &pass);
-            film_merge_tile(&film, &tile);
+            gated.tile.nonfinite += tile.nonfinite;
+            film_merge_tile(&film, r->gate.end > 0 ? &gated.tile : &tile);
         }
     }
     for (long i = 0; i < r->pixels->n; i++)
         r->pixels->value[r->pixels->n * k + i] = film_value(&film, (size_t)i) / r->spp;
     r->nonfinite[k] = film.nonfinite;
     tile_free(&tile);
+    tile_free(&gated.tile);
     film_free(&film);
 }
 

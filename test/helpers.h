@@ -80,7 +80,12 @@ bool films_equal(const struct film *a, const struct film *b);
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
 
-/* render_gated: as render_batches, of what comes through a gate. */
+/* Of a path's length, in scene units (vertex.h): all from `begin` to below `end`; its end 0: all. */
+struct gate {
+    double begin, end;
+};
+
+/* render_gated: as render_batches, of light whose paths have such lengths. */
 struct batches render_gated(struct test *t, const struct scene *scene, const char *integrator, int max_depth,
                             struct gate gate, int spp, int n_batches, int tile, uint64_t seed);
 

@@ -39,8 +39,6 @@ static void test_remake(struct test *t, struct scene *scene, long made[MLT_PERTU
             CHECK(t, L > 0 && fabs(c->next.I / c->now.I - 1) < 1e-9,
                   "path %ld, k %d, m %d, l %d, strategy %d,%d: %g, not %g", i, path->k, path->m, path->l, to.s, to.t,
                   c->next.I, c->now.I);
-            double far = c->next.heard.splat[0].length, was = c->now.heard.splat[0].length;
-            CHECK(t, fabs(far / was - 1) < 1e-9, "path %ld, strategy %d,%d: %g long, not %g", i, to.s, to.t, far, was);
             made[which]++;
         }
     }

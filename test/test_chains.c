@@ -232,7 +232,7 @@ static rgb bdpt_of(struct bench *b, struct tape *number)
     pixel_sum_pairs(&s, b->work->eye, n_eye, b->work->light, n_light, NO_CHOICE);
     s.sampler = from[LENS_NUMBERS];
     pixel_splat_path(&s, b->work->light, n_light, 1);
-    sum = s.until;
+    sum = s.value;
     for (size_t i = 0; i < tile.n_splats; i++)
         if (floor(tile.splat[i].px) == 0 && floor(tile.splat[i].py) == 0)
             sum = rgb_add(sum, tile.splat[i].value);

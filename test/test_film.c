@@ -109,8 +109,8 @@ static void test_memory(struct test *t)
     tile.full = count_full;
     tile.context = &calls;
     for (int i = 0; i < 5 * TILE_FULL / 2; i++) {
-        CHECK(t, tile_add_splat(&tile, 32, 32, rgb_grey(1), 0, 0), "a splat is left out");
-        tile_add_between(&tile, 0, 0, rgb_black(), rgb_black());
+        CHECK(t, tile_add_splat(&tile, 32, 32, rgb_grey(1), 0), "a splat is left out");
+        tile_add(&tile, 0, 0, rgb_black());
     }
     CHECK(t, calls == 2 && tile.n_splats == TILE_FULL / 2, "emptied %d times, %d splats are left", calls,
           (int)tile.n_splats);
@@ -133,19 +133,19 @@ static void test_splats(struct test *t)
         int pixels;
         for (int k = 0; k < 2000; k++) {
             tile_start(&tile, pixels_all(all), all, &f);
-            tile_add_splat(&tile, 6 + 8 * rng_uniform(&r), 5 + 2 * rng_uniform(&r), rgb_grey(1), 0, 0);
+            tile_add_splat(&tile, 6 + 8 * rng_uniform(&r), 5 + 2 * rng_uniform(&r), rgb_grey(1), 0);
             total += spread(&tile, &pixels);
             CHECK(t, f.kind != FILTER_BOX || pixels == 1, "a box splat fell on %d pixels", pixels);
         }
         /* Averaged over positions, the sum over pixels is the filter's integral. */
         CHECK(t, fabs(total / 2000 - 1) < 0.02, "%s: a splat of 1 sums to %g", NAMES[i], total / 2000);
         tile_start(&tile, pixels_all(all), all, &f);
-        tile_add_splat(&tile, 20, 5, rgb_grey(1), 0, 0);
-        tile_add_splat(&tile, -1e30, 5, rgb_grey(1), 0, 0);
-        tile_add_splat(&tile, 1e30, 1e30, rgb_grey(1), 0, 0);
+        tile_add_splat(&tile, 20, 5, rgb_grey(1), 0);
+        tile_add_splat(&tile, -1e30, 5, rgb_grey(1), 0);
+        tile_add_splat(&tile, 1e30, 1e30, rgb_grey(1), 0);
         spread(&tile, &pixels);
         CHECK(t, f.kind != FILTER_BOX || pixels == 0, "a splat beyond the film was kept");
-        tile_add_splat(&tile, 5, 5, rgb_grey(NAN), 0, 0);
+        tile_add_splat(&tile, 5, 5, rgb_grey(NAN), 0);
         CHECK(t, tile.nonfinite == 1, "a NaN splat was not counted");
         tile_free(&tile);
     }
@@ -162,12 +162,12 @@ static void even_tile(struct tile *tile, int number, int iterations, const struc
     for (int i = 0; i < iterations; i++) {
         for (int y = rect.y0; y < rect.y1; y++)
             for (int x = rect.x0; x < rect.x1; x++) {
-                tile_add_between(tile, x, y, rgb_grey(3), rgb_black());
+                tile_add(tile, x, y, rgb_grey(3));
                 tile_add_light(tile, x, y, 0, rgb_grey(3), rgb_black());
                 tile_add_alpha(tile, x, y, 1);
             }
         for (int p = 0; p < 64; p++)
-            tile_add_splat(tile, p % 8 + 0.5, p / 8 + 0.5, rgb_grey(0.5), 0, 1);
+            tile_add_splat(tile, p % 8 + 0.5, p / 8 + 0.5, rgb_grey(0.5), 1);
     }
 }
 
@@ -225,9 +225,9 @@ static void test_errors(struct test *t)
     tile_start(&tile, pixels_all(all), all, &box);
     for (int i = 0; i < ITERATIONS; i++) {
         for (int p = 0; p < PIXELS; p++)
-            tile_add_between(&tile, p % 8, p / 8, rgb_grey(rng_uniform(&r)), rgb_black());
+            tile_add(&tile, p % 8, p / 8, rgb_grey(rng_uniform(&r)));
         for (int k = 0; k < SPLATS; k++)
-            tile_add_splat(&tile, 8 * rng_uniform(&r), 8 * rng_uniform(&r), rgb_grey(1), 0, 0);
+            tile_add_splat(&tile, 8 * rng_uniform(&r), 8 * rng_uniform(&r), rgb_grey(1), 0);
     }
     film_merge_tile(&film, &tile);
     film.iterations = ITERATIONS;
@@ -261,15 +261,15 @@ static void test_overflow(struct test *t)
     film_init(&film, all, 4, 4);
     film_keep_errors(&film);
     tile_start(&tile, pixels_all(all), all, &f);
-    tile_add_between(&tile, 0, 0, rgb_grey(1e39), rgb_black());
-    tile_add_between(&tile, 1, 0, rgb_grey(NAN), rgb_black());
-    tile_add_splat(&tile, 2, 2, rgb_grey(-1e39), 0, 0);
+    tile_add(&tile, 0, 0, rgb_grey(1e39));
+    tile_add(&tile, 1, 0, rgb_grey(NAN));
+    tile_add_splat(&tile, 2, 2, rgb_grey(-1e39), 0);
     CHECK(t, tile.nonfinite == 3 && tile.n_splats == 0, "%ld of 3 contributions were left out", tile.nonfinite);
-    tile_add_splat(&tile, NAN, 2, rgb_grey(1), 0, 0);
-    tile_add_splat(&tile, 2, INFINITY, rgb_grey(1), 0, 0);
+    tile_add_splat(&tile, NAN, 2, rgb_grey(1), 0);
+    tile_add_splat(&tile, 2, INFINITY, rgb_grey(1), 0);
     spread(&tile, &pixels_met);
     CHECK(t, pixels_met == 0, "a splat that is nowhere fell on %d pixels", pixels_met);
-    tile_add_between(&tile, 2, 0, rgb_make(3e38, 1, -3e38), rgb_black());
+    tile_add(&tile, 2, 0, rgb_make(3e38, 1, -3e38));
     film_merge_tile(&film, &tile);
     film.iterations = 1;
     float pixels[4 * 4 * 3], errors[4 * 4 * 3];

@@ -101,10 +101,10 @@ static void check_draws(struct test *t, struct ris *r, const struct method *meth
         expected += rgb_is_black(k.value) ? 0 : rgb_luminance(k.value) * k.weight * (r->u != NULL ? r->u[v] : 1) / r->K;
     }
     for (int b = 0; b < BATCHES; b++) {
-        p.sample.until = rgb_black();
+        p.sample.value = rgb_black();
         for (int i = 0; i < DRAWS * test_effort(t); i++)
             method->draw(r, r->state, &p, &eye[1], 2);
-        drawn.value[b] = rgb_luminance(p.sample.until) / (DRAWS * test_effort(t));
+        drawn.value[b] = rgb_luminance(p.sample.value) / (DRAWS * test_effort(t));
     }
     if (expected > 0)
         TEST_ACCEPT(t, mean_p(&drawn, expected), "%s, pixel (%d,%d): %g drawn, %g expected", method->name, sample.x,

@@ -45,11 +45,11 @@ static void add_trace(const struct scene *scene, const struct trace *trace, stru
     struct tile tile = {.sum = NULL};
     struct pixel_rect one = {trace->x, trace->y, trace->x + 1, trace->y + 1};
     tile_start(&tile, pixels_all(one), film->rect, &scene->filter);
-    tile_add_between(&tile, trace->x, trace->y, trace_sum(trace), rgb_black());
+    tile_add(&tile, trace->x, trace->y, trace_sum(trace));
     for (int i = 0; i < trace->n_connections; i++) {
         const struct trace_connection *k = &trace->connection[i];
         if (k->t == 1)
-            tile_add_splat(&tile, k->c.px, k->c.py, k->added, 0, 0);
+            tile_add_splat(&tile, k->c.px, k->c.py, k->added, 0);
     }
     film_merge_tile(film, &tile);
     tile_free(&tile);
@@ -111,7 +111,7 @@ static struct brought most_of_trace(const struct scene *scene, const struct trac
     struct brought most = {rgb_luminance(trace_sum(trace)), trace->x, trace->y, trace->iteration, trace->x, trace->y};
     for (int i = 0; i < trace->n_connections; i++) {
         const struct trace_connection *k = &trace->connection[i];
-        const struct splat s = {k->c.px, k->c.py, k->added, 0, 0};
+        const struct splat s = {k->c.px, k->c.py, k->added, 0};
         struct pixel_rect r = splat_pixels(&s, &scene->filter, all);
         float part[3] = {0, 0, 0};
         for (int n = 0; k->t == 1 && r.x1 > r.x0 && n < (int)rect_pixels(r); n++) {

@@ -32,8 +32,6 @@ const struct option RENDER_OPTIONS[] = {
     {"--strategies", "DIR", OPTION_TEXT, AT(strategies), .help = "in asbdpt-lab: pictures of single strategies"},
     {"--alpha", NULL, OPTION_ON, AT(alpha),
      .help = ".exr and .png with alpha: 0 where the lens sees nothing, lights of \"bool visible\" \"false\" among it"},
-    {"--gate", "L0:L1", OPTION_LENGTHS, AT(gate), 0, INFINITY,
-     .help = "only light whose way from lamp to lens is from L0 to below L1 long, in scene units; L1 may be inf"},
     {"--time", "TIME", OPTION_TIME, AT(keep.time), 1e-9, 1e9,
      .help = "stop rendering so long after loading, within a second, and write what there is"},
     {"--noise", "X", OPTION_NUMBER, AT(keep.noise[NOISE_RELATIVE]), 1e-9, 1e9,

@@ -219,8 +219,7 @@ int job_load(const struct job_options *o, struct scene *scene, const struct meth
 struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m)
 {
     return (struct render_options){.integrator = m->name, .seed = o->seed, .end = job_spp(o, scene),
-                                   .n_threads = o->n_threads, .max_depth = o->max_depth,
-                                   .gate = {o->gate[0], o->gate[1]}};
+                                   .n_threads = o->n_threads, .max_depth = o->max_depth};
 }
 
 long job_spp(const struct job_options *o, const struct scene *scene)

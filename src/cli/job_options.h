@@ -45,7 +45,6 @@ struct job_options {
     const char *lights; /* directory or NULL */
     const char *strategies; /* likewise; what the laboratory makes */
     bool alpha;
-    double gate[2];         /* lengths of paths, the second excluded; 0, 0: all */
     const char *aov;        /* list or NULL */
     bool layers, seen;      /* they go into the picture's own file; see render/aov.h */
     const char *stats;      /* file or NULL */

@@ -233,8 +233,6 @@ void stats_write(FILE *f, const struct job_options *o, const struct scene *scene
     json_text(j, "integrator", render->integrator);
     put_parameters(j, scene, render);
     json_count(j, "seed", render->seed);
-    if (render->gate.end > 0)
-        json_numbers(j, "gate", (const double[]){render->gate.begin, render->gate.end}, 2);
     put_film(j, scene, film);
     json_number(j, "spp", (double)render->planned);
     json_number(j, "first_sample", o->keep.samples[0]);

@@ -1,8 +1,6 @@
 /* identity.c: what a render is of, whatever its number of samples, in lines that must agree where its films are to be
  * continued or added up (part.h): all that changes a byte of a sample. */
-#include <float.h>
 #include <inttypes.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,7 +64,5 @@ char *identity_text(const struct scene *scene, const struct render_options *o)
     add_line(&l, "seed %" PRIu64, o->seed);
     add_line(&l, "filter %d %.17g %.17g %.17g %.17g %.17g %.17g", (int)f->kind, f->radius[0], f->radius[1], f->alpha,
              f->B, f->C, f->tau);
-    if (o->gate.begin > 0 || (o->gate.end > 0 && o->gate.end < INFINITY))
-        add_line(&l, "gate %.17g %.17g", o->gate.begin, fmin(o->gate.end, DBL_MAX));
     return l.text;
 }

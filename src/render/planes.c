@@ -4,20 +4,15 @@
  */
 #include "render/render.h"
 
-/* Of the steps that the sample's two sums are about to take the light's group has its share. A splat tells the film its
- * group itself. */
+/* The sample's value is about to change by the path's contribution: the plane of the light's group takes that step. A
+ * splat tells the film its group itself. */
 static void add_light(void *context, const struct pixel_sample *sample, const struct joined *path)
 {
-    struct tile *tile = sample->tile;
-    double length = path->c->length;
     (void)context;
     if (path->t == 1 || rgb_is_black(path->c->value))
         return;
     int group = sample->scene->lights.light[joined_light(path)].group;
-    if (gate_before(length, tile->gate.end))
-        tile_add_light(tile, sample->x, sample->y, group, rgb_add(sample->until, path->added), sample->until);
-    if (gate_before(length, tile->gate.begin))
-        tile_add_light(tile, sample->x, sample->y, group, sample->before, rgb_add(sample->before, path->added));
+    tile_add_light(sample->tile, sample->x, sample->y, group, rgb_add(sample->value, path->added), sample->value);
 }
 
 /* Does the lens see anything there, be it light? */

@@ -122,8 +122,6 @@ static void run_pass(void *context, int64_t number, int slot, int thread)
     block_range(r, (r->begun + number) / tiles_per_block(r), &pass.first, &pass.end);
     tile_start(pass.tile, tiling_pixels(&r->tiling, (r->begun + number) % tiles_per_block(r)), r->job.film_rect,
                &r->job.scene->filter);
-    if (r->options->gate.end > 0)
-        pass.tile->gate = r->options->gate;
     if (r->film->half != NULL)
         pass.tile->first_half = pass.first / r->film->run % 2 == 0;
     pass.tile->full = take_splats;

@@ -42,7 +42,6 @@ struct render_options {
     int n_threads;   /* 0: one per processor */
     int max_depth;   /* 0: what the scene says, else 5 */
     double noise[N_NOISE_SCALES]; /* stop when the film's are below; 0: never. The film must keep halves */
-    struct gate gate;             /* only light that has come so far (scene/tile.h); its end 0: all */
     const struct observers *observers; /* who looks on at every path; NULL: nobody */
     /* Called after each tile pass with the share of the work done, in (0,1], one call at a time and while nothing else
      * touches the film. NULL: not called. While the method learns it is called, too, with 0; if it is not to go on

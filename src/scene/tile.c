@@ -38,8 +38,6 @@ void tile_start(struct tile *t, struct tile_pixels pixels, struct pixel_rect fil
     memset(t->square, 0, n * sizeof *t->square);
     t->n_splats = 0;
     t->first_half = false;
-    t->gate.begin = 0;
-    t->gate.end = INFINITY;
     t->nonfinite = 0;
 }
 
@@ -70,17 +68,16 @@ static void add_difference(struct exact_sum *sum, rgb a, rgb b)
     }
 }
 
-void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before)
+void tile_add(struct tile *t, int x, int y, rgb value)
 {
     make_room(t);
-    t->nonfinite += !rgb_fits_float(until);
-    until = term(until);
-    before = term(before);
+    t->nonfinite += !rgb_fits_float(value);
+    value = term(value);
     size_t i = 3 * (size_t)pixels_cell(t->pixels, x, y);
-    add_difference(&t->sum[i], until, before);
-    t->square[i] += sqr(until.r - before.r);
-    t->square[i + 1] += sqr(until.g - before.g);
-    t->square[i + 2] += sqr(until.b - before.b);
+    add_difference(&t->sum[i], value, rgb_black());
+    t->square[i] += sqr(value.r);
+    t->square[i + 1] += sqr(value.g);
+    t->square[i + 2] += sqr(value.b);
 }
 
 /* Where a pixel has its place in a plane. */
@@ -99,13 +96,13 @@ void tile_add_alpha(struct tile *t, int x, int y, double alpha)
     add_difference(in_plane(t, 1 + t->planes.lights, x, y), rgb_grey(alpha), rgb_black());
 }
 
-bool tile_add_splat(struct tile *t, double px, double py, rgb value, double length, int lights)
+bool tile_add_splat(struct tile *t, double px, double py, rgb value, int lights)
 {
     if (!rgb_fits_float(value)) {
         t->nonfinite++;
         return false;
     }
-    struct splat s = {px, py, value, length, lights};
+    struct splat s = {px, py, value, lights};
     t->splat = mem_grow(t->splat, &t->splat_capacity, t->n_splats + 1, sizeof *t->splat);
     t->splat[t->n_splats++] = s;
     return true;

@@ -3,16 +3,12 @@
  * A pixel's estimate has two parts. `eye`: per iteration, what its own eye sub-path brought (all strategies with
  * t >= 2). `splat`: what light sub-paths of any pixel sent straight to the lens (t = 1), spread by the pixel filter.
  *
- * A gate keeps what light brings that has come so far, and no farther. What is in it is the difference of what two
- * running sums of a pixel's sample hold, and splats: so films of gates that follow each other add up to the ungated
- * film, to the bit.
- *
  * On request there are planes for what each group of lights (light.h) brings, and for alpha. A sample's value grows
  * from 0 by what its paths bring, one after the other; to the plane of its light every step brings two terms, the value
  * after it less the value before it. Added up, all but the last value cancel: so the planes of all lights together are
  * the picture, to the bit.
  *
- * Tests: test_film.c, test_gates.c, test_lights.c.
+ * Tests: test_film.c, test_lights.c.
  */
 #ifndef ASBDPT_TILE_H
 #define ASBDPT_TILE_H
@@ -27,19 +23,6 @@
 #include "base/vec.h"
 #include "scene/filter.h"
 #include "scene/pixel_rect.h"
-
-/* Of a path's length, in scene units (vertex.h): all from `begin` to below `end`. An infinite end takes in all that is
- * not below `begin`. */
-struct gate {
-    double begin, end;
-};
-
-/* gate_before: is a length below a bound of a gate? */
-static inline bool gate_before(double length, double bound) { return bound == INFINITY || length < bound; }
-static inline bool gate_holds(struct gate g, double length)
-{
-    return gate_before(length, g.end) && !gate_before(length, g.begin);
-}
 
 /* The pixels of a tile, one in each cell of nx x ny pixels of a rectangle that interleaved tiles share. A hash of the
  * cell says which, so that what a tile's pixels have in common forms no pattern. Cells at the right and at the bottom
@@ -66,8 +49,7 @@ bool pixels_get(struct tile_pixels p, int i, int *x, int *y);
 struct splat {
     double px, py;
     rgb value;
-    double length; /* of its path */
-    int lights;    /* the group of lights it comes from */
+    int lights; /* the group of lights it comes from */
 };
 
 /* rgb_fits_float: NaN, infinities and values beyond FLT_MAX have no place in a picture; squares of all others stay far
@@ -101,8 +83,7 @@ struct tile {
     size_t capacity, square_capacity;
     struct splat *splat; /* [n_splats], owned */
     size_t n_splats, splat_capacity;
-    struct gate gate; /* what goes in; tile_start: all lengths */
-    bool first_half;  /* its iterations belong to the first of two halves; tile_start: no */
+    bool first_half; /* its iterations belong to the first of two halves; tile_start: no */
     void (*full)(void *context, struct tile *tile); /* empties a full list of splats; NULL: it grows */
     void *context;
     long nonfinite; /* contributions that were NaN, infinite or beyond FLT_MAX, and were left out */
@@ -112,10 +93,8 @@ struct tile {
 void tile_start(struct tile *t, struct tile_pixels pixels, struct pixel_rect film_rect, const struct filter *filter);
 void tile_free(struct tile *t);
 
-/* tile_add_between: the whole value of pixel (x,y) of the tile for one iteration, the difference of two sums, of what
- * came `until` the end of a gate and of what came `before` its beginning. Each is a term: of gates that follow each
- * other, one's first cancels the next's second. Call once per pixel and iteration. */
-void tile_add_between(struct tile *t, int x, int y, rgb until, rgb before);
+/* tile_add: the whole value of pixel (x,y) of the tile for one iteration. Call once per pixel and iteration. */
+void tile_add(struct tile *t, int x, int y, rgb value);
 
 /* tile_add_light: a sample's value has come from `before` to `after` by what a group of lights has brought.
  * tile_add_alpha: the sample's alpha. For tiles that have such planes. */
@@ -124,6 +103,6 @@ void tile_add_alpha(struct tile *t, int x, int y, double alpha);
 
 /* tile_add_splat: a value arriving at raster point (px,py), to be spread over pixels by the filter. False if it was
  * left out. */
-bool tile_add_splat(struct tile *t, double px, double py, rgb value, double length, int lights);
+bool tile_add_splat(struct tile *t, double px, double py, rgb value, int lights);
 
 #endif

@@ -88,10 +88,7 @@ void pixel_add(struct pixel_sample *sample, const struct connection *c, int s, i
         const struct joined path = {s, t, y, z, c, choice.pmf, scale, added};
         tell_joined(sample, &path);
     }
-    if (!black && gate_before(c->length, sample->tile->gate.end))
-        sample->until = rgb_add(sample->until, added);
-    if (!black && gate_before(c->length, sample->tile->gate.begin))
-        sample->before = rgb_add(sample->before, added);
+    sample->value = rgb_add(sample->value, added);
 }
 
 void pixel_sum_hit(struct pixel_sample *sample, const struct vertex *eye, int t)
@@ -143,7 +140,7 @@ void pixel_sum_pairs(struct pixel_sample *sample, const struct vertex *eye, int 
 void pixel_splat(struct pixel_sample *sample, const struct connection *c, int s, const struct vertex *y, double scale)
 {
     const double *radius = sample->scene->filter.radius;
-    bool seen = !rgb_is_black(c->value) && gate_holds(sample->tile->gate, c->length);
+    bool seen = !rgb_is_black(c->value);
     rgb added = seen ? rgb_scale(c->value, scale * c->weight) : rgb_black();
     if (!seen && sample->observer == NULL)
         return;
@@ -155,7 +152,7 @@ void pixel_splat(struct pixel_sample *sample, const struct connection *c, int s,
         const struct joined path = {s, 1, y, NULL, &image, 1, scale, added};
         tell_joined(sample, &path);
         if (seen)
-            tile_add_splat(sample->tile, image.px, image.py, added, c->length, group);
+            tile_add_splat(sample->tile, image.px, image.py, added, group);
     }
 }
 
@@ -171,7 +168,7 @@ void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, i
 
 void pixel_sample_end(const struct pixel_sample *sample)
 {
-    tile_add_between(sample->tile, sample->x, sample->y, sample->until, sample->before);
+    tile_add(sample->tile, sample->x, sample->y, sample->value);
     for (const struct observer *o = sample->observer; o != NULL; o = o->next)
         if (o->ended != NULL)
             o->ended(o->context, sample);

@@ -24,9 +24,7 @@ struct pixel_sample {
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
     int lights;             /* light points for an eye vertex that is FIRST_HIT */
     struct sampler sampler; /* for light and lens points */
-    rgb until, before;      /* sums of what paths with t >= 2 have brought so far: of those shorter than the end of the
-                             * film's gate, and of those shorter than its beginning (scene/tile.h). Without a gate
-                             * `until` is the sample's value, and `before` 0 */
+    rgb value;              /* sum of the contributions of paths with t >= 2 so far */
 };
 
 /* --- sub-paths --------------------------------------------------------------------------------------- */

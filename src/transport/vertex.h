@@ -41,7 +41,7 @@ enum vertex_kind {
  *   lamp         -            -                                 eye walk: see below              likewise
  *
  * The length of a sub-path is that of its edges together, as far as this vertex; light from infinity begins where
- * light_distance (light.h) says. Glass does not make it longer. Gates (tile.h) take paths by their whole length.
+ * light_distance (light.h) says. Glass does not make it longer.
  *
  * A vertex within a medium (scene/medium.h) is as one on a surface, with ng 0, prim_id WITHIN_MEDIUM and pdf_fwd per
  * volume, 1/m^3.

@@ -39,10 +39,15 @@ SCENES
 
 ellipse() {
     for width in 100 1 0.1; do
+        end=$(echo $width | awk '{ print 2400 + $1 }')
         for method in pt ellipse; do
             for seed in 1 2; do
-                render scenes/cornell-box.pbrt --res 24x24 --spp 1024 --seed $seed --integrator $method --filter box \
-                    --gate "2400:$(echo $width | awk '{ print 2400 + $1 }')" -o "$dir/x$seed.pfm" --stats "$dir/x.json"
+                set -- scenes/cornell-box.pbrt --res 24x24 --spp 1024 --seed $seed --integrator $method --filter box
+                [ $method = pt ] || set -- "$@" -P from=2400 -P "to=$end"
+                render "$@" -o "$dir/x$seed.pfm" --stats "$dir/x.json"
+                [ $method = pt ] || continue
+                ./asbdpt-lab transient "$@" --gates 1 --gate "2400:$end" -o "$dir/x$seed" -j1 --quiet
+                mv "$dir/x$seed/gate000.pfm" "$dir/x$seed.pfm"
             done
             echo "$width $method" \
                 "$(./asbdpt-lab compare "$dir/x1.pfm" "$dir/x2.pfm" | awk '$1 == "rmse" { print $2 * $2 / 2 }')" \
@@ -52,4 +57,4 @@ ellipse() {
 }
 
 "$1"
-rm -f "$dir"/x*
+rm -rf "$dir"/x*

@@ -24,8 +24,7 @@ static void joined(void *context, const struct pixel_sample *sample, const struc
 {
     struct list *list = context;
     rgb value = rgb_scale(p->c->value, p->scale);
-    if (rgb_is_black(value) || !rgb_fits_float(value) || !rgb_fits_float(p->added) || !fits_float(p->c->weight) ||
-        !gate_holds(sample->tile->gate, p->c->length))
+    if (rgb_is_black(value) || !rgb_fits_float(value) || !rgb_fits_float(p->added) || !fits_float(p->c->weight))
         return;
     list->item = mem_grow(list->item, &list->capacity, list->n + 1, sizeof *list->item);
     const struct path_told told = {p->s, p->t, sample->x, sample->y, p->c->px, p->c->py,
@@ -115,7 +114,7 @@ static bool render_sums(const struct scene *scene, const struct render_options *
     const struct path_taker taker = {&sums, take_by_gate};
     const struct method *m = method_find(options->integrator, &scene->settings, err);
     if (m != NULL && method_merges(m))
-        return error_set(err, "%s adds paths of many lengths at once: render one gate at a time", m->name);
+        return error_set(err, "%s adds paths of many lengths at once: no gate can tell them apart", m->name);
     return m != NULL && paths_render(scene, options, film, &taker, err);
 }
 

@@ -46,7 +46,7 @@ static void offer(struct worst *w, const struct pixel_sample *s, rgb value, int 
 static void joined(void *context, const struct pixel_sample *sample, const struct joined *path)
 {
     const struct tile *tile = sample->tile;
-    const struct splat s = {path->c->px, path->c->py, path->added, 0, 0};
+    const struct splat s = {path->c->px, path->c->py, path->added, 0};
     float part[3];
     if (path->t > 1 || rgb_is_black(path->added) || !rgb_fits_float(path->added))
         return;
@@ -59,7 +59,7 @@ static void joined(void *context, const struct pixel_sample *sample, const struc
 
 static void ended(void *context, const struct pixel_sample *sample)
 {
-    offer(context, sample, rgb_sub(sample->until, sample->before), sample->x, sample->y);
+    offer(context, sample, sample->value, sample->x, sample->y);
 }
 
 /* A list for each tile pass under way. */

@@ -365,7 +365,7 @@ static struct trial try_chains(const struct one_more *self, struct pixel_sample 
 {
     const double MOST = 100; /* chance decides whether more is seen */
     struct one_more_path more[ONE_MORE_MOST];
-    struct trial out = {rgb_luminance(sample->until), {0, 0}};
+    struct trial out = {rgb_luminance(sample->value), {0, 0}};
     for (int t = 2; t <= n; t++)
         for (int i = eye[t - 1].kind == VERTEX_SURFACE ? connect(self, sample, arena, eye, t, more) : 0; i-- > 0;) {
             double C = rgb_luminance(more[i].c.value), w = more[i].c.weight;

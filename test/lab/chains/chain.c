@@ -131,11 +131,7 @@ static void send(const struct chain *c, const struct tile_pass *pass, const stru
     double factor = share > 0 ? share * c->all->scale * c->b / state->I : 0;
     for (size_t i = 0; factor > 0 && i < state->heard.n_splats; i++) {
         const struct splat *s = &state->heard.splat[i];
-        bool many = isnan(s->length);
-        if (many || gate_holds(c->gate, s->length))
-            tile_add_splat(tile, s->px, s->py, rgb_scale(many ? state->until : s->value, factor), s->length, 0);
-        if (many && !rgb_is_black(state->before))
-            tile_add_splat(tile, s->px, s->py, rgb_scale(state->before, -factor), s->length, 0);
+        tile_add_splat(tile, s->px, s->py, rgb_scale(s->value, factor), 0);
     }
     if (tile->full != NULL && tile->n_splats >= TILE_FULL)
         tile->full(tile->context, tile);
@@ -149,7 +145,6 @@ void chain_render(const struct preparation *m, const struct tile_pass *pass)
     (void)m;
     c->job = pass->job;
     c->work = pass->work;
-    c->gate = pass->tile->gate;
     start(c, pass);
     if (!(c->b > 0))
         return;

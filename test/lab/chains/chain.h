@@ -34,7 +34,6 @@ struct chain_state {
     double I;          /* their luminance; 0: no chain is ever here */
     int length;        /* vertices of its paths, for methods that keep them apart */
     struct tape number[CHAIN_STREAMS]; /* the random numbers it is made of (primary.h) */
-    rgb until, before; /* of a splat of many paths, whose length is NaN: these sums (pixel_sample.h) */
     void *own;         /* the method's, of rules->own_size bytes; NULL: nothing */
 };
 
@@ -57,7 +56,6 @@ struct chain {
     const struct render_job *job;
     struct workspace *work;
     struct rng rng; /* of this chain */
-    struct gate gate; /* what goes into the picture; a chain goes by all light, so it is the same for all gates */
     uint64_t pass;  /* a number that no other chain has */
     double *before; /* [lengths * each + 1], sums of the I of its independent states; owned */
     double b;       /* the sum of the means of all lengths */

@@ -49,13 +49,11 @@ static struct sampler numbers(const struct chain *c, enum chain_stream stream, u
 
 void primary_begin(struct primary *p, struct chain *c, bool small)
 {
-    static const struct gate ALL = {0, INFINITY};
     uint64_t key = 0;
     for (int i = 0; i < 2 && c->candidate < 0; i++)
         key = key << 32 | rng_u32(&c->rng);
     p->chain = c;
     p->state = &c->next;
-    p->state->heard.gate = ALL;
     p->state->heard.n_splats = 0;
     for (int i = 0; i < CHAIN_STREAMS; i++) {
         struct tape *tape = &p->state->number[i];
@@ -144,7 +142,7 @@ bool primary_bring(struct primary *p, const struct connection *c, struct strateg
         double px = out->px, py = out->py;
         if (out->t == 1)
             camera_image(&scene->camera, radius, i, &px, &py);
-        tile_add_splat(&p->state->heard, px, py, out->value, c->length, 0);
+        tile_add_splat(&p->state->heard, px, py, out->value, 0);
     }
     return true;
 }

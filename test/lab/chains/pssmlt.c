@@ -8,14 +8,6 @@
  */
 #include "chains/primary.h"
 
-/* What paths of all lengths bring, whatever the gate. */
-static void joined(void *context, const struct pixel_sample *sample, const struct joined *path)
-{
-    rgb *sum = context;
-    (void)sample;
-    *sum = rgb_add(*sum, path->added);
-}
-
 static void sample(struct chain *c, bool small)
 {
     const struct render_job *job = c->job;
@@ -23,21 +15,13 @@ static void sample(struct chain *c, bool small)
     struct primary p;
     double px, py;
     primary_begin(&p, c, small);
-    rgb all_lengths = rgb_black();
-    const struct observer observer = {.context = &all_lengths, .joined = joined};
     struct pixel_sample s = {.scene = job->scene, .counts = &c->all->frozen.counts, .tile = &c->next.heard,
-                             .observer = &observer, .max_depth = job->max_depth, .filter_weight = 1, .lights = 1,
+                             .max_depth = job->max_depth, .filter_weight = 1, .lights = 1,
                              .sampler = p.sampler[POINT_NUMBERS]};
-    const struct gate all = c->next.heard.gate;
-    c->next.heard.gate = c->gate; /* for the sums alone */
     int n_eye = primary_eye(&p, job->max_depth + 2, &px, &py), n_light = primary_light(&p, job->max_depth + 1);
     pixel_sum_eye(&s, work->eye, n_eye);
     pixel_sum_pairs(&s, work->eye, n_eye, work->light, n_light, NO_CHOICE);
-    tile_add_splat(s.tile, px, py, all_lengths, NAN, 0);
-    s.observer = NULL;
-    c->next.until = s.until;
-    c->next.before = s.before;
-    c->next.heard.gate = all;
+    tile_add_splat(s.tile, px, py, s.value, 0);
     s.sampler = p.sampler[LENS_NUMBERS];
     pixel_splat_path(&s, work->light, n_light, 1);
     primary_end(&p);

@@ -1,7 +1,7 @@
-/* ellipse.c: ellipsoidal connections, for narrow gates: a vertex between eye vertex and light point, drawn so that the
- * path is as long as the gate wants.                                                              [Pediredla 2019]
+/* ellipse.c: ellipsoidal connections: only light whose path has a length from `from` to below `to`. A vertex between
+ * eye vertex and light point is drawn so that the path has such a length.                         [Pediredla 2019]
  *
- * z being an eye vertex, y a light point, tau uniform in what the gate leaves for both edges, x is drawn where the
+ * z being an eye vertex, y a light point, tau uniform in what these bounds leave for both edges, x is drawn where the
  * ellipsoid |y - x| + |x - z| = tau cuts a triangle, which is chosen by area; squeezed, so that the ellipsoid is a
  * sphere, its plane cuts a circle, of which up to three arcs are inside; on them the angle phi is uniform. As
  * dA = |dx/dphi| dphi dtau / |g|, g being the part along the triangle of the gradient of the length, the density per
@@ -11,7 +11,7 @@
  * Paths are divided: those whose last two vertices before a light's point x and z are joined by this are its own, and
  * what s = 0 and s = 1 make of them counts for nothing; all others are theirs. Its own are those that end on a light in
  * space, with no delta lobe at x or z, x being on a triangle. The original finds triangles that are cut by a hierarchy;
- * here most draws miss in scenes of many triangles. Without an end of the gate this is pt.
+ * here most draws miss in scenes of many triangles. With `to` 0 this is pt, and has paths of all lengths.
  *
  * Tests: test_ellipse.c, test_gates.c.
  */
@@ -31,6 +31,7 @@ extern const struct method method_pt, method_ellipse;
 struct ellipse {
     struct one_more more;
     struct alias_table by_area; /* of triangles */
+    double from, to;
 };
 
 struct ellipse_state {
@@ -174,21 +175,20 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, str
 {
     const struct ellipse *own = (const void *)self;
     const struct scene *scene = sample->scene;
-    const struct gate gate = sample->tile->gate;
     const struct vertex *z = &eye[t - 1];
     double v[2], P, pdf;
     float P9[9];
     struct light_point y;
     struct vertex at;
     vec3 corner[3], x;
-    if (!isfinite(gate.end) || t > sample->max_depth || !vertex_connectible(z) || own->by_area.n == 0)
+    if (own->to == 0 || t > sample->max_depth || !vertex_connectible(z) || own->by_area.n == 0)
         return 0;
     bool lit = lamp_draw(scene, &sample->sampler, &y);
     sampler_pair(&sample->sampler, DRAW_SCATTERING, v);
     int triangle = alias_sample(&own->by_area, sampler_number(&sample->sampler, DRAW_LIGHT_END), &P, NULL);
     if (!lit || light_at_infinity(&scene->lights.light[y.light]))
         return 0;
-    double apart = length(sub(y.p, z->p)), least = fmax(gate.begin - z->length, apart), most = gate.end - z->length;
+    double apart = length(sub(y.p, z->p)), least = fmax(own->from - z->length, apart), most = own->to - z->length;
     double tau = least + (most - least) * v[0];
     if (!(least < most))
         return 0;
@@ -204,14 +204,18 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, str
     return 1;
 }
 
-/* Of others' paths those that are its own count for nothing. */
+/* Of others' paths those that are its own, or have another length, count for nothing. */
 static void weigh(const struct one_more *self, const struct pixel_sample *sample, struct arena *arena,
                   const struct vertex *path, int s, int t, struct connection *c)
 {
-    (void)self;
-    (void)arena;
+    const struct ellipse *own = (const void *)self;
     const struct vertex *x = &path[t - 2 + s], *z = x - 1, *end = x + 1;
-    if (!isfinite(sample->tile->gate.end) || s > 1 || t + s < 4)
+    (void)arena;
+    if (own->to == 0)
+        return;
+    if (!(c->length >= own->from && c->length < own->to))
+        c->weight = 0;
+    if (s > 1 || t + s < 4)
         return;
     bool in_space = s > 0 ? !light_at_infinity(&sample->scene->lights.light[c->light])
                           : (end->kind == VERTEX_SURFACE || end->lamp != NULL) && !end->prev_delta;
@@ -246,9 +250,15 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
     one_more_render(m, &s->own.more, pass);
 }
 
+#define AT(member) offsetof(struct ellipse_state, member)
+static const struct field PARAMETERS[] = {
+    {"from", FIELD_NUMBER, AT(own.from), 0, 0, 1e30, "least length of a path from light to lens, in scene units", NULL},
+    {"to", FIELD_NUMBER, AT(own.to), 0, 0, 1e30, "length that all stay below; 0: paths of any length, by pt", NULL},
+    {.name = NULL}};
+
 const struct method method_ellipse = {
-    .name = "ellipse", .check = surfaces_alone,
-    .help = "ellipsoidal connections [Pediredla 2019]: for narrow gates; else pt",
+    .name = "ellipse", .check = surfaces_alone, .parameters = PARAMETERS,
+    .help = "ellipsoidal connections [Pediredla 2019]: light between two path lengths; else pt",
     .state_size = sizeof(struct ellipse_state), .numbers = {.lights = 1, .hits = true},
     .rr_threshold = DEFAULT_RR_THRESHOLD,
     .prepare = prepare, .release = release, .render = render};

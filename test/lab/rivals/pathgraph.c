@@ -39,8 +39,7 @@ struct node {
     vec3 w;          /* to the point on a light, unit */
     rgb Le;          /* what comes from there; black if nothing does */
     double q;        /* of w, 1/sr; 0: of a light without extent, and Le is over its density */
-    double length;   /* of the path by way of it */
-    rgb L[2];        /* what it sends on: of paths shorter than the gate's end; than its beginning */
+    rgb L;           /* what it sends on */
     vec3 cell;       /* of the grid */
     int face;        /* which way it faces, ALONE: it is in no cluster; */
     int number;      /* so that no two are equal */
@@ -76,7 +75,6 @@ static void draw_light(struct pixel_sample *sample, struct node *node)
         !reuse_sees(sample->scene, &l))
         return;
     bool delta = light_is_delta(light);
-    node->length = z->length + way.length;
     node->Le = delta ? rgb_scale(Le, 1 / density) : Le;
     node->q = delta ? 0 : density;
 }
@@ -99,16 +97,10 @@ static double ask(struct node **member, int n, const struct mis_counts *counts, 
 }
 
 /* What comes along an edge goes on from all members. */
-static void share(struct node **member, int n, rgb light, int k)
+static void share(struct node **member, int n, rgb light)
 {
     for (int m = 0; m < n; m++)
-        member[m]->L[k] = rgb_add(member[m]->L[k], rgb_mul(member[m]->f, light));
-}
-
-/* Is a path one of L[k]? */
-static bool counts_for(const struct pixel_sample *sample, double length, int k)
-{
-    return gate_before(length, k == 0 ? sample->tile->gate.end : sample->tile->gate.begin);
+        member[m]->L = rgb_add(member[m]->L, rgb_mul(member[m]->f, light));
 }
 
 /* The edge of one member to a light, to all. */
@@ -116,10 +108,7 @@ static void aggregate_light(const struct pixel_sample *sample, struct node **mem
 {
     int able;
     double sum = ask(member, n, sample->counts, from->w, &able), own = mis_raise(sample->counts, from->q);
-    rgb light = rgb_scale(from->Le, from->q > 0 ? own / ((sum + able * own) * from->q) : 1.0 / able);
-    for (int k = 0; k < 2; k++)
-        if (counts_for(sample, from->length, k))
-            share(member, n, light, k);
+    share(member, n, rgb_scale(from->Le, from->q > 0 ? own / ((sum + able * own) * from->q) : 1.0 / able));
 }
 
 /* The edge that leads on, to all; to the member alone if it left by a delta lobe. */
@@ -132,14 +121,11 @@ static void aggregate_next(const struct pixel_sample *sample, struct node **memb
     double roulette, sum = ask(member, n, counts, neg(next->wo), &able), p = from->p;
     double all = sum + able * mis_raise(counts, p * reuse_hit_density(next));
     rgb step = reuse_step(from->z, next, &roulette);
-    for (int k = 0; k < 2; k++) {
-        rgb Le = counts_for(sample, hit.length, k) ? hit.value : rgb_black();
-        if (next->prev_delta)
-            from->L[k] = rgb_add(from->L[k], rgb_mul(step, rgb_add(Le, from[1].L[k])));
-        else
-            share(member, n, rgb_scale(rgb_add(rgb_scale(Le, sum / all), from[1].L[k]),
-                                       roulette * mis_raise(counts, p) / (sum * p)), k);
-    }
+    if (next->prev_delta)
+        from->L = rgb_add(from->L, rgb_mul(step, rgb_add(hit.value, from[1].L)));
+    else
+        share(member, n, rgb_scale(rgb_add(rgb_scale(hit.value, sum / all), from[1].L),
+                                   roulette * mis_raise(counts, p) / (sum * p)));
 }
 
 /* --- clusters ---------------------------------------------------------------------------------------- */
@@ -221,12 +207,9 @@ static void add_pixel(struct pooled_pixel *p, const struct node *first)
     const struct vertex *z = first->z;
     struct connection c = connect_hit(sample->scene, sample->counts, z - 1, z, 2);
     reuse_add(sample, &c, 0, 2, 1);
-    c.value = rgb_mul(z->beta, first->L[0]);
+    c.value = rgb_mul(z->beta, first->L);
     c.weight = 1;
-    c.length = sample->tile->gate.begin; /* so that it is added to `until` and not to `before` */
     reuse_add(sample, &c, 0, 2, 1);
-    rgb before = rgb_scale(rgb_mul(z->beta, first->L[1]), sample->filter_weight);
-    sample->before = rgb_add(sample->before, before);
 }
 
 static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
