@@ -218,8 +218,7 @@ static rgb bdpt_of(struct bench *b, struct tape *number)
     tile_start(&tile, pixels_all(b->job.film_rect), b->job.film_rect, &scene->filter);
     arena_reset(&b->work->arena);
     for (int i = 0; i < STRATEGY_NUMBERS; i++) {
-        from[i] = sampler_start(0, RNG_TEST, 0, 0);
-        from[i].tape = &number[i];
+        from[i] = tape_play(&number[i], sampler_start(0, RNG_TEST, 0, 0));
         number[i].at = 0;
     }
     struct pixel_sample s = pixel_sample_begin(&pass, counts, 0, 0, 0);
@@ -248,10 +247,9 @@ static bool same(rgb a, rgb b) { return rgb_max(rgb_add(a, rgb_scale(b, -1))) <=
 /* The numbers of one kind, from the first on, for a state to be made of. */
 static void hand(const struct tape *from, size_t first, struct tape *to)
 {
-    to->n = from->n > first ? from->n - first : 0;
-    to->number = mem_grow(to->number, &to->capacity, to->n + 1, sizeof *to->number);
-    if (to->n > 0)
-        memcpy(to->number, from->number + first, to->n * sizeof *to->number);
+    to->n = 0;
+    if (from->n > first)
+        tape_append(to, from->number + first, from->n - first);
 }
 
 /* The same numbers for each strategy alone, whichever the length: together they are the sample. Strategies with s = 1
@@ -266,7 +264,7 @@ static rgb all_strategies(struct bench *b, const struct chain_state *whole)
             struct strategy strategy;
             int t = n - s, N = n > 2 ? n : 1;
             double which = (s + 0.5) / N;
-            struct tape choice = {&which, 1, 0, 1};
+            struct tape choice = {.number = &which, .n = 1};
             c->candidate = -1;
             for (int i = 0; i < STRATEGY_NUMBERS; i++)
                 hand(&whole->number[i], i == POINT_NUMBERS && t > 2 ? 3 * ((size_t)t - 2) : 0, &c->now.number[i]);

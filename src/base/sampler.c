@@ -1,8 +1,6 @@
 /* sampler.c: see sampler.h. */
 #include "base/sampler.h"
 
-#include "base/mem.h"
-
 /* Owen scrambling of a binary fraction given with its first digit in bit 0: every digit is flipped or not depending on
  * a hash of the digits before it. Multiplications by even numbers carry upwards only, which is what makes this hash do
  * that [Laine & Karras 2011]; constants of [Burley 2020]. */
@@ -58,17 +56,26 @@ static inline bool is_even(struct sampler *s, enum decision d, uint64_t *h)
     return true;
 }
 
-static double own_number(struct sampler *s, enum decision d)
+double sampler_number(struct sampler *s, enum decision d)
 {
     uint64_t h;
+    double u;
+    if (s->source != NULL) {
+        s->source->next(s->source, d, &u, 1);
+        return u;
+    }
     if (!is_even(s, d, &h))
         return rng_uniform(&s->rng);
     return fraction(scramble_digits(scramble_order(s->index, (uint32_t)h), (uint32_t)(h >> 32)));
 }
 
-static void own_pair(struct sampler *s, enum decision d, double u[2])
+void sampler_pair(struct sampler *s, enum decision d, double u[2])
 {
     uint64_t h;
+    if (s->source != NULL) {
+        s->source->next(s->source, d, u, 2);
+        return;
+    }
     if (!is_even(s, d, &h)) {
         u[0] = rng_uniform(&s->rng);
         u[1] = rng_uniform(&s->rng);
@@ -77,38 +84,6 @@ static void own_pair(struct sampler *s, enum decision d, double u[2])
     uint32_t index = scramble_order(s->index, (uint32_t)h);
     u[0] = fraction(scramble_digits(index, (uint32_t)(h >> 32)));
     u[1] = fraction(scramble_digits(sobol_second(index), (uint32_t)hash_mix(h)));
-}
-
-/* Has the tape n numbers for whoever asks? Then there is no need to draw any. */
-static inline bool recorded(const struct tape *t, size_t n) { return t != NULL && t->n - t->at >= n; }
-
-/* What the tape has instead of n numbers, or appends. */
-static void play(struct tape *t, double *u, int n)
-{
-    for (int i = 0; i < n; i++) {
-        t->number = mem_grow(t->number, &t->capacity, t->n + 1, sizeof *t->number);
-        if (t->at == t->n)
-            t->number[t->n++] = u[i];
-        u[i] = t->number[t->at++];
-    }
-}
-
-void sampler_pair(struct sampler *s, enum decision d, double u[2])
-{
-    if (!recorded(s->tape, 2))
-        own_pair(s, d, u);
-    if (s->tape != NULL)
-        play(s->tape, u, 2);
-}
-
-double sampler_number(struct sampler *s, enum decision d)
-{
-    double u = 0;
-    if (!recorded(s->tape, 1))
-        u = own_number(s, d);
-    if (s->tape != NULL)
-        play(s->tape, &u, 1);
-    return u;
 }
 
 int64_t lattice_step(int64_t n)

@@ -47,15 +47,14 @@ enum decision {
     DRAW_FLIGHT /* how far light goes in a medium */
 };
 
-/* Numbers from elsewhere: the next one that a sampler gives is number[at], if there is one; else its own, which is
- * appended. So the same tape, set back to at = 0, gives what it has recorded: a Markov chain's mutations are such. */
-struct tape {
-    double *number; /* [n], each in [0,1); owned */
-    size_t n, at, capacity;
+/* Where else numbers may come from: `next` writes n of them, each in [0,1), that are to decide d. What embeds a source
+ * as its first member has a state of its own. */
+struct number_source {
+    void (*next)(struct number_source *self, enum decision d, double *u, int n);
 };
 
 struct sampler {
-    struct tape *tape; /* NULL: all are its own */
+    struct number_source *source; /* of all its numbers; NULL: they are made from what follows */
     struct rng rng;
     uint64_t scramble;        /* hash of (seed, purpose, pixel, iteration / SAMPLER_POINTS) */
     uint32_t index;           /* iteration % SAMPLER_POINTS, bits reversed: where in the sequence */

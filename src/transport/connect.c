@@ -135,10 +135,9 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
     if (rgb_is_black(l->value) || !lit_visible(scene, l))
         return nothing();
     bool parallel = light_at_infinity(&lights->light[at->light]);
-    struct vertex y;
-    vertex_light_end(scene, counts, at, &y);
     double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
-    double light = mis_side(counts, l->pdf_z * l->at_light, y.pdf_fwd, hit, 0, 0); /* mis.h (5): of s = 0 alone */
+    /* mis.h (5); the light side has the strategy s = 0 alone */
+    double light = mis_side(counts, l->pdf_z * l->at_light, vertex_light_pdf(lights, at), hit, 0, 0);
     double pdf_emit = emit_pdf(&counts_tables(counts)->emission, lights, at, z->p, neg(l->w));
     double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);

@@ -20,6 +20,14 @@ double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode)
     return wo_ng > 0 ? abs_dot(v->wo, ns) * abs_dot(wi, v->ng) / wo_ng : 0;
 }
 
+/* An eye sub-path that escapes meets all infinite lights at once, so their densities are added up for the weight.
+ * [PBRT3 16.3.5] */
+double vertex_light_pdf(const struct light_set *lights, const struct light_point *at)
+{
+    bool several = lights->n_infinite > 1 && lights->light[at->light].kind == LIGHT_INFINITE;
+    return several ? light_pdf_environment(lights, at->w) : at->pdf;
+}
+
 void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,
                       struct vertex *out)
 {
@@ -34,10 +42,6 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
     out->medium = l->medium;
     out->wo = at->w;
     out->beta = rgb_grey(1 / at->pdf);
-    /* An escaping eye ray cannot tell infinite lights apart, so their densities are added up for the weight.
-     * [PBRT3 16.3.5] */
-    out->pdf_fwd = scene->lights.n_infinite > 1 && l->kind == LIGHT_INFINITE
-                       ? light_pdf_environment(&scene->lights, at->w)
-                       : at->pdf;
+    out->pdf_fwd = vertex_light_pdf(&scene->lights, at);
     out->mis_c = light_is_delta(l) ? 0 : counts->hit[LATER_HIT];
 }

@@ -70,7 +70,9 @@ struct vertex {
     const struct vertex *lamp; /* above; NULL: none */
 };
 
-/* vertex_light_end: fill in a y_0 for a point drawn on a light (light.h); its beta is 1/density. */
+/* vertex_light_pdf: pdf_fwd of y_0 for a point drawn on a light (light.h).
+ * vertex_light_end: fill in that y_0; its beta is 1/density. */
+double vertex_light_pdf(const struct light_set *lights, const struct light_point *at);
 void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,
                       struct vertex *out);
 

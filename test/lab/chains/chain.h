@@ -23,6 +23,7 @@
 #ifndef ASBDPT_CHAIN_H
 #define ASBDPT_CHAIN_H
 
+#include "chains/tape.h"
 #include "integrators/method.h"
 
 /* Numbers of one kind do not move up when there are more of another: those of the eye sub-path, of the light sub-path,

@@ -130,10 +130,7 @@ struct mlt_move mlt_stay(const struct mlt_path *path, enum mlt_perturbation whic
 /* Numbers that a sub-path is to take. */
 static void put(struct primary *p, enum chain_stream stream, const double *u, size_t n)
 {
-    struct tape *tape = &p->state->number[stream];
-    tape->number = mem_grow(tape->number, &tape->capacity, tape->n + n, sizeof *tape->number);
-    memcpy(tape->number + tape->n, u, n * sizeof *u);
-    tape->n += n;
+    tape_append(&p->state->number[stream], u, n);
 }
 
 /* Were vertices first .. n-1 of a sub-path all reached by delta lobes? */

@@ -60,8 +60,7 @@ void primary_begin(struct primary *p, struct chain *c, bool small)
         tape->n = tape->at = 0;
         if (small)
             move(&c->now.number[i], tape, c->all->sigma, &c->rng);
-        p->sampler[i] = numbers(c, (enum chain_stream)i, key);
-        p->sampler[i].tape = tape;
+        p->sampler[i] = tape_play(tape, numbers(c, (enum chain_stream)i, key));
     }
 }
 
