@@ -40,22 +40,21 @@ refuse() { # PATTERN WORDS...: wrong usage of the program; test_options.c has wh
     shift
     expect 2 "$pattern" "$program" "$@"
 }
-# What only the laboratory has is said to be there: all its commands and integrators, as it lists them itself.
+# What only the laboratory has, as it lists it itself, the program does not have.
 "$lab" --help | sed -n 's/^    \([a-z][a-z-]*\)  .*/\1/p' >theirs.list
 check [ "$(wc -l <theirs.list)" = 15 ]
 for command in $(grep -Ev '^(render|merge|convert)$' theirs.list); do
-    refuse "^asbdpt: $command is a command of asbdpt-lab; try" $command
+    refuse "^asbdpt: unknown command $command; try" $command
 done
 "$program" help integrators | sed -n 's/^[a-z0-9]*$/&/p' | sort -u >ours.list
 "$lab" help integrators | sed -n 's/^[a-z0-9]*$/&/p' | sort -u >theirs.list
 for integrator in $(comm -13 ours.list theirs.list); do
-    refuse "^asbdpt: --integrator $integrator is in asbdpt-lab\$" render "$box" $small --integrator $integrator
+    refuse "^asbdpt: there is no integrator $integrator; known are: pt lt bdpt asbdpt\$" \
+        render "$box" $small --integrator $integrator
 done
 check [ "$(comm -13 ours.list theirs.list | grep -c .)" -ge 13 ]
 check [ "$(comm -23 ours.list theirs.list | grep -c .)" = 0 ]
-refuse 'unknown command .*cornell-box \(did you mean .*scenes/cornell-box.pbrt\?\)' "${box%.pbrt}"
-expect 1 'no such file; did you mean .*scenes/cornell-box.pbrt\?' "$program" render "${box%.pbrt}" $small
-expect 1 'no such file; did you mean .*scenes/cornell-box.pbrt\?' "$lab" info "${box%.pbrt}"
+refuse 'unknown command .*cornell-box; try' "${box%.pbrt}"
 # A file that is called like an option is not taken for one: what is wrong with it is no wrong usage.
 for word in -o--x/y.png --stats=--x/y --resume=--x --checkpoint=--x/y --lights=--x/y/z; do
     expect 1 '^asbdpt: --x' "$program" render "$box" $small "$word"
@@ -70,11 +69,11 @@ check [ "$(head -n 2 shape.pfm | tail -n 1)" = "24 14" ]
 expect 0 '' "$lab" equal-time "$ajar" --methods pt --seeds 1 --spp 1 --reference-spp 4 --quiet --res 24 -o shape
 check grep -q 'veach-ajar 24x14' stdout.txt
 refuse 'asbdpt: which command'
-refuse 'unknown command rendr \(did you mean render\?\); try asbdpt --help' rendr
+refuse 'unknown command rendr; try asbdpt --help' rendr
 refuse 'needs a scene' render
 refuse 'needs a scene' --quick # no command: render
 refuse '[-]-time 5x: expected a number .* 5m, 1h' render "$box" --time 5x
-refuse 'unknown option --sppp \(did you mean --spp\?\); try asbdpt render --help' render "$box" --sppp 3
+refuse 'unknown option --sppp; try asbdpt render --help' render "$box" --sppp 3
 refuse '[-]-filter bx: known are' render "$box" --filter bx
 refuse '[-]-samples has no effect without -o' render "$box" --samples 0:1
 refuse 'one argument too many' render "$box" "$box"
@@ -83,8 +82,8 @@ expect 2 '[-]-res: 65536 x 65536 pixels are too many' "$program" render "$box" -
 refuse '60000 x 60000 pixels are too many \(at most 268435456\)' render "$box" --res 60000x60000
 expect 2 'unknown option --seed' "$lab" info "$box" --seed 1
 refuse 'x.jpg: pictures are written as .pfm, .exr' render "$box" $small -o x.jpg
-refuse 'did you mean asbdpt\? known are' render "$box" $small --integrator=asbdtp
-refuse 'no integrator has a parameter "selct" \(did you mean select\?\)' render "$box" -P selct=bins
+refuse 'there is no integrator asbdtp; known are: pt lt' render "$box" $small --integrator=asbdtp
+refuse 'no integrator has a parameter "selct"; asbdpt help' render "$box" -P selct=bins
 refuse 'delta' render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
 refuse 'select = "bin" is unknown: give "subspaces", "bins", "pool" or "vertices"' \
     render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
@@ -113,7 +112,7 @@ for method in path asbdpt; do
     expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: "lightsamplestrategy" is "power" instead of "uniform"' \
         "$program" render known.pbrt --res 16x16 --spp 2 -o x.pfm
 done
-check grep -q '^asbdpt: warning: known.pbrt: there are no lights, so the picture is black' stderr.txt
+check grep -q '^asbdpt: warning: known.pbrt: there are no lights, so the image is black' stderr.txt
 # Then nothing is rendered, whatever is asked for: a million samples of each of a hundred thousand pixels, in no time.
 printf 'WorldBegin Shape "sphere" WorldEnd\n' >dark.pbrt
 printf 'WorldBegin WorldEnd\n' >empty.pbrt
@@ -235,7 +234,7 @@ check cmp -s piped.pfm target.pfm
 printf 'WorldBegin\nShape "sphere" "float radus" 2\nNamedMaterial "mate"\nWorldEnd\n' >warned.pbrt
 for command in info "render $small -o x.pfm"; do
     expect 0 '' "$lab" $command warned.pbrt
-    expect 1 '^asbdpt: warned.pbrt:2:16: parameter "float radus" of Shape "sphere" is not used; did you mean "radius"' \
+    expect 1 '^asbdpt: warned.pbrt:2:16: parameter "float radus" of Shape "sphere" is not used' \
         "$lab" $command warned.pbrt --strict
     check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' stderr.txt
     check grep -q 'refused for what is said above' stderr.txt
@@ -255,13 +254,6 @@ expect 0 'a medium without a bound ends on a sphere of radius 1.* about .0 0 0.,
 printf 'WorldBegin\nShpae "sphere"\nShape "cuboid"\nWorldEnd\n' >errors.pbrt
 expect 1 '^asbdpt: errors.pbrt:2:1: unknown directive' "$program" render errors.pbrt --quiet
 check grep -q '^asbdpt: errors.pbrt:3:7: Shape "cuboid"' stderr.txt
-# A few bytes that become many triangles are told of.
-cat >many.pbrt <<'END'
-WorldBegin LightSource "point"
-Shape "loopsubdiv" "integer levels" 8 "integer indices" [ 0 1 2 0 2 3 ] "point P" [ 0 0 0 1 0 0 1 1 0 0 1 0 ]
-WorldEnd
-END
-expect 0 '^many.pbrt: 131072 triangles and quadrics from 1 shapes; building' "$program" many.pbrt --spp 1 --res 4x4
 # Whoever asks for an integrator has the media that the scene's does not see.
 cat >fog.pbrt <<'END'
 Film "image" "integer xresolution" 4 "integer yresolution" 4
@@ -334,7 +326,6 @@ expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$lab" compare a.png a.pfm --max-rm
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
 expect 1 'equal size' "$lab" compare a.pfm c.pfm
 expect 1 cornell-box.pbrt "$lab" compare "$box" a.pfm
-expect 2 'asbdpt-lab strategies SCENE.pbrt -o s makes these' "$program" render "$box" --strategies s
 expect 0 '' "$lab" strategies "$box" $small --maxdepth 2 -o s
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]
@@ -453,7 +444,7 @@ expect 0 '' "$lab" demo "$box" --methods pt,bdpt --spp 1 --quiet -o demo.png
 check grep -q '^bdpt .* spp .* s of CPU   rmse8' stdout.txt
 check [ -s demo.png ]
 expect 0 '' "$lab" demo small.pbrt --spp 1 --quiet -o demo.png # whose reference is rendered
-expect 2 'there is no method bdtp; did you mean bdpt' "$lab" demo "$box" --methods bdtp,asbdpt -o demo.png
+expect 2 'there is no integrator bdtp; known are: .*bdpt' "$lab" demo "$box" --methods bdtp,asbdpt -o demo.png
 
 # --- gates
 # gates: light by how far it has come; a sequence of pictures in one render.
@@ -570,10 +561,6 @@ for c in o["connections"]:
     if c["t"] > 1: s = [a + b for a, b in zip(s, c["added"])]
 assert s == o["sum"] and o["sample"] == 3'
 fi
-expect 2 'pixel 12,0 is not rendered: x is 0 to 11' "$lab" trace "$box" $one --pixel 12,0
-for option in --pixel=1,1 --sample=1; do
-    expect 2 "${option%=*} has no effect with --worst" "$lab" trace "$box" $small --worst 2 $option
-done
 expect 2 'sample 4 is not taken: they are numbered 0 to 3' "$lab" trace "$box" $one --spp 4 --sample 4
 
 # --- worth
@@ -622,7 +609,7 @@ check grep -q '"mean_ratio": null, "nonfinite": 2592,' stdout.txt
 expect 1 'same size' "$lab" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.error.pfm" \
     a.pfm a.pfm
 expect 2 'usage: asbdpt-lab verify' "$lab" verify --images a.pfm
-expect 2 'no method nonsense' "$lab" verify "$box" --methods nonsense
+expect 2 'no integrator nonsense' "$lab" verify "$box" --methods nonsense
 expect 2 'two methods are compared' "$lab" verify "$box" --methods pt,lt,bdpt
 expect 2 'is unknown: give' "$lab" verify "$box" --methods pt,asbdpt:select=bin
 expect 0 '' "$lab" verify "$box" --methods asbdpt:select=pool,asbdpt:select=vertices --res 12x12 --spp 8 \
@@ -667,7 +654,7 @@ expect 0 'does not say what scene it is of: measured at 32x32' \
 expect 1 'have the same name, bathroom' \
     "$lab" equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign
 for command in experiment equal-time; do
-    expect 2 'there is no method bdtp; did you mean bdpt' "$lab" $command "$box" --methods bdtp -o equal
+    expect 2 'there is no integrator bdtp; known are: .*bdpt' "$lab" $command "$box" --methods bdtp -o equal
 done
 expect 2 'there is no parameter "selects"' "$lab" experiment "$box" --sweep pt,asbdpt:selects=bins -o equal
 

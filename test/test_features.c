@@ -52,7 +52,7 @@ static bool load(struct test *t, const char *name, struct scene *scene)
     struct error err = {.text = ""};
     snprintf(path, sizeof path, "%s/%s", FEATURES, name);
     struct expected expected = {t, name, fopen(path, "r")};
-    struct message_sink sink = {hear, NULL, NULL, &expected};
+    struct message_sink sink = {hear, NULL, &expected};
     bool ok = CHECK(t, parse_scene(path, NULL, scene, &sink, &err), "%s", err.text);
     CHECK(t, !next_warning(expected.file, missed), "%s: no warning \"%s\"", name, missed);
     if (expected.file != NULL)

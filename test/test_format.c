@@ -91,8 +91,10 @@ static void check_presets(struct test *t, const char *page)
     struct error err;
     size_t size;
     int n = 0;
-    char *code = text_read("src/parser/medium_presets.c", &size, &err);
-    for (char *name = code; name != NULL && (name = strstr(name, "{\"")) != NULL; n++) {
+    char *code = text_read("src/parser/parse_medium.c", &size, &err);
+    char *table = strstr(code, "PRESETS[] = {");
+    *strstr(table, "};") = '\0';
+    for (char *name = table; (name = strstr(name, "{\"")) != NULL; n++) {
         char *end = strchr(name + 2, '"');
         name[0] = name[1] = end[0] = '`';
         end[1] = '\0';

@@ -130,8 +130,8 @@ static void check_refused(struct test *t)
         {"--text", "--text needs a value"},
         {"--list", "--list needs a value"},
         {"--on=1", "--on takes no value"},
-        {"--integr 4", "unknown option --integr (did you mean --integer?)"},
-        {"--sede=4", "unknown option --sede=4 (did you mean --seed?)"},
+        {"--integr 4", "unknown option --integr"},
+        {"--sede=4", "unknown option --sede=4"},
         {"--zzzzzzzzzz", "unknown option --zzzzzzzzzz"},
         {"--", "unknown option --"},
     };

@@ -86,23 +86,7 @@ static void head_comment(const char *text, const char *key, int k, char out[TEXT
 
 /* --- expectations --------------------------------------------------------------------------------------- */
 
-/* The second line of a message must be the place's line, the third a caret under its column. */
-static void check_caret(struct test *t, const char *name, const char *message, const char *text, int line,
-                        int column)
-{
-    for (int i = 1; i < line; i++)
-        text = strchr(text, '\n') + 1;
-    const char *shown = strchr(message, '\n'), *caret = shown != NULL ? strchr(shown + 1, '\n') : NULL;
-    if (!CHECK(t, caret != NULL, "%s: the message has no line and no caret:\n%s", name, message))
-        return;
-    int at = (int)(strchr(caret, '^') - caret) - 1; /* column in the shown line, from 0 */
-    char under = shown[1 + at], meant = text[column - 1];
-    bool same = under == meant || ((under == '\n' || under == '\0') && (meant == '\n' || meant == '\0'));
-    CHECK(t, same, "%s: the caret is under '%c', not '%c':\n%s", name, under, meant, message);
-}
-
-static void check_refusal(struct test *t, const char *name, const char *path, const char *text, const char *expect,
-                          const char *message)
+static void check_refusal(struct test *t, const char *name, const char *path, const char *expect, const char *message)
 {
     char file[TEXT], where[3 * TEXT];
     int line = 0, column = 0, used = 0;
@@ -113,8 +97,6 @@ static void check_refusal(struct test *t, const char *name, const char *path, co
         snprintf(where, sizeof where, "%s:%d:%d: ", path, line, column);
     CHECK(t, strncmp(message, where, strlen(where)) == 0, "%s: expected %s, got\n%s", name, where, message);
     CHECK(t, strstr(message, expect + used) != NULL, "%s: expected \"%s\", got\n%s", name, expect + used, message);
-    if (!other_file)
-        check_caret(t, name, message, text, line, column);
 }
 
 /* Messages from number `first` on against the lines "# KEY: ..." of the head. */
@@ -141,14 +123,14 @@ static void check_fixture(struct test *t, const char *name)
     char *text = text_read(path, &size, &err);
     struct scene s;
     struct hearing *heard = mem_alloc(1, sizeof *heard);
-    struct message_sink sink = {hear_warning, hear_error, NULL, heard};
+    struct message_sink sink = {hear_warning, hear_error, heard};
     head_comment(text, "integrator", 0, integrator);
     bool ok = parse_scene(path, integrator[0] != '\0' ? integrator : NULL, &s, &sink, &err);
     head_comment(text, "expect", 0, expect);
     if (strcmp(expect, "ok") == 0)
         CHECK(t, ok, "%s: refused:\n%s", name, err.text);
     else if (CHECK(t, !ok, "%s: accepted, but expected: %s", name, expect))
-        check_refusal(t, name, path, text, expect, err.text);
+        check_refusal(t, name, path, expect, err.text);
     CHECK(t, ok == (heard->errors.n == 0), "%s: %d errors", name, heard->errors.n);
     CHECK(t, ok || strncmp(heard->errors.text[0], err.text, TEXT - 1) == 0, "%s: the first error is another", name);
     check_heard(t, name, text, "also", &heard->errors, 1);

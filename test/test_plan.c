@@ -12,7 +12,7 @@
 static void test_methods(struct test *t)
 {
     static const char *const wrong[][2] = {
-        {"bdtp", "did you mean bdpt"}, {"bdpt,", "expected methods"}, {"bdpt,bdpt", "given twice"},
+        {"bdtp", "no integrator bdtp; known are"}, {"bdpt,", "expected methods"}, {"bdpt,bdpt", "given twice"},
         {"asbdpt:select", "expected NAME=VALUE"}, {"asbdpt:selects=bins", "no parameter \"selects\""},
         {"asbdpt:select=bin", "\"bin\" is unknown"}, {"asbdpt:select=bins:restart=x", "restart = \"x\""},
         {"bdpt:select=bins", "no parameter \"select\""}, {"lt:rrthreshold=0/1/0", "given twice"}};

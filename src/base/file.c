@@ -86,16 +86,6 @@ bool file_has_extension(const char *path, const char *extension)
     return n >= m;
 }
 
-char *file_meant(const char *path, const char *extension)
-{
-    char *name = mem_alloc(strlen(path) + strlen(extension) + 1, 1);
-    strcat(strcpy(name, path), extension);
-    if (!file_exists(path) && file_exists(name))
-        return name;
-    free(name);
-    return NULL;
-}
-
 /* --- writing ----------------------------------------------------------------------------------------- */
 
 /* Forget it all, and remove the temporary file unless it has the target's name by now. */

@@ -27,12 +27,9 @@ bool file_read(const char *path, uint8_t **data, size_t *size, struct error *err
 bool file_exists(const char *path);
 bool file_has_extension(const char *path, const char *extension);
 
-/* Names, to be given to free().
- * file_beside: where a file is that another one names: a relative name starts in the directory of `path`; never "-",
- * which only whoever runs the program may mean.
- * file_meant: of the file that is there if the extension is added to one that is not; else NULL. */
+/* file_beside: where a file is that another one names, to be given to free(): a relative name starts in the directory
+ * of `path`; never "-", which only the user may mean. */
 char *file_beside(const char *path, const char *name);
-char *file_meant(const char *path, const char *extension);
 
 /* A file being written. */
 struct file_output {

@@ -19,10 +19,10 @@ struct convert_options {
 
 #define AT(member) offsetof(struct convert_options, member)
 static const struct option OPTIONS[] = {
-    {"IN", NULL, OPTION_TEXTS, AT(in), 1, .file = FILE_READ,
+    {"IN", NULL, OPTION_TEXTS, AT(in), 1,
      .help = "a picture to read: .exr .pfm .hdr .pic .png .tga .ppm .pgm; several are added up"},
     {"--weights", "LIST", OPTION_TEXT, AT(weights), .help = "what they are multiplied by, as 1,0.5,2 (default: 1)"},
-    {"-o", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "--outfile", .file = FILE_WRITTEN,
+    {"-o", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "--outfile", .written = true,
      .help = "a picture to write: linear .pfm .exr, sRGB .png .ppm; repeatable"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},

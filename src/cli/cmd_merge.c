@@ -16,9 +16,8 @@ struct merge_options {
 
 #define AT(member) offsetof(struct merge_options, member)
 static const struct option OPTIONS[] = {
-    {"PART", NULL, OPTION_TEXTS, AT(part), 1, .file = FILE_READ,
-     .help = "a part of a picture"},
-    {"-o", "FILE", OPTION_TEXTS, AT(output), 1, .alias = "--outfile", .file = FILE_WRITTEN,
+    {"PART", NULL, OPTION_TEXTS, AT(part), 1, .help = "a part of a picture"},
+    {"-o", "FILE", OPTION_TEXTS, AT(output), 1, .alias = "--outfile", .written = true,
      .help = "a picture to write, or .part; repeatable"},
     {"--partial", NULL, OPTION_ON, AT(partial), .help = "make a picture even where samples are missing"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},

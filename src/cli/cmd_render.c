@@ -18,9 +18,9 @@
 
 #define AT(member) offsetof(struct job_options, member)
 const struct option RENDER_OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .file = FILE_READ, .help = "a scene file"},
-    {"-o", "FILE", OPTION_TEXTS, AT(output), .alias = "--outfile",
-     .file = FILE_WRITTEN, .help = "linear .pfm .exr, sRGB .png .ppm; repeatable"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .help = "a scene file"},
+    {"-o", "FILE", OPTION_TEXTS, AT(output), .alias = "--outfile", .written = true,
+     .help = "linear .pfm .exr, sRGB .png .ppm; repeatable"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {"--aov", "LIST", OPTION_TEXT, AT(aov), .help = "also NAME.albedo.pfm ...: albedo,normal,depth,position,variance"},
@@ -29,7 +29,6 @@ const struct option RENDER_OPTIONS[] = {
      .help = "albedo and normal of what is seen in mirrors and through glass, as denoisers want them"},
     {"--lights", "DIR", OPTION_TEXT, AT(lights),
      .help = "write a picture of what each light brings, see convert --weights; or each \"string group\" of lights"},
-    {"--strategies", "DIR", OPTION_TEXT, AT(strategies), .help = "in asbdpt-lab: pictures of single strategies"},
     {"--alpha", NULL, OPTION_ON, AT(alpha),
      .help = ".exr and .png with alpha: 0 where the lens sees nothing, lights of \"bool visible\" \"false\" among it"},
     {"--time", "TIME", OPTION_TIME, AT(keep.time), 1e-9, 1e9,
@@ -38,14 +37,14 @@ const struct option RENDER_OPTIONS[] = {
      .help = "stop when the noise is below X of the brightness around, e.g. 0.05; asked every 64 samples"},
     {"--noise8", "X", OPTION_NUMBER, AT(keep.noise[NOISE_8_BIT]), 1e-9, 1e9,
      .help = "the same in levels of the 255 that 8-bit pictures have; with both, when both are so"},
-    {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .file = FILE_KEPT,
+    {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .written = true,
      .help = "save the render now and then, and at signals"},
     {"--interval", "TIME", OPTION_TIME, AT(keep.interval), 0, 1e9, .with = "--checkpoint", .fallback = "60",
      .help = "between checkpoints"},
-    {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .file = FILE_KEPT, .help = "go on from a checkpoint"},
+    {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .help = "go on from a checkpoint"},
     {"--samples", "FIRST:END", OPTION_RANGE, AT(keep.samples), 0, 1 << 30, .with = "-o",
      .help = "only the samples FIRST to END-1, for merge: -o NAME.part"},
-    {"--stats", "FILE", OPTION_TEXT, AT(stats), .file = FILE_WRITTEN, .help = "JSON: parameters, times, memory"},
+    {"--stats", "FILE", OPTION_TEXT, AT(stats), .written = true, .help = "JSON: parameters, times, memory"},
     {.others = RUN_OPTIONS},
 };
 
@@ -89,9 +88,6 @@ static void abandon(struct files *f)
 static bool check_options(const struct job_options *o, struct files *f, struct error *err)
 {
     memset(f, 0, sizeof *f);
-    if (o->strategies != NULL)
-        return error_usage(err, "--strategies %s: asbdpt-lab strategies SCENE.pbrt -o %s makes these", o->strategies,
-                           o->strategies);
     if (!aov_read(o->aov, &f->aov, err))
         return false;
     if (o->keep.resume != NULL && f->aov.wanted[AOV_VARIANCE])
@@ -108,29 +104,41 @@ static bool open_named(const struct job_options *o, struct files *f, struct erro
            (o->stats == NULL || file_create(o->stats, &f->stats, err));
 }
 
-static bool open_default_output(const struct job_options *o, const struct scene *scene, struct names *all,
-                                struct outputs *out, struct error *err)
+static bool open_default_output(const struct job_options *o, const struct scene *scene, struct outputs *out,
+                                struct error *err)
 {
     struct texts names = {0};
     char *name = default_output(scene);
     texts_add(&names, name);
-    bool ok = names_add(all, FILE_WRITTEN, "the film's", name, err) &&
-              outputs_open(&names, &o->tone, PARTS_NONE, out, err);
+    bool ok = outputs_open(&names, &o->tone, PARTS_NONE, out, err);
     free(names.item);
     free(name);
     return ok;
 }
 
-/* What the scene names, or what lies beside that, once the scene is loaded; all are different files. */
-static bool open_others(struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
+/* Does every file have a name of its own? Layers are in a file that is written first without them. */
+static bool names_differ(const struct job_options *o, const struct files *f, struct error *err)
 {
-    struct names all = {0};
-    bool ok = names_add_options(&all, RENDER_OPTIONS, o, err) &&
-              (f->pictures.n > 0 || open_default_output(o, scene, &all, &f->pictures, err)) &&
-              aov_open(&f->aov, o->layers, &all, &f->pictures, err) &&
-              lights_open(o->lights, scene, &all, &f->pictures, err);
-    names_free(&all);
+    struct texts names = {0};
+    for (int i = 0; i < f->pictures.n; i++)
+        texts_add(&names, f->pictures.item[i].file.path);
+    for (int i = 0; i < f->aov.out.n && !o->layers; i++)
+        texts_add(&names, f->aov.out.item[i].file.path);
+    if (o->keep.checkpoint != NULL)
+        texts_add(&names, o->keep.checkpoint);
+    if (o->stats != NULL)
+        texts_add(&names, o->stats);
+    bool ok = texts_differ(&names, err);
+    free(names.item);
     return ok;
+}
+
+/* What the scene names, or what is written next to that, once the scene is loaded. */
+static bool open_others(const struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
+{
+    return (f->pictures.n > 0 || open_default_output(o, scene, &f->pictures, err)) &&
+           aov_open(&f->aov, o->layers, &f->pictures, err) && lights_open(o->lights, scene, &f->pictures, err) &&
+           names_differ(o, f, err);
 }
 
 static void report(const struct job_options *o, const char *integrator, const struct film *film,

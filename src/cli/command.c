@@ -2,7 +2,6 @@
 #include "cli/command.h"
 
 #include <errno.h>
-#include <float.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,8 +10,6 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/version.h"
-#include "cli/names.h"
-#include "parser/symbols.h"
 #include "render/parameters.h"
 
 /* --- messages ----------------------------------------------------------------------------------------- */
@@ -34,13 +31,6 @@ int usage_error(const struct command *command, const char *format, ...)
     fprintf(stderr, "asbdpt: %s; try %s %s%s--help\n", err.text, program.name, command != NULL ? command->name : "",
             command != NULL ? " " : "");
     return EXIT_USAGE;
-}
-
-bool in_laboratory(const char *name)
-{
-    char word[32];
-    snprintf(word, sizeof word, " %s ", name);
-    return program.laboratory != NULL && strstr(program.laboratory, word) != NULL;
 }
 
 /* --- help --------------------------------------------------------------------------------------------- */
@@ -118,21 +108,15 @@ static void print_all(void)
 
 static bool asks_for_help(const char *word) { return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0; }
 
-/* Do results stay beyond a double's bits until they are stored, as on the x87? (C99's FLT_EVAL_METHOD says so too, but
- * not all compilers have it.) */
-static bool keeps_more_bits(void)
+/* Does every output have a name of its own? */
+static bool outputs_differ(const struct command *c, void *options, struct error *err)
 {
-    volatile double one = 1, tiny = DBL_EPSILON / 4;
-    return one + tiny - one != 0;
-}
-
-/* Is every file of the command line another one? */
-static bool files_apart(const struct command *c, void *options, struct error *err)
-{
-    struct names all = {0};
-    bool ok = (!c->prints || names_add(&all, FILE_WRITTEN, "what it prints to", "-", err)) &&
-              names_add_options(&all, c->options, options, err);
-    names_free(&all);
+    struct texts names = {0};
+    if (c->prints)
+        texts_add(&names, "-");
+    options_written(c->options, options, &names);
+    bool ok = texts_differ(&names, err);
+    free(names.item);
     return ok;
 }
 
@@ -145,7 +129,7 @@ static int run(const struct command *c, int argc, char **argv)
         }
     struct error err;
     void *options = mem_alloc(1, c->size);
-    bool ok = options_read(c->options, argc, argv, options, &err) && files_apart(c, options, &err);
+    bool ok = options_read(c->options, argc, argv, options, &err) && outputs_differ(c, options, &err);
     int status = ok ? c->run(options) : usage_error(c, "%s", err.text);
     options_free(c->options, options);
     free(options);
@@ -171,26 +155,6 @@ static int help(const char *topic)
     return EXIT_OK;
 }
 
-static void print_version(void)
-{
-    printf("%s\n", VERSION);
-    if (keeps_more_bits())
-        printf("built for arithmetic that keeps more bits than a double has (FLT_EVAL_METHOD is not 0): pictures\n"
-               "differ in their last bits from those of other builds\n");
-}
-
-/* A word where a command is expected, and the nearest of these or NULL. */
-static int unknown(const char *word, const char *nearest)
-{
-    char *scene = file_meant(word, ".pbrt");
-    nearest = scene != NULL ? scene : nearest;
-    int status = in_laboratory(word) ? usage_error(NULL, "%s is a command of asbdpt-lab", word)
-                 : nearest != NULL   ? usage_error(NULL, "unknown command %s (did you mean %s?)", word, nearest)
-                                     : usage_error(NULL, "unknown command %s", word);
-    free(scene);
-    return status;
-}
-
 /* What the arguments ask for. */
 static int obey(int argc, char **argv)
 {
@@ -199,18 +163,15 @@ static int obey(int argc, char **argv)
     if (asks_for_help(argv[1]) || strcmp(argv[1], "help") == 0)
         return help(argc > 2 ? argv[2] : NULL);
     if (strcmp(argv[1], "--version") == 0) {
-        print_version();
+        printf("%s\n", VERSION);
         return EXIT_OK;
     }
-    struct suggestion s = suggest_start(argv[1]);
-    for (const struct command *const *c = program.commands; *c != NULL; c++) {
+    for (const struct command *const *c = program.commands; *c != NULL; c++)
         if (strcmp(argv[1], (*c)->name) == 0)
             return run(*c, argc - 1, argv + 1);
-        suggest_offer(&s, (*c)->name);
-    }
     if (program.unnamed != NULL && (argv[1][0] == '-' || file_has_extension(argv[1], ".pbrt")))
         return run(program.unnamed, argc, argv);
-    return unknown(argv[1], s.name);
+    return usage_error(NULL, "unknown command %s", argv[1]);
 }
 
 int command_line(int argc, char **argv)

@@ -31,12 +31,8 @@ struct program {
     const char *title, *about;             /* a line and a paragraph for the help */
     const struct command *const *commands; /* ended by NULL */
     const struct command *unnamed;         /* meant where none of them is named, or NULL */
-    const char *laboratory; /* words that only asbdpt-lab knows, with blanks around them; NULL: this is it */
 };
 extern const struct program program;
-
-/* in_laboratory: is it a subcommand or an integrator of asbdpt-lab alone? */
-bool in_laboratory(const char *name);
 
 /* fail / usage_error: print "asbdpt: message" and return EXIT_JOB / EXIT_USAGE; of a message about a word of the
  * command line (error.h) fail returns EXIT_USAGE, too.

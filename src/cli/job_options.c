@@ -1,17 +1,14 @@
 /* job_options.c: see job_options.h. */
 #include "cli/job_options.h"
 
-#include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/file.h"
 #include "base/mem.h"
-#include "base/os.h"
 #include "cli/command.h"
 #include "parser/parser.h"
-#include "parser/symbols.h"
 #include "render/parameters.h"
 
 #define AT(member) offsetof(struct job_options, member)
@@ -53,26 +50,6 @@ static void print_error(void *context, const char *text)
     fprintf(stderr, "asbdpt: %s\n", text);
 }
 
-/* Whoever waits for more than a second is told for what. */
-static void tell_place(void *context, struct source_position at)
-{
-    struct job_loading *to = context;
-    if (to->options->quiet || os_wall_seconds() - to->start < 1)
-        return;
-    to->start = INFINITY;
-    fprintf(stderr, "%s: reading it takes more than a second; at %s:%d\n", to->options->scene_path, at.file->path,
-            at.line);
-}
-
-static void tell_size(const struct job_options *o, const struct geometry *geo)
-{
-    enum { MANY = 100000 }; /* whose tree takes up to a second */
-    int n = geometry_primitives(geo);
-    if (!o->quiet && n > MANY)
-        fprintf(stderr, "%s: %d triangles and quadrics from %d shapes; building the tree that rays search\n",
-                o->scene_path, n, geo->n_groups);
-}
-
 static void override(const char *pair, struct settings *settings)
 {
     char *name = mem_copy_text(pair), *equals = strchr(name, '=');
@@ -109,37 +86,27 @@ static bool apply(const struct job_options *o, struct scene *scene, struct error
     return true;
 }
 
-void integrator_unknown(const char *wanted, struct error *out)
+bool integrator_unknown(const char *wanted, struct error *err)
 {
-    struct suggestion s = suggest_start(wanted);
     char known[256] = "";
-    for (const struct method *const *m = method_rows, *before = NULL; *m != NULL; before = *m++) {
-        if (before != NULL && strcmp((*m)->name, before->name) == 0)
-            continue;
-        suggest_offer(&s, (*m)->name);
-        snprintf(known + strlen(known), sizeof known - strlen(known), " %s", (*m)->name);
-    }
-    error_set(out, "%s%s%sknown are:%s", s.name != NULL ? "did you mean " : "", s.name != NULL ? s.name : "",
-              s.name != NULL ? "? " : "", known);
+    const char *before = "";
+    for (const struct method *const *m = method_rows; *m != NULL; before = (*m++)->name)
+        if (strcmp((*m)->name, before) != 0)
+            snprintf(known + strlen(known), sizeof known - strlen(known), " %s", (*m)->name);
+    return error_usage(err, "there is no integrator %s; known are:%s", wanted, known);
 }
 
 /* A warning about the scene as a whole. */
-static void warn(struct job_loading *to, const char *format, const char *what)
+static void warn(struct job_loading *to, const char *format, ...)
 {
-    struct error text, line;
-    error_set(&text, format, what);
-    error_set(&line, "%s: %s", to->options->scene_path, text.text);
+    char text[ERROR_TEXT_SIZE / 2];
+    struct error line;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    error_set(&line, "%s: %s", to->options->scene_path, text);
     print_warning(to, line.text);
-}
-
-static void warn_of_media(const struct scene *scene, struct job_loading *to)
-{
-    const struct light_set *l = &scene->lights;
-    struct error text;
-    error_set(&text, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the "
-                     "infinite and distant lights are", l->radius, l->center.x, l->center.y, l->center.z);
-    if (scene->media.ends)
-        warn(to, "%s", text.text);
 }
 
 /* The method asked for; pbrt's integrators that do not exist here are replaced by the default. */
@@ -149,32 +116,19 @@ static const struct method *choose_method(const struct scene *scene, struct job_
     const char *name = o->integrator != NULL ? o->integrator : scene->integrator != NULL ? scene->integrator : "bdpt";
     if (method_exists(name))
         return method_find(name, &scene->settings, err);
-    if (o->integrator == NULL) {
-        warn(to, "integrator \"%s\" does not exist here; bdpt is used, whose picture has all light up to maxdepth",
-             name);
-        return method_find("bdpt", &scene->settings, err);
+    if (o->integrator != NULL) {
+        integrator_unknown(name, err);
+        return NULL;
     }
-    struct error known;
-    integrator_unknown(name, &known);
-    if (in_laboratory(name))
-        error_usage(err, "--integrator %s is in asbdpt-lab", name);
-    else
-        error_usage(err, "--integrator %s does not exist; %s", name, known.text);
-    return NULL;
+    warn(to, "integrator \"%s\" does not exist here; bdpt is used, which computes all light up to maxdepth", name);
+    return method_find("bdpt", &scene->settings, err);
 }
 
 int job_open(struct job_loading *job, struct scene *scene, const struct method **method)
 {
     const struct job_options *o = job->options;
     struct error err;
-    struct message_sink sink = {print_warning, print_error, tell_place, job};
-    char *meant = file_meant(o->scene_path, ".pbrt");
-    if (meant != NULL) {
-        error_set(&err, "%s: there is no such file; did you mean %s?", o->scene_path, meant);
-        free(meant);
-        return fail(&err);
-    }
-    job->start = os_wall_seconds();
+    struct message_sink sink = {print_warning, print_error, job};
     if (!parse_scene(o->scene_path, o->integrator, scene, &sink, NULL))
         return EXIT_JOB;
     if (apply(o, scene, &err) && (*method = choose_method(scene, job, &err)) != NULL)
@@ -193,12 +147,13 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
     bool ok = parameters_belong(scene, readers, &err) &&
               parameters_read(scene, readers[0], o->max_depth, &read, &err);
     if (ok && scene->lights.n == 0)
-        warn(job, "%s", "there are no lights, so the picture is black");
-    if (ok) {
-        tell_size(o, &scene->geo);
+        warn(job, "there are no lights, so the image is black");
+    if (ok)
         scene_prepare(scene);
-        warn_of_media(scene, job);
-    }
+    const struct light_set *l = &scene->lights;
+    if (ok && scene->media.ends)
+        warn(job, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the infinite "
+             "and distant lights are", l->radius, l->center.x, l->center.y, l->center.z);
     if (ok && o->strict && job->n_warnings > 0)
         ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
     if (ok)

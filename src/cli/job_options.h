@@ -43,7 +43,6 @@ struct job_options {
     struct texts output; /* of render and worth */
     /* Of render alone: */
     const char *lights; /* directory or NULL */
-    const char *strategies; /* likewise; what the laboratory makes */
     bool alpha;
     const char *aov;        /* list or NULL */
     bool layers, seen;      /* they go into the picture's own file; see render/aov.h */
@@ -63,7 +62,6 @@ int job_load(const struct job_options *o, struct scene *scene, const struct meth
 struct job_loading {
     const struct job_options *options;
     int n_warnings; /* so far */
-    double start;   /* seconds of os_wall_seconds; infinite: it has been said that this takes long */
 };
 int job_open(struct job_loading *job, struct scene *scene, const struct method **method);
 int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene);
@@ -73,7 +71,7 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
 struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m);
 long job_spp(const struct job_options *o, const struct scene *scene);
 
-/* integrator_unknown: the rest of a message about an integrator that does not exist: the nearest and all. */
-void integrator_unknown(const char *wanted, struct error *out);
+/* integrator_unknown: the message about an integrator that does not exist. Returns false. */
+bool integrator_unknown(const char *wanted, struct error *err);
 
 #endif

@@ -10,7 +10,6 @@
 
 #include "base/mem.h"
 #include "image/picture.h"
-#include "parser/symbols.h"
 
 /* How far the arguments are read, and the option being read. */
 struct reader {
@@ -38,6 +37,15 @@ void texts_add(struct texts *texts, const char *text)
 {
     texts->item = mem_append(texts->item, (size_t)texts->n, sizeof *texts->item);
     texts->item[texts->n++] = text;
+}
+
+bool texts_differ(const struct texts *outputs, struct error *err)
+{
+    for (int i = 0; i < outputs->n; i++)
+        for (int k = 0; k < i; k++)
+            if (strcmp(outputs->item[i], outputs->item[k]) == 0)
+                return error_usage(err, "%s would be written twice", outputs->item[i]);
+    return true;
 }
 
 /* --- values ------------------------------------------------------------------------------------------- */
@@ -204,23 +212,13 @@ static const struct option *find(const struct option *table, const char *argumen
     return o;
 }
 
-static bool unknown_option(const struct option *table, const char *argument, struct error *err)
-{
-    struct suggestion s = suggest_start(argument);
-    for (const struct option *o = table; o != NULL; o = options_next(o))
-        if (o->name[1] == '-')
-            suggest_offer(&s, o->name);
-    return s.name == NULL ? error_set(err, "unknown option %s", argument)
-                          : error_set(err, "unknown option %s (did you mean %s?)", argument, s.name);
-}
-
 static bool read_option(struct reader *r, void *target)
 {
     const char *argument = r->argv[r->at];
     size_t length = argument[1] == '-' ? strcspn(argument, "=") : 2; /* of the name */
     const struct option *o = find(r->table, argument, length);
     if (o == NULL)
-        return unknown_option(r->table, argument, r->err);
+        return error_set(r->err, "unknown option %s", argument);
     r->option = r->seen[r->n_seen++] = o;
     r->attached = argument[length] == '\0' ? NULL : argument + length + (argument[length] == '=');
     if (!read_value(r, target_of(o, target)))
@@ -228,7 +226,8 @@ static bool read_option(struct reader *r, void *target)
     return r->attached == NULL || error_set(r->err, "%s: %s takes no value", argument, o->name);
 }
 
-const char *const *options_texts(const struct option *o, void *target, int *n)
+/* The texts that an option has, *n of them. */
+static const char *const *texts_of(const struct option *o, void *target, int *n)
 {
     const struct texts *texts = target_of(o, target);
     const char *const *one = target_of(o, target);
@@ -239,7 +238,7 @@ const char *const *options_texts(const struct option *o, void *target, int *n)
 static bool is_given(const struct option *o, void *target)
 {
     int n;
-    options_texts(o, target, &n);
+    texts_of(o, target, &n);
     return n > 0;
 }
 
@@ -273,10 +272,6 @@ static bool is_complete(const struct reader *r, void *target)
     for (int i = 0; i < r->n_seen; i++)
         if (r->seen[i]->with != NULL && !was_seen(r, r->seen[i]->with))
             return error_set(r->err, "%s has no effect without %s", r->seen[i]->name, r->seen[i]->with);
-    for (int i = 0; i < r->n_seen; i++)
-        for (int k = 0; k < r->n_seen; k++)
-            if (r->seen[i]->without != NULL && strstr(r->seen[i]->without, r->seen[k]->name) != NULL)
-                return error_set(r->err, "%s has no effect with %s", r->seen[k]->name, r->seen[i]->name);
     return true;
 }
 
@@ -295,6 +290,16 @@ bool options_read(const struct option *table, int argc, char **argv, void *targe
     ok = ok && is_complete(&r, target);
     free(r.seen);
     return ok;
+}
+
+void options_written(const struct option *table, void *target, struct texts *names)
+{
+    for (const struct option *o = table; o != NULL; o = options_next(o)) {
+        int n = 0;
+        const char *const *text = o->written ? texts_of(o, target, &n) : NULL;
+        for (int i = 0; i < n; i++)
+            texts_add(names, text[i]);
+    }
 }
 
 void options_free(const struct option *table, void *target)

@@ -35,9 +35,6 @@ enum option_kind {
     OPTION_LIST     /* so, too: all arguments up to the next option */
 };
 
-/* What is done with a file that a text names (names.h); FILE_KEPT: it is read if it is there, and written. */
-enum option_file { FILE_NONE, FILE_READ, FILE_WRITTEN, FILE_KEPT };
-
 /* What an option that may be repeated collects. */
 struct texts {
     const char **item; /* [n], owned array of borrowed strings */
@@ -53,9 +50,8 @@ struct option {
     const char *alias;           /* another name, or NULL */
     const char *fallback;        /* text of the default; NULL: the target stays zero */
     const char *help;            /* where one must be given: what it is, with an article */
-    enum option_file file;
+    bool written;                /* its texts name files that are written */
     const char *with;            /* the option without which this one has no effect, or NULL */
-    const char *without;         /* options that would have no effect beside it, with blanks between them, or NULL */
     const struct option *others; /* in the row without a name: the table that goes on, or NULL */
 };
 
@@ -70,13 +66,15 @@ const struct option *options_next(const struct option *option);
 bool options_read(const struct option *table, int argc, char **argv, void *target, struct error *err);
 void options_free(const struct option *table, void *target);
 
-/* options_texts: the texts that an option has in `target`, *n of them. options_print: the help of every row. */
-const char *const *options_texts(const struct option *option, void *target, int *n);
+/* options_written: append the names of all files that the options write. options_print: the help of every row. */
+void options_written(const struct option *table, void *target, struct texts *names);
 void options_print(const struct option *table);
 
 /* print_wrapped: words in lines of at most 100 columns; the first begins at `column`, the others at `indent`. */
 void print_wrapped(const char *text, int column, int indent);
 
+/* texts_differ: is no text there twice? False with a message on an output that would be written twice. */
 void texts_add(struct texts *texts, const char *text);
+bool texts_differ(const struct texts *outputs, struct error *err);
 
 #endif

@@ -51,7 +51,7 @@ struct tone_options {
 bool outputs_is_part(const char *name);
 bool outputs_possible(const char *name, struct error *err);
 
-/* outputs_open: begin to write pictures of these names, that names.h has found to be different files.
+/* outputs_open: begin to write pictures of these names, which differ.
  *   tone  of the 8-bit pictures, or NULL: as they are; if it changes anything, one of the pictures must be such
  * Returns false with a message; nothing is open then. After success outputs_abandon must follow in the end.
  * outputs_add: one more. False with a message. */

@@ -7,6 +7,4 @@ const struct program program = {
     "asbdpt", "Alias Sampled Bidirectional Path Tracing, a reference implementation",
     "Renders scenes of pbrt-v3 with path tracing, light tracing, bidirectional path tracing and its alias sampled kin; "
     "adds up and converts pictures. What describes, compares, explains and measures is asbdpt-lab.", COMMANDS,
-    &command_render,
-    " info compare trace worth strategies verify demo equal-time experiment family transient bench "
-    "lvc cbdpt mbdpt pcbdpt ris ris2 restir restirgi pathgraph pssmlt mmlt mlt ellipse regularise caustics vcm "};
+    &command_render};

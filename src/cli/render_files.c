@@ -31,14 +31,14 @@ bool aov_read(const char *list, struct aov_files *out, struct error *err)
     return true;
 }
 
-static bool open_one(const char *picture, enum aov which, struct names *all, struct outputs *out, struct error *err)
+static bool open_one(const char *picture, enum aov which, struct outputs *out, struct error *err)
 {
     const char *dot = strrchr(picture, '.'), *slash = os_last_separator(picture);
     int stem = dot != NULL && (slash == NULL || dot > slash) ? (int)(dot - picture) : (int)strlen(picture);
     size_t size = strlen(picture) + 20;
     char *name = mem_alloc(size, 1);
     snprintf(name, size, "%.*s.%s.pfm", stem, picture, aov_name(which));
-    bool ok = names_add(all, FILE_WRITTEN, "--aov", name, err) && outputs_add(out, name, false, err);
+    bool ok = outputs_add(out, name, false, err);
     free(name);
     return ok;
 }
@@ -53,7 +53,7 @@ static bool open_layers(struct aov_files *f, const struct outputs *pictures, str
     return ok && (f->out.n > 0 || error_usage(err, "--layers: no other format has them than .exr; name one by -o"));
 }
 
-bool aov_open(struct aov_files *f, bool layers, struct names *all, const struct outputs *pictures, struct error *err)
+bool aov_open(struct aov_files *f, bool layers, const struct outputs *pictures, struct error *err)
 {
     bool ok = true;
     f->layers = layers;
@@ -63,7 +63,7 @@ bool aov_open(struct aov_files *f, bool layers, struct names *all, const struct 
         const char *picture = pictures->item[0].file.path;
         if (f->wanted[i] && strcmp(picture, "-") == 0)
             return error_usage(err, "--aov needs a picture with a name (-o), to write beside it");
-        ok = !f->wanted[i] || open_one(picture, (enum aov)i, all, &f->out, err);
+        ok = !f->wanted[i] || open_one(picture, (enum aov)i, &f->out, err);
     }
     return ok;
 }
@@ -137,8 +137,7 @@ static char *picture_path(const char *directory, const struct light_set *lights,
     return out;
 }
 
-bool lights_open(const char *directory, const struct scene *scene, struct names *all, struct outputs *out,
-                 struct error *err)
+bool lights_open(const char *directory, const struct scene *scene, struct outputs *out, struct error *err)
 {
     const struct light_set *lights = &scene->lights;
     if (directory == NULL)
@@ -150,7 +149,7 @@ bool lights_open(const char *directory, const struct scene *scene, struct names 
     os_make_directory(directory); /* if that fails, creating a file says why */
     for (int i = 0; ok && i < lights->n_groups; i++) {
         char *path = picture_path(directory, lights, i);
-        ok = names_add(all, FILE_WRITTEN, "--lights", path, err) && outputs_add(out, path, false, err);
+        ok = outputs_add(out, path, false, err);
         if (ok)
             out->item[out->n - 1].plane = 1 + i;
         free(path);

@@ -4,7 +4,6 @@
 #define ASBDPT_RENDER_FILES_H
 
 #include "cli/job_options.h"
-#include "cli/names.h"
 #include "cli/outputs.h"
 #include "render/aov.h"
 
@@ -22,9 +21,8 @@ bool aov_read(const char *list, struct aov_files *out, struct error *err);
 
 /* aov_open: begin to write them beside the first of the pictures; as layers: is one of these an .exr? False with a
  * message.
- *   all       the files of the command; in-out
  *   pictures  those of the command */
-bool aov_open(struct aov_files *f, bool layers, struct names *all, const struct outputs *pictures, struct error *err);
+bool aov_open(struct aov_files *f, bool layers, const struct outputs *pictures, struct error *err);
 
 /* aov_write: make them when all pictures are written, which may be later overtaken by a signal, and write them.
  *   options, film  of the render that is done, and its progress; for the variance the film must have kept errors
@@ -36,8 +34,7 @@ bool aov_write(struct aov_files *f, const struct scene *scene, const struct rend
 
 /* lights_open: make the directory of --lights, NULL: nothing is done, and begin to write a picture of each group of
  * lights (scene/light.h) of a film that keeps them. False with a message. */
-bool lights_open(const char *directory, const struct scene *scene, struct names *all, struct outputs *out,
-                 struct error *err);
+bool lights_open(const char *directory, const struct scene *scene, struct outputs *out, struct error *err);
 
 /* How long a render took, and how many samples per pixel in that time. */
 struct render_times {

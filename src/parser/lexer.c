@@ -14,7 +14,7 @@ struct lexer lexer_start(const struct source_file *file, struct arena *arena, st
 
 static struct source_position position_of(const struct lexer *l, const char *at)
 {
-    return (struct source_position){l->file, l->line_start, l->line, (int)(at - l->line_start) + 1};
+    return (struct source_position){l->file, l->line, (int)(at - l->line_start) + 1};
 }
 
 /* To the first character of the next token. Every file text ends in a zero byte, which stops all loops. */

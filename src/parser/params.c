@@ -218,7 +218,7 @@ static rgb rgb_from_file(struct params *p, const struct param *item)
     char *path = scene_files_path(p->files, item->text[0], &inner);
     char *text = path != NULL ? scene_files_read(p->files, path, &size, &inner) : NULL;
     if (text != NULL) {
-        const struct source_file file = {path, text, text + size, item->position, false};
+        const struct source_file file = {path, text, text + size, false};
         colour = rgb_from_pairs(p, &file);
     } else {
         params_fail(p, item->position, "%s", inner.text);

@@ -37,23 +37,6 @@ bool parse_typed(struct parser *p)
     return parse_string(p, &type, "a type") && parse_list(p, p->directive.text, &type);
 }
 
-bool parse_newer(struct parser *p, struct source_position at, const char *name)
-{
-    static const char *const NEWER[] = {
-        "Option", "Attribute", "ColorSpace", /* directives; then types of films, cameras, samplers, shapes, materials */
-        "rgb", "gbuffer", "spectral", "spherical", "zsobol", "independent", "paddedsobol", "pmj02bn", "bilinearmesh",
-        "diffuse", "coateddiffuse", "diffusetransmission", "conductor", "coatedconductor", "dielectric",
-        "thindielectric", "interface"};
-    for (size_t i = 0; i < sizeof NEWER / sizeof NEWER[0]; i++)
-        if (strcmp(NEWER[i], name) == 0) {
-            source_error(&p->messages, at, "\"%s\" is of pbrt-v4, whose files are not read; take the version of this "
-                         "scene that was made for pbrt-v3", name);
-            p->phase = GIVEN_UP;
-            return true;
-        }
-    return false;
-}
-
 int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
                 const char *instead)
 {
@@ -70,33 +53,24 @@ int parse_named(struct parser *p, struct token *name, const struct symbols *tabl
 bool parse_type(struct parser *p, const struct object_type *types)
 {
     struct params *q = &p->params;
-    char known[256] = "", hint[SUGGESTION_SIZE];
-    struct suggestion near = suggest_start(q->type);
+    char known[256] = "";
     for (; types->name != NULL; types++) {
         p->type = *types;
         if (strcmp(types->name, q->type) == 0)
             return true;
-        suggest_offer(&near, types->name);
         strncat(known, known[0] != '\0' ? ", " : "", sizeof known - strlen(known) - 1);
         strncat(known, types->name, sizeof known - strlen(known) - 1);
     }
-    if (parse_newer(p, q->position, q->type))
-        return false;
-    return type_error(q, "%s \"%.40s\" is not supported; use one of %s%s", q->directive, q->type, known,
-                      suggestion_text(&near, hint));
+    return type_error(q, "%s \"%.40s\" is not supported; use one of %s", q->directive, q->type, known);
 }
 
-/* A parameter nobody asked for: is its name known, or is another near? */
+/* A parameter nobody asked for: is its name known? */
 static void warn_of_unused(struct parser *p, const struct param *item)
 {
-    struct suggestion near = suggest_start(item->name);
-    char hint[SUGGESTION_SIZE];
-    for (const struct field *f = p->type.fields; f->name != NULL; f++)
-        suggest_offer(&near, f->name);
-    bool same = near.name != NULL && strcmp(near.name, item->name) == 0;
+    bool same = field_find(p->type.fields, item->name) != NULL;
     source_warn(&p->messages, item->position, "parameter \"%s %.40s\" of %s \"%s\" is not used%s",
                 params_type_name(item->type), item->name, p->params.directive, p->params.type,
-                same ? "; that has another type, or no meaning here" : suggestion_text(&near, hint));
+                same ? "; that has another type, or no meaning here" : "");
 }
 
 bool parse_done(struct parser *p)

@@ -75,7 +75,7 @@ struct shape_list {
 enum { MAX_INCLUDE_DEPTH = 32 };
 
 /* Where a directive may stand. */
-enum phase { BEFORE_WORLD = 1, IN_WORLD = 2, AFTER_WORLD = 4, GIVEN_UP = 8, ANYWHERE = BEFORE_WORLD | IN_WORLD };
+enum phase { BEFORE_WORLD = 1, IN_WORLD = 2, AFTER_WORLD = 4, ANYWHERE = BEFORE_WORLD | IN_WORLD };
 
 struct parser;
 
@@ -152,10 +152,6 @@ bool parse_list(struct parser *p, const char *directive, const struct token *typ
 bool parse_typed(struct parser *p);
 int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
                 const char *instead);
-
-/* parse_newer: whether this name, unknown here, is one of pbrt-v4. If so, that is said and reading ends: whatever else
- * stands in the file is not meant for us either. */
-bool parse_newer(struct parser *p, struct source_position at, const char *name);
 
 /* parse_placed: can anything stand where the current transform puts it? False with a message if not. */
 bool parse_placed(struct parser *p);

@@ -39,32 +39,25 @@ static const struct directive *const TABLES[] = {SHAPE_DIRECTIVES,   MATERIAL_DI
                                                  LIGHT_DIRECTIVES,   TEXTURE_DIRECTIVES,  MEDIUM_DIRECTIVES,
                                                  FILE_DIRECTIVES,    OPTION_DIRECTIVES,   NULL};
 
-/* The directive of this name, or NULL. Every name passed on the way is offered to *near, unless that is NULL. */
-static const struct directive *find_directive(const char *name, struct suggestion *near)
+/* The directive of this name, or NULL. */
+static const struct directive *find_directive(const char *name)
 {
     for (const struct directive *const *table = TABLES; *table != NULL; table++)
-        for (const struct directive *d = *table; d->name != NULL; d++) {
+        for (const struct directive *d = *table; d->name != NULL; d++)
             if (strcmp(d->name, name) == 0)
                 return d;
-            if (near != NULL)
-                suggest_offer(near, d->name);
-        }
     return NULL;
 }
 
 static bool unknown_directive(struct parser *p)
 {
     const struct token *t = &p->directive;
-    char found[64], hint[SUGGESTION_SIZE];
+    char found[64];
     token_text(t, found, sizeof found);
     if (t->kind != TOKEN_WORD)
         return source_error(&p->messages, t->position, "here should be a directive like Shape, not %s", found);
-    if (parse_newer(p, t->position, t->text))
-        return false;
-    struct suggestion near = suggest_start(t->text);
-    find_directive(t->text, &near);
-    return source_error(&p->messages, t->position, "unknown directive %s%s", found,
-                        near.name != NULL ? suggestion_text(&near, hint) : "; doc/scene-format.md lists them");
+    return source_error(&p->messages, t->position, "unknown directive %s; doc/scene-format.md lists those of pbrt-v3",
+                        found);
 }
 
 static bool wrong_phase(struct parser *p, const struct directive *d)
@@ -78,10 +71,10 @@ static bool wrong_phase(struct parser *p, const struct directive *d)
 static bool run_directive(struct parser *p)
 {
     const struct token *t = &p->directive;
-    const struct directive *d = t->kind == TOKEN_WORD ? find_directive(t->text, NULL) : NULL;
+    const struct directive *d = t->kind == TOKEN_WORD ? find_directive(t->text) : NULL;
     if (d == NULL)
         return unknown_directive(p);
-    p->source[p->n_sources - 1]->quotable = true;
+    p->source[p->n_sources - 1]->is_scene = true;
     if ((d->phase & p->phase) == 0)
         return wrong_phase(p, d);
     if (d->types != NULL && !(parse_typed(p) && parse_type(p, d->types)))
@@ -101,12 +94,10 @@ static void run_source(struct parser *p)
                                 p->phase == BEFORE_WORLD ? "WorldBegin" : "WorldEnd");
             return;
         }
-        if (p->messages.sink != NULL && p->messages.sink->place != NULL)
-            p->messages.sink->place(p->messages.sink->context, t->position);
         ok = ok && run_directive(p);
-        if (!p->source[p->n_sources - 1]->quotable)
+        if (!p->source[p->n_sources - 1]->is_scene)
             return;
-        if (!ok && p->phase != GIVEN_UP)
+        if (!ok)
             lexer_resume(&p->lexer);
     }
     if (p->phase == AFTER_WORLD && lexer_peek(&p->lexer) != TOKEN_END)
@@ -115,24 +106,22 @@ static void run_source(struct parser *p)
 
 /* --- files -------------------------------------------------------------------------------------------- */
 
-/* Read a file and carry it out. Its name lives as long as the parser, for all places in it; its text does not: of a
- * place in a file that has been closed no line is quoted. Returns false with a message in *err if it cannot be read. */
-static bool run_file(struct parser *p, const char *path, struct source_position included_at, struct error *err)
+/* Read a file and carry it out. Its name lives as long as the parser, for all places in it; its text does not. Returns
+ * false with a message in *err if it cannot be read. */
+static bool run_file(struct parser *p, const char *path, struct error *err)
 {
     size_t size;
     char *text = scene_files_read(&p->named, path, &size, err);
     if (text == NULL)
         return false;
     struct source_file *source = arena_alloc(&p->arena, sizeof *source);
-    *source = (struct source_file){arena_text(&p->arena, path), text, text + size, included_at,
-                                   included_at.file == NULL};
+    *source = (struct source_file){arena_text(&p->arena, path), text, text + size, p->n_sources == 0};
     struct lexer outer = p->lexer;
     p->lexer = lexer_start(source, &p->arena, &p->messages);
     p->source[p->n_sources++] = source;
     run_source(p);
     p->n_sources--;
     p->lexer = outer;
-    source->quotable = false;
     free(text);
     return true;
 }
@@ -153,7 +142,7 @@ static bool include(struct parser *p)
     for (int i = 0; i < p->n_sources && ok; i++)
         if (strcmp(p->source[i]->path, path) == 0)
             ok = source_error(&p->messages, name.position, "this file is being read already; it cannot include itself");
-    if (ok && !run_file(p, path, name.position, &inner))
+    if (ok && !run_file(p, path, &inner))
         ok = source_error(&p->messages, name.position, "%s", inner.text);
     free(path);
     return ok;
@@ -201,13 +190,12 @@ static void finish(struct parser *p)
 bool parse_scene(const char *path, const char *integrator, struct scene *out, const struct message_sink *sink,
                  struct error *err)
 {
-    static const struct source_position NOWHERE = {NULL, NULL, 0, 0};
     struct parser *p = mem_alloc(1, sizeof *p); /* too large for a small stack: tables of names */
     struct error first;
     scene_init(out);
     p->integrator = integrator;
     start(p, path, out, sink, err != NULL ? err : &first);
-    if (!run_file(p, path, NOWHERE, p->messages.err))
+    if (!run_file(p, path, p->messages.err))
         messages_report(&p->messages);
     bool ok = p->messages.errors.n == 0;
     finish(p);

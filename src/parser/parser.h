@@ -1,7 +1,7 @@
 /* parser.h: from a pbrt-v3 scene file to a scene.
  *
- * The subset is listed in doc/scene-format.md. What would change the picture is refused with "FILE:LINE:COL: ..." and
- * the line with a caret under the column; where the picture is pbrt-v3's all the same, a warning says what is done.
+ * The subset is listed in doc/scene-format.md. What would change the picture is refused with "FILE:LINE:COL: ...";
+ * where the picture is pbrt-v3's all the same, a warning says what is done.
  * After an error reading goes on, so that one run finds all, up to MOST_ERRORS.
  * Tests: test_parser.c, whose fixtures carry the error they expect. */
 #ifndef ASBDPT_PARSER_H

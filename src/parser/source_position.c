@@ -8,64 +8,17 @@
 
 #include "base/mem.h"
 
-enum { SHOWN_COLUMNS = 110 };
-
-/* Append to a text [ERROR_TEXT_SIZE]. */
-static void append_args(char *text, const char *format, va_list args)
+/* Is this sentence to be given once more? */
+static bool is_new(struct given *g, int most, const char *sentence)
 {
-    size_t used = strlen(text);
-    vsnprintf(text + used, ERROR_TEXT_SIZE - used, format, args);
-    error_clean(text + used);
-}
-
-static void append(char *text, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    append_args(text, format, args);
-    va_end(args);
-}
-
-/* The only line breaks of a message are these: error_clean takes all others. */
-static void append_line_break(char *text) { strncat(text, "\n  ", ERROR_TEXT_SIZE - 1 - strlen(text)); }
-
-/* The part of the line around the column, and a caret under it. Tabs and the like become one blank each; bytes outside
- * ASCII are written, and so cleaned, one by one, whereby one byte stays one column. */
-static void append_excerpt(char *text, struct source_position at)
-{
-    const char *begin = at.line_start, *caret = at.line_start + (at.column - 1);
-    if (caret - begin > SHOWN_COLUMNS * 3 / 4)
-        begin = caret - SHOWN_COLUMNS / 2;
-    const char *end = begin;
-    while (end < at.file->end && *end != '\n' && *end != '\r' && end - begin < SHOWN_COLUMNS)
-        end++;
-    append_line_break(text);
-    for (const char *p = begin; p < end; p++)
-        append(text, "%c", (unsigned char)*p < ' ' ? ' ' : *p);
-    append_line_break(text);
-    append(text, "%*s^", (int)(caret - begin), "");
-}
-
-static void append_includes(char *text, const struct source_file *file)
-{
-    for (; file->included_at.file != NULL; file = file->included_at.file) {
-        append_line_break(text);
-        append(text, "included from %s:%d", file->included_at.file->path, file->included_at.line);
-    }
-}
-
-/* Is this text to be given, whose sentence begins after its place? */
-static bool is_new(struct given *g, int most, const char *text, const char *sentence)
-{
-    int alike = g->n == most ? MOST_ALIKE : 0;
-    for (int i = 0; i < g->n && alike < MOST_ALIKE; i++)
-        alike = strcmp(g->text[i], text) == 0 ? MOST_ALIKE : alike + (strcmp(g->text[i] + g->place[i], sentence) == 0);
-    if (alike == MOST_ALIKE) {
+    int alike = 0;
+    for (int i = 0; i < g->n; i++)
+        alike += strcmp(g->sentence[i], sentence) == 0;
+    if (g->n == most || alike == MOST_ALIKE) {
         g->more++;
         return false;
     }
-    g->place[g->n] = sentence - text;
-    g->text[g->n++] = mem_copy_text(text);
+    g->sentence[g->n++] = mem_copy_text(sentence);
     return true;
 }
 
@@ -77,48 +30,39 @@ static void tell(const struct messages *m, bool error, const char *text)
         say(to->context, text);
 }
 
-/* "FILE:LINE:COL: message" to text [ERROR_TEXT_SIZE]. Is this sentence to be given? */
-static bool begin(struct given *g, int most, struct source_position at, const char *format, va_list args, char *text)
+static void give(struct messages *m, bool error, struct source_position at, const char *format, va_list args)
 {
-    text[0] = '\0';
-    append(text, "%s:%d:%d: ", at.file->path, at.line, at.column);
-    const char *sentence = text + strlen(text);
-    append_args(text, format, args);
-    return is_new(g, most, text, sentence);
+    char sentence[ERROR_TEXT_SIZE];
+    struct error full;
+    vsnprintf(sentence, sizeof sentence, format, args);
+    if (!is_new(error ? &m->errors : &m->warnings, error ? MOST_ERRORS : MOST_WARNINGS, sentence))
+        return;
+    error_set(&full, "%s:%d:%d: %s", at.file->path, at.line, at.column, sentence);
+    if (error && m->err != NULL && m->errors.n == 1)
+        *m->err = full;
+    tell(m, error, full.text);
 }
 
 bool source_error(struct messages *m, struct source_position at, const char *format, ...)
 {
-    struct error full = {.usage = false};
     va_list args;
     va_start(args, format);
-    bool new = begin(&m->errors, MOST_ERRORS, at, format, args, full.text);
+    give(m, true, at, format, args);
     va_end(args);
-    if (!new)
-        return false;
-    if (at.file->quotable)
-        append_excerpt(full.text, at);
-    append_includes(full.text, at.file);
-    if (m->err != NULL && m->errors.n == 1)
-        *m->err = full;
-    tell(m, true, full.text);
     return false;
 }
 
 void source_warn(struct messages *m, struct source_position at, const char *format, ...)
 {
-    char text[ERROR_TEXT_SIZE];
     va_list args;
     va_start(args, format);
-    bool new = begin(&m->warnings, MOST_WARNINGS, at, format, args, text);
+    give(m, false, at, format, args);
     va_end(args);
-    if (new)
-        tell(m, false, text);
 }
 
 void messages_report(struct messages *m)
 {
-    is_new(&m->errors, MOST_ERRORS, m->err->text, m->err->text);
+    is_new(&m->errors, MOST_ERRORS, m->err->text);
     tell(m, true, m->err->text);
 }
 
@@ -129,7 +73,7 @@ static void end(const struct messages *m, struct given *g, bool error)
     if (g->more > 0)
         tell(m, error, text);
     while (g->n > 0)
-        free(g->text[--g->n]);
+        free(g->sentence[--g->n]);
 }
 
 void messages_end(struct messages *m)

@@ -1,7 +1,6 @@
-/* source_position.h: where something stands in a scene file, and messages that point there.
+/* source_position.h: where something stands in a scene file, and messages that say so.
  *
- * Every token knows its position, so every message can say FILE:LINE:COL, show the line and put a caret under the
- * column. It points into the text of the file, which is there while the file is read.
+ * Every token knows its position, so every message begins with FILE:LINE:COL.
  * Tests: test_parser.c. */
 #ifndef ASBDPT_SOURCE_POSITION_H
 #define ASBDPT_SOURCE_POSITION_H
@@ -11,30 +10,24 @@
 
 #include "base/error.h"
 
-struct source_file;
+/* One reading of a file. */
+struct source_file {
+    const char *path;
+    const char *text, *end; /* end[0] is a zero byte that does not belong to the file */
+    bool is_scene;          /* the main file, or one that begins with a directive */
+};
 
 /* A column of a line of a file. */
 struct source_position {
     const struct source_file *file;
-    const char *line_start; /* first character of the line, inside file->text */
-    int line, column;       /* from 1; a tab counts as one column */
+    int line, column; /* from 1; a tab counts as one column */
 };
 
-/* One reading of a file. */
-struct source_file {
-    const char *path;
-    const char *text, *end;  /* end[0] is a zero byte that does not belong to the file */
-    struct source_position included_at; /* the Include directive; included_at.file is NULL for the main file */
-    bool quotable; /* being read, and the main file or one that begins with a directive. Messages quote no line of
-                    * another: it may be a file that is none of the scene's business */
-};
-
-/* Functions that receive each warning (one line) and each error (with its excerpt), without newline at the end, and the
- * place of each directive before it is carried out; `context` is passed through. Each may be NULL. */
+/* Functions that receive each warning and each error, one line without newline at the end; `context` is passed through.
+ * Each may be NULL. */
 struct message_sink {
     void (*warn)(void *context, const char *text);
     void (*error)(void *context, const char *text);
-    void (*place)(void *context, struct source_position at);
     void *context;
 };
 
@@ -42,8 +35,7 @@ enum { MOST_ERRORS = 20, MOST_WARNINGS = 100, MOST_ALIKE = 3 };
 
 /* The messages that have been given, and how many were not. */
 struct given {
-    char *text[MOST_WARNINGS];      /* [n], owned */
-    ptrdiff_t place[MOST_WARNINGS]; /* [n], how many characters say where it is */
+    char *sentence[MOST_WARNINGS]; /* [n], without their places; owned */
     int n;
     long more;
 };
@@ -56,8 +48,7 @@ struct messages {
     struct given errors, warnings;   /* all zeros at first */
 };
 
-/* source_error: "FILE:LINE:COL: message", the line, a caret under the column, and from where the file was included.
- * Returns false, always. source_warn: the first line of such a message. */
+/* source_error: "FILE:LINE:COL: message". Returns false, always. source_warn: the same as a warning. */
 bool source_error(struct messages *m, struct source_position at, const char *format, ...);
 void source_warn(struct messages *m, struct source_position at, const char *format, ...);
 

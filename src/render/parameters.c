@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "parser/symbols.h"
 
 /* What all integrators have. */
 struct common {
@@ -152,24 +151,6 @@ bool parameters_max_depth(const struct scene *scene, int wanted, int *out, struc
     return ok;
 }
 
-static void offer(struct suggestion *s, const struct field *p)
-{
-    for (; p->name != NULL; p++)
-        suggest_offer(s, p->name);
-}
-
-static bool unknown(const struct setting *item, struct error *err)
-{
-    struct suggestion s = suggest_start(item->name);
-    suggest_offer(&s, "select");
-    offer(&s, COMMON);
-    for (const struct method *const *m = method_rows; *m != NULL; m++)
-        offer(&s, method_parameters(*m));
-    bool near = s.name != NULL;
-    return error_usage(err, "%s: no integrator has a parameter \"%s\"%s%s%s; asbdpt help integrators lists them",
-                     item->origin, item->name, near ? " (did you mean " : "", near ? s.name : "", near ? "?)" : "");
-}
-
 /* "asbdpt", or "asbdpt with select=bins" where a name has several rows, which `select` itself belongs to alike. */
 static void name_method(const struct method *m, const char *parameter, char *out, size_t size)
 {
@@ -186,7 +167,8 @@ bool parameters_belong(const struct scene *scene, const struct method *const *re
         if (setting_is_of_file(item) || owner(readers, item->name, NULL) != NULL)
             continue;
         if (has == NULL)
-            return unknown(item, err);
+            return error_usage(err, "%s: no integrator has a parameter \"%s\"; asbdpt help integrators lists them",
+                               item->origin, item->name);
         name_method(has, item->name, whose, sizeof whose);
         name_method(readers[0], item->name, here, sizeof here);
         return error_usage(err, "-P: \"%s\" is a parameter of %s, not of %s; see --integrator", item->name, whose,

@@ -280,7 +280,7 @@ static void hear(void *context, const char *text)
 static void fuzz_scene(const uint8_t *data, size_t size, const char *directory)
 {
     char *path = put_file(directory, "scene.pbrt", data, size);
-    struct message_sink sink = {hear, hear, NULL, NULL};
+    struct message_sink sink = {hear, hear, NULL};
     struct scene scene;
     struct error err = {.text = ""};
     if (parse_scene(path, NULL, &scene, &sink, &err)) {

@@ -62,10 +62,9 @@ struct bench_options {
 
 #define AT(member) offsetof(struct bench_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), 1, .file = FILE_READ, .help = "at least one scene"},
-    {"--json", "FILE", OPTION_TEXT, AT(json), .file = FILE_WRITTEN, .help = "write the figures"},
-    {"--baseline", "FILE", OPTION_TEXT, AT(baseline), .file = FILE_READ,
-     .help = "such a file, to print what has changed since"},
+    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), 1, .help = "at least one scene"},
+    {"--json", "FILE", OPTION_TEXT, AT(json), .written = true, .help = "write the figures"},
+    {"--baseline", "FILE", OPTION_TEXT, AT(baseline), .help = "such a file, to print what has changed since"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1000, .fallback = "8", .help = "samples per pixel"},
     {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, 1000, .fallback = "8", .help = "longest path"},
     {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1000, .alias = "-j", .fallback = "2", .help = "all threads"},

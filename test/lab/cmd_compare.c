@@ -17,9 +17,9 @@ struct compare_options {
 
 #define AT(member) offsetof(struct compare_options, member)
 static const struct option OPTIONS[] = {
-    {"IMAGE", NULL, OPTION_TEXT, AT(image), 1, .file = FILE_READ, .help = "a picture"},
-    {"REFERENCE", NULL, OPTION_TEXT, AT(reference), 1, .file = FILE_READ, .help = "a picture of the same size"},
-    {"--heatmap", "FILE.png", OPTION_TEXT, AT(heatmap), .file = FILE_WRITTEN,
+    {"IMAGE", NULL, OPTION_TEXT, AT(image), 1, .help = "a picture"},
+    {"REFERENCE", NULL, OPTION_TEXT, AT(reference), 1, .help = "a picture of the same size"},
+    {"--heatmap", "FILE.png", OPTION_TEXT, AT(heatmap), .written = true,
      .help = "write where they differ, as colours (viridis)"},
     {"--max", "X", OPTION_NUMBER, AT(most), 1e-30, 1e30, .with = "--heatmap",
      .help = "the brightest colour stands for this error (default: that of --percentile)"},

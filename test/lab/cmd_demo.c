@@ -18,8 +18,8 @@ enum { REFERENCE_TIMES = 32 }; /* as many samples as the first picture has */
 
 #define AT(member) offsetof(struct demo_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene), 1, .file = FILE_READ, .help = "a scene"},
-    {"--outfile", "FILE.png", OPTION_TEXTS, AT(output), 1, .alias = "-o", .file = FILE_WRITTEN,
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene), 1, .help = "a scene"},
+    {"--outfile", "FILE.png", OPTION_TEXTS, AT(output), 1, .alias = "-o", .written = true,
      .help = "a picture to write"},
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .fallback = METHODS_DEMO, .help = METHODS_HELP},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "24",
@@ -27,7 +27,7 @@ static const struct option OPTIONS[] = {
     {"--scale", "K", OPTION_INTEGER, AT(plan.scale), 1, 64, .fallback = "1",
      .help = "the pictures are K times as wide and high as the reference"},
     {"--reference", "PATH", OPTION_TEXT, AT(plan.reference),
-     .file = FILE_READ, .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene, else rendered)"},
+     .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene, else rendered)"},
     {"--nthreads", "N", OPTION_INTEGER, AT(plan.n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
     {"--seed", "N", OPTION_SEED, AT(plan.seed), .fallback = "0", .help = "another set of random numbers"},
     {"--quiet", NULL, OPTION_ON, AT(plan.quiet), .help = "no messages"},

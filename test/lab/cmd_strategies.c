@@ -19,7 +19,7 @@ struct strategies_options {
 
 #define AT(member) offsetof(struct strategies_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .file = FILE_READ, .help = "a scene file"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
     {"-o", "DIR", OPTION_TEXT, AT(directory), 1,
      .help = "a directory for d01_s00_t03_weighted.pfm and so on, and pyramid.png"},
     {.others = RUN_OPTIONS},

@@ -16,14 +16,14 @@ struct trace_options {
 
 #define AT(member) offsetof(struct trace_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .file = FILE_READ, .help = "a scene file"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
     {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "of the film, 0,0 top left"},
     {"--sample", "K", OPTION_INTEGER, AT(sample), 0, 1 << 30, .fallback = "0", .help = "which, from 0"},
-    {"--worst", "N", OPTION_INTEGER, AT(worst), 1, WORST_MOST, .without = "--pixel --sample",
+    {"--worst", "N", OPTION_INTEGER, AT(worst), 1, WORST_MOST,
      .help = "instead, the N samples of a render that bring most to a pixel, found by rendering"},
     {"--all", NULL, OPTION_ON, AT(all), .help = "every vertex, density and connection, and what the columns mean"},
     {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
-    {"--svg", "FILE", OPTION_TEXT, AT(svg), .file = FILE_WRITTEN, .help = "also draw the paths within the scene"},
+    {"--svg", "FILE", OPTION_TEXT, AT(svg), .written = true, .help = "also draw the paths within the scene"},
     {.others = RUN_OPTIONS},
 };
 

@@ -23,7 +23,7 @@ struct transient_options {
 
 #define AT(member) offsetof(struct transient_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .file = FILE_READ, .help = "a scene file"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
     {"-o", "DIR", OPTION_TEXT, AT(directory), 1, .help = "a directory for gate000.pfm ... and transient.png"},
     {"--gates", "N", OPTION_INTEGER, AT(n), 1, 256, .fallback = "16", .help = "how many pictures"},
     {"--gate", "L0:L1", OPTION_LENGTHS, AT(range), 0, 1e30, .help = "what they divide (default: where light is)"},

@@ -14,8 +14,8 @@ struct worth_options {
 
 #define AT(member) offsetof(struct worth_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .file = FILE_READ, .help = "a scene file"},
-    {"-o", "FILE.png", OPTION_TEXTS, AT(job.output), 1, .alias = "--outfile", .file = FILE_WRITTEN,
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
+    {"-o", "FILE.png", OPTION_TEXTS, AT(job.output), 1, .alias = "--outfile", .written = true,
      .help = "a picture to write"},
     {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "where the surface is seen"},
     {"--scale", "K", OPTION_INTEGER, AT(scale), 1, 16, .fallback = "2", .help = "a pixel becomes KxK"},

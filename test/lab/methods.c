@@ -45,11 +45,8 @@ static bool check(const struct measured *m, struct error *err)
 {
     struct scene none = {.settings = {0}};
     struct settings *s = &none.settings;
-    struct error known;
-    if (!method_exists(m->integrator)) {
-        integrator_unknown(m->integrator, &known);
-        return error_set(err, "there is no method %s; %s", m->integrator, known.text);
-    }
+    if (!method_exists(m->integrator))
+        return integrator_unknown(m->integrator, err);
     bool ok = set_pairs(m->text, s, err);
     const struct method *row = ok ? method_find(m->integrator, s, err) : NULL;
     for (int i = 0; row != NULL && ok && i < s->n; i++)
