@@ -68,14 +68,15 @@ $(BUILD)/obj/%.o: src/%.c
 install uninstall: export TO_BIN = $(DESTDIR)$(PREFIX)/bin
 install uninstall: export TO_MAN = $(DESTDIR)$(MANDIR)
 
-install: asbdpt ## install the program and its man page below PREFIX (/usr/local), itself below DESTDIR
-	umask 022 && mkdir -p "$$TO_BIN" "$$TO_MAN" && install -m 755 asbdpt "$$TO_BIN/asbdpt" && \
-	    { printf '.TH asbdpt 1\n.SH NAME\nasbdpt \\- bidirectional path tracing\n.SH DESCRIPTION\n.nf\n' && \
-	    $(PROGRAM) help all | sed 's/\\/\\e/g; s/-/\\-/g; s/^/\\\&/'; } >"$$TO_MAN/asbdpt.1" && \
-	    chmod 644 "$$TO_MAN/asbdpt.1"
+install: all ## install both programs and their man pages below PREFIX (/usr/local), itself below DESTDIR
+	umask 022 && mkdir -p "$$TO_BIN" "$$TO_MAN" && for name in asbdpt asbdpt-lab; do \
+	    install -m 755 $$name "$$TO_BIN/$$name" && \
+	    { printf '.TH %s 1\n.SH NAME\n%s \\- bidirectional path tracing\n.SH DESCRIPTION\n.nf\n' $$name $$name && \
+	    ./$$name help all | sed 's/\\/\\e/g; s/-/\\-/g; s/^/\\\&/'; } >"$$TO_MAN/$$name.1" && \
+	    chmod 644 "$$TO_MAN/$$name.1" || exit; done
 
 uninstall: ## remove what install put there
-	rm -f "$$TO_BIN/asbdpt" "$$TO_MAN/asbdpt.1"
+	rm -f "$$TO_BIN/asbdpt" "$$TO_MAN/asbdpt.1" "$$TO_BIN/asbdpt-lab" "$$TO_MAN/asbdpt-lab.1"
 
 demo: ## build both programs with all cores, and render the corridor by bdpt and asbdpt in the same time: out/demo.png
 	@$(MAKE) -j$$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) asbdpt asbdpt-lab
@@ -149,9 +150,9 @@ measured: ## check that the documents show the numbers that are stored, and say 
 	@sh test/evidence.sh check
 
 .PHONY: limits
-limits: ## check that doc/SECURITY.md says what the limits of the program are
+limits: ## check that SECURITY.md says what the limits of the program are
 	@sh test/limits.sh
-	@sed 's/65536/65535/' doc/SECURITY.md | sh test/limits.sh /dev/stdin >/dev/null && echo "a wrong limit is not noticed" && exit 1; true
+	@sed 's/65536/65535/' SECURITY.md | sh test/limits.sh /dev/stdin >/dev/null && echo "a wrong limit is not noticed" && exit 1; true
 
 columns: ## check that no line is longer than .clang-format allows, and that all are ASCII
 	@sh test/columns.sh

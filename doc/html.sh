@@ -85,7 +85,7 @@ page() {
     [ -d "$out/${1%"$rest"}" ] || mkdir -p "$out/${1%"$rest"}"
     case $1 in
     *.md) math=0 && case $1 in README.md) math=2 ;;
-        doc/tour/* | doc/course/* | doc/selection.md | doc/add-a-method.md) math=1 ;; esac
+        doc/tour/* | doc/course/* | doc/method.md | doc/dissertation.md | doc/design-notes.md | doc/add-a-method.md) math=1 ;; esac
         awk -v root="$root" -v math=$math -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -f doc/math.awk -f doc/html.awk "$1" \
             >"$out/${1%.md}.html" ;;
     *.png | *.svg | *.html) cp "$1" "$out/$1" ;;

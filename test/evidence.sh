@@ -105,12 +105,12 @@ notes() {
                 if (of["of"] ~ /^tree/) print "*" of["samples"] ": `sh test/evidence.sh run " name "`.*"
                 else
                     print "*" of["samples"] "; estimator " of["estimator"] ", commit " of["commit"] ", " of["date"] \
-                        "; " of["machine"] "; CPU minutes: " of["minutes"] "; `sh test/evidence.sh run " name "`.*"
+                        "; " of["machine"] "; " of["minutes"] " CPU minutes; `sh test/evidence.sh run " name "`.*"
             }' "$file")
         if old "$file" "$name"; then
             was=$(head_of "$file" estimator)
-            echo "$name **Of estimator $was, which made other pictures than the source's, $estimator.** $said"
-            echo "$name+ (of estimator $was)"
+            echo "$name **Older than the program: estimator $was, now $estimator.** $said"
+            echo "$name+ (estimator $was)"
         else
             echo "$name $said"
         fi

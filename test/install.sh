@@ -1,9 +1,9 @@
 #!/bin/sh
-# install.sh: make install puts two files where it is told, whatever the path and the umask, and make uninstall removes
-# these and nothing else. Run from the top: sh test/install.sh ./asbdpt
+# install.sh: make install puts both programs and their man pages where it is told, whatever the path and the umask, and
+# make uninstall removes these and nothing else. Run from the top: sh test/install.sh ./asbdpt
 . test/expect.sh
 make=${MAKE:-make}
-run() { (cd "$top" && umask 077 && "$make" -s -o asbdpt "$1" PROGRAM="$program" DESTDIR="$here" PREFIX="$2"); }
+run() { (cd "$top" && umask 077 && "$make" -s -o all "$1" DESTDIR="$here" PREFIX="$2"); }
 
 for name in plain 'two words' "it's \"quoted\"; exit 3"; do
     here=$dir/$name/root prefix="/usr/$name"
@@ -11,15 +11,19 @@ for name in plain 'two words' "it's \"quoted\"; exit 3"; do
     echo mine >two # what uninstall would take for the path before the blank
     expect 0 '' run install "$prefix"
     cat >wanted.txt <<END
+-rw-r--r-- $here$prefix/share/man/man1/asbdpt-lab.1
 -rw-r--r-- $here$prefix/share/man/man1/asbdpt.1
 -rwxr-xr-x $here$prefix/bin/asbdpt
+-rwxr-xr-x $here$prefix/bin/asbdpt-lab
 END
     find "$name" -type f -exec ls -l {} + | sed "s|^\([-rwx]*\).* $name/|\1 $dir/$name/|" | LC_ALL=C sort >found.txt
     cmp -s wanted.txt found.txt || fault "$name: installed are $(cat found.txt)"
     check [ -z "$(find "$name" -mindepth 1 -type d ! -perm 755)" ]
-    expect 0 '' "$here$prefix/bin/asbdpt" --version
-    check grep -q '^.TH asbdpt 1' "$here$prefix/share/man/man1/asbdpt.1"
-    check grep -q -e '\\-\\-cropwindow' "$here$prefix/share/man/man1/asbdpt.1"
+    for made in asbdpt asbdpt-lab; do
+        expect 0 '' "$here$prefix/bin/$made" --version
+        check grep -q "^.TH $made 1" "$here$prefix/share/man/man1/$made.1"
+        check grep -q -e '\\-\\-cropwindow' "$here$prefix/share/man/man1/$made.1"
+    done
     echo mine >"$here$prefix/bin/other"
     expect 0 '' run uninstall "$prefix"
     check [ "$(find "$name" -type f | wc -l)" -eq 1 ]

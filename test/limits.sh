@@ -1,7 +1,7 @@
 #!/bin/sh
-# limits.sh [FILE]: does doc/SECURITY.md (or FILE) say what the limits are? Each row of its table ends in a value, as
+# limits.sh [FILE]: does SECURITY.md (or FILE) say what the limits are? Each row of its table ends in a value, as
 # 12, 2^28 or 1e30, and a constant, `NAME` in `PATH`, whose definition there must have that value. Run from the top.
-file=${1:-doc/SECURITY.md}
+file=${1:-SECURITY.md}
 sed -n 's/^|.*| *\([0-9e^]*\) *| `\([A-Z_]*\)` in `\([a-z_/.]*\)` |$/\1 \2 \3/p' "$file" | {
     n=0 bad=0
     while read -r said name path; do

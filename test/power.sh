@@ -97,6 +97,6 @@ done
 } >$work/table.md
 [ "${1-}" = renew ] || exec cat $work/table.md
 awk -v table=$work/table.md '
-    /^## / { here = $0 == "## Power" }
+    /^## / { here = /^## Power/ }
     here && /^\|/ { if (!done++) while ((getline line < table) > 0) print line; next }
     { print }' $page >$work/page.md && cp $work/page.md $page

@@ -3,7 +3,7 @@
  * Jobs start in order on whichever thread is free and end in any order; results are committed strictly in the order
  * of their numbers, one at a time. What a commit does therefore cannot depend on the number of threads: this is
  * where the promise "same bytes for any -j" is kept. A result waits for its turn in one of a fixed number of slots,
- * so memory stays bounded; a thread that finds none free waits too. doc/cluster.md says how long, by simulation.
+ * so memory stays bounded; a thread that finds none free waits too. doc/cluster/README.md says how long, by simulation.
  * Tests: test_threads.c. */
 #ifndef ASBDPT_PARALLEL_H
 #define ASBDPT_PARALLEL_H

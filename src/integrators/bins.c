@@ -14,7 +14,7 @@
  * This estimator is BIASED. A sub-path that is traced and used counts once, whatever its chance of being used was.
  * Those that age, are discarded at a restart, or are left over at the end are mostly the ones with low beta, so the
  * sub-paths used are not distributed like the sub-paths traced: where high beta means "escaped after one bounce", the
- * image darkens. doc/selection.md measures it; select = pool is the smallest repair.
+ * image darkens. doc/dissertation.md measures it; select = pool is the smallest repair.
  *
  * Tests: test_asbdpt.c (must be rejected by the test that accepts BDPT).
  */

@@ -7,7 +7,7 @@
  *     NOISE_RELATIVE  ((A - B)/2)^2 / (m^2 + 0.01), m being the mean of the block: relative to the brightness around
  *     NOISE_8_BIT     the same difference squared in levels of 8-bit pictures: what `compare` measures as rmse8.
  *
- * It is no bias, of which both halves have the same. doc/noise.md says where it is too high, and where too low.
+ * It is no bias, of which both halves have the same. doc/usage.md says where it is too high, and where too low.
  *
  * The noise's own standard error comes from the sums over blocks, which are as large as the largest tile, where the
  * picture is large enough, since pixels of a tile may share light sub-paths: from half the squared difference of each

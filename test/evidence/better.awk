@@ -10,7 +10,7 @@ measure == "" { next }
     for (i = 3; i <= n; i++) value[file, measure, i, cell[2]] = cell[2] == "pt" && cell[i] ~ /[a-z]/ ? 0 : cell[i] + 0
 }
 END {
-    print "== better\n| scene | 16: rmse8 | relmse | 8x8 | 64: rmse8 | relmse | 8x8 |"
+    print "== sizes\n| scene | 16: rmse8 | relmse | 8x8 | 64: rmse8 | relmse | 8x8 |"
     print "|---|---:|---:|---:|---:|---:|---:|"
     split("rmse8 relmse 8x8", name, " ")
     mean = "| **geometric mean** |"

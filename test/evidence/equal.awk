@@ -1,13 +1,11 @@
 # equal.awk: sections of doc/measured from equal-time.md of `asbdpt-lab equal-time`, from family.md of `asbdpt-lab
 # family`, where the default is called subspaces, or from such a table as it makes itself. table: a row for each scene;
-# readme: in words, and sorted; mean, worst: these two alone; beside: the mean without the best scene, and over the
-# better of bdpt and pt, which counts where it has no mark, like "misses light", behind its interval.
+# mean, worst: these two alone; without: the mean without the best scene; better: the mean over the better of bdpt and
+# pt, which counts where it has no mark, like "misses light", behind its interval; losses: where that is above 1.
 function clean(s) { gsub(/[ *]/, "", s); return s }
 function first(s) { sub(/ .*/, "", s); return s }
 function add(scene, a, b, c, d) { row[++n] = scene; pt[n] = a; rmse8[n] = b; relmse[n] = c; blocks[n] = d }
 function mark(s) { return match(s, /[a-z][a-z ]*$/) ? substr(s, RSTART) : "" }
-function marked(s,    m) { m = mark(s); return (s == m ? "" : short(first(s)) (m == "" ? "" : ", ")) m }
-function short(v) { return v == "-" ? v : sprintf(v + 0 >= 10 ? "%.0f" : v + 0 >= 1 ? "%.1f" : "%.2f", v) }
 # The scene with the smallest (sign 1) or largest (sign -1) value.
 function end_of(values, sign,    i, at) {
     for (i = 1; i <= n; i++)
@@ -56,20 +54,8 @@ END {
     printf "| **geometric mean** | %s | %s | %s | %s |\n", mean["pt", "rmse8"], bold, mean["asbdpt", "relmse"],
         mean["asbdpt", "8x8"]
     asbdpt = mean["asbdpt", "rmse8"]
-    i = end_of(rmse8, 1); j = end_of(rmse8, -1); k = end_of(blocks, -1)
-    best = first(rmse8[i]) " (`" row[i] "`)"; worst = first(rmse8[j]) " (`" row[j] "`)"
-    print "== readme"
-    print "**After the same CPU time ASBDPT has " first(asbdpt) " of BDPT's squared error** (geometric mean of " n
-    print "scenes; the best " best ", the worst " worst "): what BDPT reaches in ten"
-    printf "minutes it reaches in %.1f. In means over 8x8 pixels it is %s, the worst %s (`%s`).\n\n",
-        10 * first(asbdpt), first(mean["asbdpt", "8x8"]), first(blocks[k]), row[k]
-    print "| scene | `asbdpt` | of 8x8 pixels | `pt` |\n|---|---:|---:|---:|"
-    for (i = 1; i <= n; i++) {
-        for (j = k = 0; j < n; j++)
-            if (!(j + 1 in done) && (!k || first(rmse8[j + 1]) + 0 < first(rmse8[k]) + 0)) k = j + 1
-        done[k] = 1
-        printf "| `%s` | %s | %s | %s |\n", row[k], marked(rmse8[k]), marked(blocks[k]), marked(pt[k])
-    }
+    j = end_of(rmse8, -1)
+    worst = first(rmse8[j]) " (`" row[j] "`)"
     printf "== mean\n%s\n== worst\n%s\n", first(asbdpt), worst
     at = end_of(rmse8, 1)
     for (i = 1; i <= n; i++) {
@@ -79,8 +65,6 @@ END {
         beside += p < 0 ? q - p : q
         if (q > (p < 0 ? p : 0)) losses++
     }
-    print "== beside"
-    printf "Without `%s` the mean over `bdpt` is %.2f; over the better of `bdpt` and `pt` it is", row[at],
-        exp(rest / (n - 1))
-    printf " %.2f, above 1 in %d of %d.\n", exp(beside / n), losses, n
+    printf "== without\n%.2f without `%s`\n== better\n%.2f\n== losses\n%d of %d\n", exp(rest / (n - 1)), row[at],
+        exp(beside / n), losses, n
 }

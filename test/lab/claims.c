@@ -28,7 +28,7 @@ static const struct claim CLAIMS[] = {
      .lacks = "of the paper, the abstract was read",
      .text = "better than path tracing of the same paths [Deng 2021]"},
     {.method = "asbdpt:select=bins", .over = "bdpt", .below = 1, .where = "veach-ajar",
-     .lacks = "claimed at equal samples, both without roulette: results.md",
+     .lacks = "claimed at equal samples, both without roulette: dissertation.md",
      .text = "less error than BDPT in Ajar [Silva 2024]"},
     {.method = "mlt", .over = "pssmlt", .below = 1, .where = "veach-ajar",
      .text = "a door ajar: less error than PSSMLT [Hachisuka 2014]"},

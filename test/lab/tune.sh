@@ -6,7 +6,7 @@
 # CPU time, both relative to the tree as it is, seed by seed; of a scene the time is the least of its seeds'. What DIR
 # holds already is not made again: references (of which several DIRs may share one, REFERENCES) and programs stay, and
 # renders are lines of DIR/runs.txt. The table goes to DIR/tune.md. The scenes and seeds on which a claim is made are
-# others (doc/selection.md).
+# others (doc/results.md).
 list=test/lab/tune.txt
 dir=${1:-build-tune}
 [ $# -gt 0 ] && shift

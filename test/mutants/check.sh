@@ -1,32 +1,6 @@
 #!/bin/sh
 # check.sh: does every fault of list.txt, every variant of test/lab/tune.txt, and every plant of the course still apply?
-# The text to be replaced must occur in its file exactly once, no two may have the same name, and doc/mutants.md must be
-# the list as a table.
-#   sh test/mutants/check.sh renew    writes doc/mutants.md
-page=doc/mutants.md
-table() {
-    printf '# Mutants\n\nThe %s faults of [`list.txt`](../test/mutants/list.txt) and ' \
-        "$(awk '/^[^-+# \t]/ && NF > 3' test/mutants/list.txt | wc -l | tr -d ' ')"
-    printf 'the tests that are to notice them. '
-    printf '`make mutants`\napplies them one by one; [evidence.md](evidence.md) says what that shows. Written by '
-    printf '`sh test/mutants/check.sh renew`.\n\n| mutant | fault | tests |\n|---|---|---|\n'
-    awk '/^[^-+# \t]/ && NF > 3 {
-        text = $4
-        for (i = 5; i <= NF; i++)
-            text = text " " $i
-        gsub(/,/, ", ", $3)
-        gsub(/\|/, "\\|", text)
-        print "| " $1 " | " text " | " $3 " |" }' test/mutants/list.txt
-}
-if [ "$1" = renew ]; then
-    table >$page
-    exit
-fi
-if ! table | cmp -s - $page; then
-    echo "$page is not the list of mutants: sh test/mutants/check.sh renew"
-    exit 1
-fi
-
+# The text to be replaced must occur in its file exactly once, and no two may have the same name.
 awk '
     function check() {
         if (name == "")
