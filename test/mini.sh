@@ -11,7 +11,7 @@
 . test/expect.sh
 [ $# -gt 0 ] && shift
 mini=$top/doc/mini scene=$top/doc/mini/rooms.pbrt
-steps="1-rays 2-paths 3-lamp 4-light 5-bdpt 6-choice 7-vertices asbdpt"
+steps="1-rays 2-paths 3-direct 4-light 5-bdpt 6-choice 7-vertices asbdpt"
 compilers=${*:-$(command -v gcc clang || echo cc)}
 LEVEL=6.2e-5 SEEDS="1 2 3 4 5 6 7 8"
 size=64
@@ -41,7 +41,7 @@ done
 
 {
     ./1-rays p1.png &&
-        { [ -z "${PICTURES-}" ] || { ./2-paths 64 p2.png && ./3-lamp 64 p3.png && ./4-light lt 64 p4.png &&
+        { [ -z "${PICTURES-}" ] || { ./2-paths 64 p2.png && ./3-direct 64 p3.png && ./4-light lt 64 p4.png &&
             ./5-bdpt bdpt 64 p5.png && ./6-choice pool 64 p6.png &&
             ./7-vertices vertices 64 p7.png && ./asbdpt subspaces 64 p8.png; }; } ||
         fault "a program ends with an error"
@@ -76,7 +76,7 @@ compare() {
 same() { cmp -s "$1" "$2" || fault "$1 and $2 differ"; } # one method by two programs
 
 {
-    mini 2-paths "" 24; mini 3-lamp "" 4; mini 5-bdpt bdpt 1; mini 6-choice pool 2
+    mini 2-paths "" 24; mini 3-direct "" 4; mini 5-bdpt bdpt 1; mini 6-choice pool 2
     mini 4-light lt 4
 } &
 {
@@ -90,10 +90,10 @@ main bdpt 3 --integrator bdpt
 main bins 3 --integrator asbdpt -P select=bins
 wait
 compare 2-paths-pt main-bdpt agree 32 # of so few finds the means of small squares are no normal numbers
-for one in 3-lamp-pt 5-bdpt-bdpt 6-choice-pool asbdpt-pt asbdpt-bdpt asbdpt-pool asbdpt-vertices asbdpt-subspaces; do
+for one in 3-direct-pt 5-bdpt-bdpt 6-choice-pool asbdpt-pt asbdpt-bdpt asbdpt-pool asbdpt-vertices asbdpt-subspaces; do
     compare $one main-bdpt agree
 done
-same 4-light-pt-8.pfm 3-lamp-pt-8.pfm
+same 4-light-pt-8.pfm 3-direct-pt-8.pfm
 for one in 6-choice-bdpt 7-vertices-pool 7-vertices-vertices; do
     same $one-8.pfm asbdpt-${one##*-}-8.pfm
 done

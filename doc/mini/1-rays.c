@@ -2,8 +2,8 @@
  *
  *     cc -O2 -o mini 1-rays.c -lm && ./mini out.png
  *
- * A picture is made by asking, for each pixel, which surface its ray meets first. Here the answer is painted in the
- * surface's colour, the darker the more slanting the ray: nobody has asked yet where the light comes from. */
+ * For each pixel the program finds the surface that its ray meets first. The pixel gets the colour of this surface,
+ * darker if the ray meets it at a slant. Where the light comes from is left to the next programs. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -24,8 +24,8 @@ static vec3 cross(vec3 a, vec3 b) { return vec(a.y * b.z - a.z * b.y, a.z * b.x 
 static vec3 unit(vec3 a) { return mul(a, 1 / sqrt(dot(a, a))); }
 
 /* ---- The scene (src/scene) -----------------------------------------------------------------------------------------
- * Two Cornell boxes, one behind the other, joined by a gap: x to the right, y up, z away. The lamp is in the far one,
- * so most light sub-paths never meet what the camera sees. Surfaces are matte, or perfect mirrors. */
+ * Two Cornell boxes, one behind the other, joined by a gap: x to the right, y up, z away. The light is in the far
+ * one, so most light sub-paths never reach what the camera sees. Surfaces are matte, or perfect mirrors. */
 struct shape {
     vec3 p, a, b;         /* a rectangle's corner and the two edges that meet there; p: a ball's centre */
     double radius;        /* of a ball; a rectangle has none */
@@ -35,7 +35,7 @@ struct shape {
 #define BLACK {0, 0, 0}
 #define WHITE {0.75, 0.75, 0.75}
 static const struct shape SCENE[] = {
-    {{0.2, 0.98, 1.3}, {0.4, 0, 0}, {0, 0, 0.4}, 0, WHITE, {120, 102, 72}, false}, /* the lamp, facing down */
+    {{0.2, 0.98, 1.3}, {0.4, 0, 0}, {0, 0, 0.4}, 0, WHITE, {120, 102, 72}, false}, /* the light, facing down */
     {{0, 0, 1}, {0.8, 0, 0}, {0, 1, 0}, 0, WHITE, BLACK, false},                 /* the wall between the rooms */
     {{0, 0, 2}, {1, 0, 0}, {0, 1, 0}, 0, WHITE, BLACK, false},                   /* the far wall */
     {{0, 0, 0}, {1, 0, 0}, {0, 0, 2}, 0, WHITE, BLACK, false},                   /* floor */
@@ -46,10 +46,10 @@ static const struct shape SCENE[] = {
     {{0.70, 0.17, 0.35}, BLACK, BLACK, 0.17, {0.3, 0.4, 0.7}, BLACK, false},
 };
 #define PINHOLE_AT {0.5, 0.5, -1.5} /* the lens, which looks along z */
-static const double SCREEN = 0.36;  /* half of the picture's height, at distance 1 */
-static const double EPSILON = 1e-9; /* a hit is exact to about 1e-15; nothing here is as thin as this */
+static const double SCREEN = 0.36;  /* half of the image's height, at distance 1 */
+static const double EPSILON = 1e-9; /* a hit is exact to about 1e-15; everything here is thicker than this */
 
-/* The direction that is seen at a place of the picture, in pixels from its upper left corner. */
+/* The direction that is seen at a point of the image, in pixels from its upper left corner. */
 static vec3 camera_direction(double px, double py)
 {
     double width = 2 * SCREEN / SIZE; /* of a pixel */
@@ -73,7 +73,7 @@ static double hit(const struct shape *s, vec3 o, vec3 d)
     return u >= 0 && u <= 1 && v >= 0 && v <= 1 ? t : INFINITY;
 }
 
-/* The nearest shape closer than *t, which becomes its distance; NULL if there is none. With nine, one asks them all. */
+/* The nearest shape closer than *t, which becomes its distance; NULL if there is none. There are only nine: try all. */
 static const struct shape *nearest(vec3 o, vec3 d, double *t)
 {
     const struct shape *found = NULL;
@@ -104,7 +104,7 @@ static rgb seen(vec3 o, vec3 d)
     return s->emission.x > 0 ? vec(1, 1, 1) : mul(s->albedo, -dot(normal(s, p, d), d));
 }
 
-/* ---- Pictures (src/image/png.c) ------------------------------------------------------------------------------------
+/* ---- Images (src/image/png.c) --------------------------------------------------------------------------------------
  * PNG: chunks, each with a checksum. Its pixels are a zlib stream, here of blocks that are stored as they are. */
 static void put(FILE *f, uint32_t *crc, unsigned byte)
 {

@@ -2,9 +2,9 @@
  *
  *     cc -O2 -o mini 2-paths.c -lm && ./mini 64 out.png
  *
- * New: a ray that met a surface goes on from there, in a random direction, and again, until it has met DEPTH + 1
- * surfaces. If the lamp is among them, a path of light has been found, and the pixel gets what it carries: all
- * reflectances of its way. What it gets on average is right; but few paths find the lamp, so it is noise one sees. */
+ * New: a ray that met a surface continues from there in a random direction, until it has met DEPTH + 1 surfaces. If
+ * one of them is the light, a path of light is complete. The pixel gets what the path carries: the emission times all
+ * reflectances. The mean is right. But few paths find the light, so the image is mostly noise. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIZE = 128, DEPTH = 5, EYE_VERTICES = DEPTH + 2 }; /* pixels; the longest path that is looked for */
+enum { SIZE = 128, DEPTH = 5, EYE_VERTICES = DEPTH + 2 }; /* pixels; most bounces of a path */
 static const double PI = 3.14159265358979323846;
 
 /* ---- Vectors: points, directions and colours (src/base/vec.h, rgb.h) --------------------------------------------- */
@@ -38,8 +38,8 @@ static double next(uint64_t *rng)
 }
 
 /* ---- The scene (src/scene) -----------------------------------------------------------------------------------------
- * Two Cornell boxes, one behind the other, joined by a gap: x to the right, y up, z away. The lamp is in the far one,
- * so most light sub-paths never meet what the camera sees. Surfaces are matte, or perfect mirrors. */
+ * Two Cornell boxes, one behind the other, joined by a gap: x to the right, y up, z away. The light is in the far
+ * one, so most light sub-paths never reach what the camera sees. Surfaces are matte, or perfect mirrors. */
 struct shape {
     vec3 p, a, b;         /* a rectangle's corner and the two edges that meet there; p: a ball's centre */
     double radius;        /* of a ball; a rectangle has none */
@@ -49,7 +49,7 @@ struct shape {
 #define BLACK {0, 0, 0}
 #define WHITE {0.75, 0.75, 0.75}
 static const struct shape SCENE[] = {
-    {{0.2, 0.98, 1.3}, {0.4, 0, 0}, {0, 0, 0.4}, 0, WHITE, {120, 102, 72}, false}, /* the lamp, facing down */
+    {{0.2, 0.98, 1.3}, {0.4, 0, 0}, {0, 0, 0.4}, 0, WHITE, {120, 102, 72}, false}, /* the light, facing down */
     {{0, 0, 1}, {0.8, 0, 0}, {0, 1, 0}, 0, WHITE, BLACK, false},                 /* the wall between the rooms */
     {{0, 0, 2}, {1, 0, 0}, {0, 1, 0}, 0, WHITE, BLACK, false},                   /* the far wall */
     {{0, 0, 0}, {1, 0, 0}, {0, 0, 2}, 0, WHITE, BLACK, false},                   /* floor */
@@ -61,12 +61,12 @@ static const struct shape SCENE[] = {
 };
 static const struct shape *const LAMP = &SCENE[0];
 #define PINHOLE_AT {0.5, 0.5, -1.5} /* the lens, which looks along z */
-static const double SCREEN = 0.36;  /* half of the picture's height, at distance 1 */
-static const double EPSILON = 1e-9; /* a hit is exact to about 1e-15; nothing here is as thin as this */
+static const double SCREEN = 0.36;  /* half of the image's height, at distance 1 */
+static const double EPSILON = 1e-9; /* a hit is exact to about 1e-15; everything here is thicker than this */
 
-static vec3 lamp_normal(void) { return cross(LAMP->a, LAMP->b); } /* its length is the lamp's area */
+static vec3 lamp_normal(void) { return cross(LAMP->a, LAMP->b); } /* its length is the light's area */
 
-/* The direction that is seen at a place of the picture, in pixels from its upper left corner. */
+/* The direction that is seen at a point of the image, in pixels from its upper left corner. */
 static vec3 camera_direction(double px, double py)
 {
     double width = 2 * SCREEN / SIZE; /* of a pixel */
@@ -90,7 +90,7 @@ static double hit(const struct shape *s, vec3 o, vec3 d)
     return u >= 0 && u <= 1 && v >= 0 && v <= 1 ? t : INFINITY;
 }
 
-/* The nearest shape closer than *t, which becomes its distance; NULL if there is none. With nine, one asks them all. */
+/* The nearest shape closer than *t, which becomes its distance; NULL if there is none. There are only nine: try all. */
 static const struct shape *nearest(vec3 o, vec3 d, double *t)
 {
     const struct shape *found = NULL;
@@ -114,8 +114,8 @@ static vec3 normal(const struct shape *s, vec3 p, vec3 d)
 /* ---- Vertices, and how they scatter (src/transport/path.h, src/material/bsdf.h) ---------------------------------- */
 struct vertex {
     const struct shape *shape;
-    vec3 p, n, wo; /* place; unit normal, on the side the walk came from; unit direction back to where it came from */
-    rgb beta;      /* all factors that the walk has met up to here, over the density of having gone so */
+    vec3 p, n, wo; /* point; unit normal, on the side the walk came from; unit direction back along the walk */
+    rgb beta;      /* throughput: all factors on the way here, divided by the density of the walk */
 };
 static const struct vertex PINHOLE = {NULL, PINHOLE_AT, {0, 0, 1}, BLACK, {1, 1, 1}};
 
@@ -128,7 +128,7 @@ static vec3 cosine_hemisphere(vec3 n, uint64_t *rng)
 }
 
 /* ---- The walk (src/transport/path.c) -------------------------------------------------------------------------------
- * It leaves path[0], which is made, in direction d. Returns the number of vertices, at most max. */
+ * It leaves path[0], which is given, in direction d. Returns the number of vertices, at most max. */
 static int walk(struct vertex *path, int max, vec3 d, rgb beta, uint64_t *rng)
 {
     for (int e = 1; e < max; e++) {
@@ -142,7 +142,7 @@ static int walk(struct vertex *path, int max, vec3 d, rgb beta, uint64_t *rng)
         v->wo = mul(d, -1);
         v->beta = beta;
 
-        beta = tint(beta, v->shape->albedo); /* BSDF times cosine over density: what is sampled well cancels */
+        beta = tint(beta, v->shape->albedo); /* BSDF times cosine over density: they cancel */
         d = v->shape->mirror ? sub(d, mul(v->n, 2 * dot(v->n, d))) : cosine_hemisphere(v->n, rng);
     }
     return max;
@@ -156,7 +156,7 @@ static int path_eye(int x, int y, struct vertex *path, uint64_t *rng)
 }
 
 /* ---- What a strategy contributes (src/transport/connect.c) ---------------------------------------------------------
- * The last of t eye vertices is on the lamp. */
+ * The last of t eye vertices is on the light. */
 static rgb connect_hit(const struct vertex *eye, int t)
 {
     const struct vertex *z = &eye[t - 1];
@@ -186,7 +186,7 @@ static void render(rgb *image, int spp, uint64_t *rng)
     }
 }
 
-/* ---- Pictures (src/image/png.c) ------------------------------------------------------------------------------------
+/* ---- Images (src/image/png.c) --------------------------------------------------------------------------------------
  * PNG: chunks, each with a checksum. Its pixels are a zlib stream, here of blocks that are stored as they are. */
 static void put(FILE *f, uint32_t *crc, unsigned byte)
 {
@@ -265,7 +265,7 @@ int main(int argc, char **argv)
     int spp = argc > 1 ? atoi(argv[1]) : 0;
     if (argc < 3 || argc > 4 || spp < 1)
         return fprintf(stderr, "usage: %s SAMPLES OUT.png|OUT.pfm [SEED]\n", argv[0]), 2;
-    uint64_t rng = argc > 3 ? (uint64_t)strtoul(argv[3], NULL, 10) << 40 : 0; /* no picture takes 2^40 numbers */
+    uint64_t rng = argc > 3 ? (uint64_t)strtoul(argv[3], NULL, 10) << 40 : 0; /* no image takes 2^40 numbers */
     static rgb image[SIZE * SIZE]; /* sums over samples, top row first */
     FILE *f = fopen(argv[2], "wb");
     if (f == NULL)

@@ -1,10 +1,10 @@
-/* 4-light.c: the same walk from the lamp. The fourth of eight programs.
+/* 4-light.c: the same walk from the light. The fourth of eight programs.
  *
  *     cc -O2 -o mini 4-light.c -lm && ./mini lt 64 out.png
  *
- * New: light tracing. The function that walks from the lens walks from the lamp as well, and each vertex of such a
- * light sub-path is joined to the lens: it lights the pixel in which it is seen. Light that comes through the gap is
- * drawn calmly; what is seen in the mirror is missing, since nobody can join a vertex to a mirror. */
+ * New: light tracing. The function that walks from the lens walks from the light, too. Each vertex of such a light
+ * sub-path is connected to the lens and contributes to the pixel in which it is seen. Light through the gap has little
+ * noise. What is seen in the mirror is missing, because a connection cannot end at a mirror. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIZE = 128, DEPTH = 5, LIGHT_VERTICES = DEPTH + 1, EYE_VERTICES = DEPTH + 2 }; /* pixels; longest path */
+enum { SIZE = 128, DEPTH = 5, LIGHT_VERTICES = DEPTH + 1, EYE_VERTICES = DEPTH + 2 }; /* pixels; bounces */
 static const double PI = 3.14159265358979323846;
 
 /* ---- Vectors: points, directions and colours (src/base/vec.h, rgb.h) --------------------------------------------- */
@@ -38,8 +38,8 @@ static double next(uint64_t *rng)
 }
 
 /* ---- The scene (src/scene) -----------------------------------------------------------------------------------------
- * Two Cornell boxes, one behind the other, joined by a gap: x to the right, y up, z away. The lamp is in the far one,
- * so most light sub-paths never meet what the camera sees. Surfaces are matte, or perfect mirrors. */
+ * Two Cornell boxes, one behind the other, joined by a gap: x to the right, y up, z away. The light is in the far
+ * one, so most light sub-paths never reach what the camera sees. Surfaces are matte, or perfect mirrors. */
 struct shape {
     vec3 p, a, b;         /* a rectangle's corner and the two edges that meet there; p: a ball's centre */
     double radius;        /* of a ball; a rectangle has none */
@@ -49,7 +49,7 @@ struct shape {
 #define BLACK {0, 0, 0}
 #define WHITE {0.75, 0.75, 0.75}
 static const struct shape SCENE[] = {
-    {{0.2, 0.98, 1.3}, {0.4, 0, 0}, {0, 0, 0.4}, 0, WHITE, {120, 102, 72}, false}, /* the lamp, facing down */
+    {{0.2, 0.98, 1.3}, {0.4, 0, 0}, {0, 0, 0.4}, 0, WHITE, {120, 102, 72}, false}, /* the light, facing down */
     {{0, 0, 1}, {0.8, 0, 0}, {0, 1, 0}, 0, WHITE, BLACK, false},                 /* the wall between the rooms */
     {{0, 0, 2}, {1, 0, 0}, {0, 1, 0}, 0, WHITE, BLACK, false},                   /* the far wall */
     {{0, 0, 0}, {1, 0, 0}, {0, 0, 2}, 0, WHITE, BLACK, false},                   /* floor */
@@ -61,20 +61,20 @@ static const struct shape SCENE[] = {
 };
 static const struct shape *const LAMP = &SCENE[0];
 #define PINHOLE_AT {0.5, 0.5, -1.5} /* the lens, which looks along z */
-static const double SCREEN = 0.36;  /* half of the picture's height, at distance 1 */
-static const double EPSILON = 1e-9; /* a hit is exact to about 1e-15; nothing here is as thin as this */
+static const double SCREEN = 0.36;  /* half of the image's height, at distance 1 */
+static const double EPSILON = 1e-9; /* a hit is exact to about 1e-15; everything here is thicker than this */
 
-static vec3 lamp_normal(void) { return cross(LAMP->a, LAMP->b); } /* its length is the lamp's area */
+static vec3 lamp_normal(void) { return cross(LAMP->a, LAMP->b); } /* its length is the light's area */
 static double lamp_area(void) { return sqrt(dot(lamp_normal(), lamp_normal())); }
 
-/* The direction that is seen at a place of the picture, in pixels from its upper left corner. */
+/* The direction that is seen at a point of the image, in pixels from its upper left corner. */
 static vec3 camera_direction(double px, double py)
 {
     double width = 2 * SCREEN / SIZE; /* of a pixel */
     return unit(vec((px - SIZE * 0.5) * width, (SIZE * 0.5 - py) * width, 1));
 }
 
-/* Where direction w enters the picture, in pixels, and J, the pixels that a steradian covers there: seen from the
+/* Where direction w enters the image, in pixels, and J, the pixels that a steradian covers there: seen from the
  * pinhole, an area dx dy of the screen at distance 1 fills dx dy cos^3. 0: outside. (src/scene/camera.c) */
 static double camera_project(vec3 w, double *x, double *y)
 {
@@ -102,7 +102,7 @@ static double hit(const struct shape *s, vec3 o, vec3 d)
     return u >= 0 && u <= 1 && v >= 0 && v <= 1 ? t : INFINITY;
 }
 
-/* The nearest shape closer than *t, which becomes its distance; NULL if there is none. With nine, one asks them all. */
+/* The nearest shape closer than *t, which becomes its distance; NULL if there is none. There are only nine: try all. */
 static const struct shape *nearest(vec3 o, vec3 d, double *t)
 {
     const struct shape *found = NULL;
@@ -127,16 +127,16 @@ static vec3 normal(const struct shape *s, vec3 p, vec3 d)
 struct vertex {
     enum { LENS, LIGHT, SURFACE } kind;
     const struct shape *shape;
-    vec3 p, n, wo; /* place; unit normal, on the side the walk came from; unit direction back to where it came from */
-    rgb beta;      /* all factors that the walk has met up to here, over the density of having gone so */
+    vec3 p, n, wo; /* point; unit normal, on the side the walk came from; unit direction back along the walk */
+    rgb beta;      /* throughput: all factors on the way here, divided by the density of the walk */
 };
 static const struct vertex PINHOLE = {LENS, NULL, PINHOLE_AT, {0, 0, 1}, BLACK, {1, 1, 1}};
 
-/* A mirror is no end for a connection: the other end would have to lie just where it points. */
+/* A connection cannot end at a mirror: the other end would have to lie exactly in its direction. */
 static bool connectible(const struct vertex *v) { return v->kind != SURFACE || !v->shape->mirror; }
 
-/* What v does to light between its wo and w, a direction to something that it is joined to: BSDF (lamp: emission;
- * lens: pixels per steradian) times cosine. */
+/* What v does to light between its wo and w, the direction of a connection: BSDF (of a light: emission;
+ * of the lens: pixels per steradian) times cosine. */
 static rgb scatter_towards(const struct vertex *v, vec3 w)
 {
     double cosine = dot(v->n, w), x, y, J = v->kind == LENS ? camera_project(w, &x, &y) : 0;
@@ -172,13 +172,13 @@ static int walk(struct vertex *path, int max, vec3 d, rgb beta, uint64_t *rng)
         v->wo = mul(d, -1);
         v->beta = beta;
 
-        beta = tint(beta, v->shape->albedo); /* BSDF times cosine over density: what is sampled well cancels */
+        beta = tint(beta, v->shape->albedo); /* BSDF times cosine over density: they cancel */
         d = v->shape->mirror ? sub(d, mul(v->n, 2 * dot(v->n, d))) : cosine_hemisphere(v->n, rng);
     }
     return max;
 }
 
-/* A point, uniform on the lamp; beta is 1/density. */
+/* A point, uniform on the light; beta is 1/density. */
 static struct vertex light_point(uint64_t *rng)
 {
     double area = lamp_area(), u = next(rng), v = next(rng);
@@ -207,7 +207,7 @@ static int path_eye(int x, int y, struct vertex *path, uint64_t *rng)
 }
 
 /* ---- What a strategy contributes (src/transport/connect.c) ---------------------------------------------------------
- * Join y and z: both throughputs, both scatterings, 1/distance^2, if nothing is in between. */
+ * Connect y and z: both throughputs, both scatterings, 1/distance^2, if nothing is in between. */
 static rgb connect(const struct vertex *y, const struct vertex *z)
 {
     vec3 d = sub(y->p, z->p), w = unit(d);
@@ -218,7 +218,7 @@ static rgb connect(const struct vertex *y, const struct vertex *z)
     return mul(tint(tint(y->beta, z->beta), value), 1 / d2);
 }
 
-/* The last of t eye vertices is on the lamp: it counts if no point of the lamp could be joined to the one before. */
+/* The last of t eye vertices is on the light: it counts if the one before could not be connected to the light. */
 static rgb connect_hit(const struct vertex *eye, int t)
 {
     const struct vertex *z = &eye[t - 1];
@@ -238,7 +238,7 @@ static rgb sum_eye(const struct vertex *eye, int n_eye, uint64_t *rng)
     return sum;
 }
 
-/* t = 1: each vertex of a light sub-path, as the camera sees it, somewhere in the picture. */
+/* t = 1: each vertex of a light sub-path, as the camera sees it, somewhere in the image. */
 static void splat_path(const struct light_path *light, rgb *image)
 {
     for (int s = 2; s <= light->n; s++) {
@@ -254,7 +254,7 @@ enum method { PT, LT, METHODS };
 static const char *const NAMES[METHODS] = {"pt", "lt"};
 #define CHOICES "pt|lt"
 
-/* lt: the lamp seen directly, and what light sub-paths draw: as many of them as there are pixels, for each sample. */
+/* lt: the light seen directly, and splats: for each sample, as many light sub-paths as there are pixels. */
 static void render(rgb *image, enum method method, int spp, uint64_t *rng)
 {
     for (int i = 0; i < SIZE * SIZE; i++) {
@@ -274,7 +274,7 @@ static void render(rgb *image, enum method method, int spp, uint64_t *rng)
     }
 }
 
-/* ---- Pictures (src/image/png.c) ------------------------------------------------------------------------------------
+/* ---- Images (src/image/png.c) --------------------------------------------------------------------------------------
  * PNG: chunks, each with a checksum. Its pixels are a zlib stream, here of blocks that are stored as they are. */
 static void put(FILE *f, uint32_t *crc, unsigned byte)
 {
@@ -355,7 +355,7 @@ int main(int argc, char **argv)
         method++;
     if (argc < 4 || argc > 5 || method == METHODS || spp < 1)
         return fprintf(stderr, "usage: %s " CHOICES " SAMPLES OUT.png|OUT.pfm [SEED]\n", argv[0]), 2;
-    uint64_t rng = argc > 4 ? (uint64_t)strtoul(argv[4], NULL, 10) << 40 : 0; /* no picture takes 2^40 numbers */
+    uint64_t rng = argc > 4 ? (uint64_t)strtoul(argv[4], NULL, 10) << 40 : 0; /* no image takes 2^40 numbers */
     static rgb image[SIZE * SIZE]; /* sums over samples, top row first */
     FILE *f = fopen(argv[3], "wb");
     if (f == NULL)

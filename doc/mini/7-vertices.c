@@ -2,8 +2,8 @@
  *
  *     cc -O2 -o mini 7-vertices.c -lm && ./mini vertices 64 out.png
  *
- * New: what is worth choosing is learnt before the first sample, by looking where eye sub-paths go; and what is chosen
- * is a single vertex, for each vertex of the eye sub-path. The weights are told how many samples that is. */
+ * New: before the first sample the program learns where eye sub-paths go. Each vertex of an eye sub-path then chooses
+ * single light vertices there, and the weights count how many samples that is. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIZE = 128, DEPTH = 5, LIGHT_VERTICES = DEPTH + 1, EYE_VERTICES = DEPTH + 2 }; /* pixels; longest path */
+enum { SIZE = 128, DEPTH = 5, LIGHT_VERTICES = DEPTH + 1, EYE_VERTICES = DEPTH + 2 }; /* pixels; bounces */
 static const double PI = 3.14159265358979323846;
 
 /* ---- Vectors: points, directions and colours (src/base/vec.h, rgb.h) --------------------------------------------- */
@@ -57,15 +57,15 @@ static void alias_build(struct bin *bin, const double *q, int n, int *work) /* q
         if (bin[large].threshold < 1)
             work[poor++] = work[rich++]; /* the rich one has become poor */
     }
-    while (poor > 0 || rich < n) /* what is left weighs 1 but for rounding: nobody else may have a part of its bin */
+    while (poor > 0 || rich < n) /* what is left weighs 1, except for rounding, and keeps its whole bin */
         bin[poor > 0 ? work[--poor] : work[rich++]].threshold = 1;
 }
 
 static int alias_choose(const struct bin *bin, int b, double u) { return u < bin[b].threshold ? b : bin[b].other; }
 
 /* ---- The scene (src/scene) -----------------------------------------------------------------------------------------
- * Two Cornell boxes, one behind the other, joined by a gap: x to the right, y up, z away. The lamp is in the far one,
- * so most light sub-paths never meet what the camera sees. Surfaces are matte, or perfect mirrors. */
+ * Two Cornell boxes, one behind the other, joined by a gap: x to the right, y up, z away. The light is in the far
+ * one, so most light sub-paths never reach what the camera sees. Surfaces are matte, or perfect mirrors. */
 struct shape {
     vec3 p, a, b;         /* a rectangle's corner and the two edges that meet there; p: a ball's centre */
     double radius;        /* of a ball; a rectangle has none */
@@ -75,7 +75,7 @@ struct shape {
 #define BLACK {0, 0, 0}
 #define WHITE {0.75, 0.75, 0.75}
 static const struct shape SCENE[] = {
-    {{0.2, 0.98, 1.3}, {0.4, 0, 0}, {0, 0, 0.4}, 0, WHITE, {120, 102, 72}, false}, /* the lamp, facing down */
+    {{0.2, 0.98, 1.3}, {0.4, 0, 0}, {0, 0, 0.4}, 0, WHITE, {120, 102, 72}, false}, /* the light, facing down */
     {{0, 0, 1}, {0.8, 0, 0}, {0, 1, 0}, 0, WHITE, BLACK, false},                 /* the wall between the rooms */
     {{0, 0, 2}, {1, 0, 0}, {0, 1, 0}, 0, WHITE, BLACK, false},                   /* the far wall */
     {{0, 0, 0}, {1, 0, 0}, {0, 0, 2}, 0, WHITE, BLACK, false},                   /* floor */
@@ -87,20 +87,20 @@ static const struct shape SCENE[] = {
 };
 static const struct shape *const LAMP = &SCENE[0];
 #define PINHOLE_AT {0.5, 0.5, -1.5} /* the lens, which looks along z */
-static const double SCREEN = 0.36;  /* half of the picture's height, at distance 1 */
-static const double EPSILON = 1e-9; /* a hit is exact to about 1e-15; nothing here is as thin as this */
+static const double SCREEN = 0.36;  /* half of the image's height, at distance 1 */
+static const double EPSILON = 1e-9; /* a hit is exact to about 1e-15; everything here is thicker than this */
 
-static vec3 lamp_normal(void) { return cross(LAMP->a, LAMP->b); } /* its length is the lamp's area */
+static vec3 lamp_normal(void) { return cross(LAMP->a, LAMP->b); } /* its length is the light's area */
 static double lamp_area(void) { return sqrt(dot(lamp_normal(), lamp_normal())); }
 
-/* The direction that is seen at a place of the picture, in pixels from its upper left corner. */
+/* The direction that is seen at a point of the image, in pixels from its upper left corner. */
 static vec3 camera_direction(double px, double py)
 {
     double width = 2 * SCREEN / SIZE; /* of a pixel */
     return unit(vec((px - SIZE * 0.5) * width, (SIZE * 0.5 - py) * width, 1));
 }
 
-/* Where direction w enters the picture, in pixels, and J, the pixels that a steradian covers there: seen from the
+/* Where direction w enters the image, in pixels, and J, the pixels that a steradian covers there: seen from the
  * pinhole, an area dx dy of the screen at distance 1 fills dx dy cos^3. 0: outside. (src/scene/camera.c) */
 static double camera_project(vec3 w, double *x, double *y)
 {
@@ -128,7 +128,7 @@ static double hit(const struct shape *s, vec3 o, vec3 d)
     return u >= 0 && u <= 1 && v >= 0 && v <= 1 ? t : INFINITY;
 }
 
-/* The nearest shape closer than *t, which becomes its distance; NULL if there is none. With nine, one asks them all. */
+/* The nearest shape closer than *t, which becomes its distance; NULL if there is none. There are only nine: try all. */
 static const struct shape *nearest(vec3 o, vec3 d, double *t)
 {
     const struct shape *found = NULL;
@@ -153,19 +153,19 @@ static vec3 normal(const struct shape *s, vec3 p, vec3 d)
 struct vertex {
     enum { LENS, LIGHT, SURFACE } kind;
     const struct shape *shape;
-    vec3 p, n, wo; /* place; unit normal, on the side the walk came from; unit direction back to where it came from */
-    rgb beta;      /* all factors that the walk has met up to here, over the density of having gone so */
-    double F;      /* density per area with which its walk chose this place */
+    vec3 p, n, wo; /* point; unit normal, on the side the walk came from; unit direction back along the walk */
+    rgb beta;      /* throughput: all factors on the way here, divided by the density of the walk */
+    double F;      /* density per area with which its walk chose this point */
     double c, mis; /* c_e and mis_e of "Weights" */
 };
-/* The camera. No light sub-path ever finds a pinhole by chance, so nothing is asked of its density: F = 1, c = 0. */
+/* The camera. No light sub-path finds a pinhole by chance, so no weight needs its density: F = 1, c = 0. */
 static const struct vertex PINHOLE = {LENS, NULL, PINHOLE_AT, {0, 0, 1}, BLACK, {1, 1, 1}, 1, 0, 0};
 
-/* A mirror is no end for a connection: the other end would have to lie just where it points. */
+/* A connection cannot end at a mirror: the other end would have to lie exactly in its direction. */
 static bool connectible(const struct vertex *v) { return v->kind != SURFACE || !v->shape->mirror; }
 
-/* What v does to light between its wo and w, a direction to something that it is joined to: BSDF (lamp: emission) times
- * cosine; densities per steradian of a walk going on to w, and of one that comes from w going on to wo. */
+/* What v does to light between its wo and w, the direction of a connection: BSDF (of a light: emission) times cosine;
+ * densities per steradian of a walk that leaves towards w, and of the reverse walk, from w towards wo. */
 struct scatter { rgb factor; double pdf, pdf_rev; };
 static struct scatter scatter_towards(const struct vertex *v, vec3 w)
 {
@@ -193,17 +193,17 @@ static vec3 cosine_hemisphere(vec3 n, uint64_t *rng)
 /* ---- Weights (src/transport/mis.h) ---------------------------------------------------------------------------------
  * Let p_s be the density of strategy (s,t) times n_s, the samples it takes. The balance heuristic gives it the weight
  *     w_s = p_s / (p_0 + p_1 + ... + p_k):                                                          [Veach 1997, 9.2.2]
- * paths are left to those who find them easily. p_i and p_(i+1) differ in one vertex, x_i, which has density F in its
- * own walk and would have R in the other's: p_i / p_(i+1) = (n_i R_i) / (n_(i+1) F_i). Multiply such ratios outwards
- * from the connection; then the p of all strategies on one side add up, relative to one sample of strategy s, to
- *     A_e = R_e/F_e (c_e + R_(e-1)/F_(e-1) (c_(e-1) + ...)),     c_e: n of the strategy that joins x_(e-1) and x_e.
- * A walk can add up as it goes, but for R_e and R_(e-1), which depend on what e will be joined to. So it stores the
- * rest, mis_e, and a one-line function finishes it: a weight costs O(1), however long the path. */
+ * large where s finds the path easily. p_i and p_(i+1) differ in one vertex, x_i, which has density F in its own walk
+ * and R in the reverse walk: p_i / p_(i+1) = (n_i R_i) / (n_(i+1) F_i). Multiply such ratios outwards from the
+ * connection. Then the p of all strategies on one side add up, relative to one sample of strategy s, to
+ *     A_e = R_e/F_e (c_e + R_(e-1)/F_(e-1) (c_(e-1) + ...)),     c_e: n of the strategy that connects x_(e-1), x_e.
+ * A walk can add this up, except R_e and R_(e-1), which depend on the connection at e. So it stores the rest, mis_e,
+ * and a one-line function finishes it: a weight costs O(1), however long the path. */
 struct counts { /* the number n of samples per pixel; 0: the method does not use the strategy */
-    double hit;          /* s = 0: the eye sub-path meets the lamp by itself */
-    double direct;       /* s = 1: it is joined to a fresh point on the lamp */
-    double connect;      /* s > 1, t > 1: it is joined to a light sub-path */
-    double splat;        /* t = 1: all light sub-paths of the picture are joined to the lens */
+    double hit;          /* s = 0: the eye sub-path hits the light */
+    double direct;       /* s = 1: it is connected to a fresh point on the light */
+    double connect;      /* s > 1, t > 1: it is connected to a light sub-path */
+    double splat;        /* t = 1: all light sub-paths of the image are connected to the lens */
     const double *worth; /* `vertices`: `connect` is times the worth of the light end's cell; else NULL */
 };
 enum { CELLS = 8, PLACES = CELLS * CELLS * CELLS }; /* of space, along each axis (src/tables/regions.c) */
@@ -216,7 +216,7 @@ static double worth_of(const struct counts *n, const struct vertex *y)
     return n->worth != NULL ? n->worth[place(y->p)] : 1;
 }
 
-/* n of the strategy that joins y, the end of a light sub-path, and z, the end of an eye sub-path. */
+/* n of the strategy that connects y, the end of a light sub-path, and z, the end of an eye sub-path. */
 static double count(const struct counts *n, const struct vertex *y, const struct vertex *z)
 {
     if (!connectible(y) || !connectible(z))
@@ -224,8 +224,8 @@ static double count(const struct counts *n, const struct vertex *y, const struct
     return z->kind == LENS ? n->splat : y->kind == LIGHT ? n->direct : n->connect * worth_of(n, y);
 }
 
-/* A_e = R_e * this, of vertex v = x_e, and mis_(e+1) = g * this, where g makes a density per steradian at x_(e+1) one
- * per area at x_e. pdf_rev: per steradian, of going back from v to the vertex before it. */
+/* A_e = R_e * this, of vertex v = x_e, and mis_(e+1) = g * this, where g converts a density per steradian at x_(e+1)
+ * into one per area at x_e. pdf_rev: per steradian, of the reverse walk from v to the vertex before it. */
 static double sum_over_F(const struct vertex *v, double pdf_rev) { return (v->c + pdf_rev * v->mis) / v->F; }
 
 /* ---- The walk (src/transport/path.c) -------------------------------------------------------------------------------
@@ -249,7 +249,7 @@ static int walk(const struct counts *n, struct vertex *path, int max, vec3 d, do
         v->mis = fabs(dot(from->n, d)) / (t * t) * sum_over_F(from, pdf_rev);
         v->c = path[0].kind == LIGHT ? count(n, from, v) : count(n, v, from);
 
-        beta = tint(beta, v->shape->albedo); /* BSDF times cosine over density: what is sampled well cancels */
+        beta = tint(beta, v->shape->albedo); /* BSDF times cosine over density: they cancel */
         d = v->shape->mirror ? sub(d, mul(v->n, 2 * dot(v->n, d))) : cosine_hemisphere(v->n, rng);
         pdf = v->shape->mirror ? 1 : dot(v->n, d) / PI; /* mirror: a delta function in F and in R, which cancels too */
         pdf_rev = v->shape->mirror ? 1 : dot(v->n, v->wo) / PI;
@@ -257,7 +257,7 @@ static int walk(const struct counts *n, struct vertex *path, int max, vec3 d, do
     return max;
 }
 
-/* y_0, uniform on the lamp: beta is 1/density; c is the count of s = 0, which would find the point by chance. */
+/* y_0, uniform on the light: beta is 1/density; c is the count of s = 0, which finds the point by chance. */
 static struct vertex light_point(const struct counts *n, uint64_t *rng)
 {
     double area = lamp_area(), u = next(rng), v = next(rng);
@@ -268,7 +268,7 @@ static struct vertex light_point(const struct counts *n, uint64_t *rng)
 struct light_path {
     struct vertex v[LIGHT_VERTICES]; /* y_0, y_1 ... y_(n-1) */
     int n, born;                     /* how many; iteration in which it was traced */
-    double beta;                     /* of eq. 3.1: the mean over RGB at y_(n-1); of a lamp alone, of what it emits */
+    double beta;                     /* of eq. 3.1: the mean over RGB at y_(n-1); with y_0 alone, of the emission */
 };
 
 static void path_light(const struct counts *n, struct light_path *path, int iteration, uint64_t *rng)
@@ -290,7 +290,7 @@ static int path_eye(const struct counts *n, int x, int y, struct vertex *path, u
 }
 
 /* ---- What a strategy contributes (src/transport/connect.c) ---------------------------------------------------------
- * s > 0: join y and z. Both throughputs, both scatterings, 1/distance^2, if nothing is in between; times the weight. */
+ * s > 0: connect y and z. Both throughputs, both scatterings, 1/distance^2, visibility, and the weight. */
 static rgb connect(const struct counts *n, const struct vertex *y, const struct vertex *z)
 {
     vec3 d = sub(y->p, z->p), w = unit(d);
@@ -304,7 +304,7 @@ static rgb connect(const struct counts *n, const struct vertex *y, const struct 
     return mul(value, own / (own + light_side + eye_side));
 }
 
-/* s = 0: the last of t eye vertices is on the lamp. If it is seen directly (t = 2), no other strategy cares. */
+/* s = 0: the last of t eye vertices is on the light. If it is seen directly (t = 2), no other strategy finds it. */
 static rgb connect_hit(const struct counts *n, const struct vertex *eye, int t)
 {
     struct vertex z = eye[t - 1];
@@ -337,7 +337,7 @@ static rgb sum_pairs(const struct counts *n, const struct vertex *eye, int n_eye
     return sum;
 }
 
-/* t = 1: each vertex of a light sub-path, as the camera sees it, somewhere in the picture. */
+/* t = 1: each vertex of a light sub-path, as the camera sees it, somewhere in the image. */
 static void splat_path(const struct counts *n, const struct light_path *light, rgb *image)
 {
     for (int s = 2; s <= light->n; s++) {
@@ -350,22 +350,22 @@ static void splat_path(const struct counts *n, const struct light_path *light, r
 }
 
 /* ---- Choosing light sub-paths (src/integrators) --------------------------------------------------------------------
- * The picture is made row by row. In every iteration a light sub-path is traced for each pixel of the row, and each
- * pixel's eye sub-path is joined to one of them: that is where the methods differ. bdpt: its own.
+ * The image is made row by row. Every iteration traces a light sub-path for each pixel of the row, and connects each
+ * pixel's eye sub-path to one of them. The methods differ in which one. bdpt: the pixel's own.
  *   bins      The dissertation: a pixel owns 8 sub-paths in bins of two. Bins are visited in turn; of the two, number 0
- *             is taken with probability beta_0^2 / (beta_0^2 + beta_1^2), used as in bdpt, and traced anew (eq. 3.1).
- *             BIASED: those thrown away, by age or at a restart, are mostly of low beta; nothing makes up for it.
+ *             is taken with probability beta_0^2 / (beta_0^2 + beta_1^2), used as in bdpt, and replaced (eq. 3.1).
+ *             BIASED: those discarded, by age or at a restart, are mostly of low beta; no weight corrects this.
  *   pool      Number k of the row's K with probability q_k, as much as the camera can use of it; times 1 / (K q_k).
- *             Unbiased: sum_k q_k F_k / (K q_k) is the mean of F over the pool, which is what bdpt estimates.
- *   vertices  A vertex y_(s-1) stands for the sub-path that ends there: an eye vertex draws single vertices, where they
- *             are worth much. The weights know: n(y) samples are taken, a function of the place that all agree on. */
+ *             Unbiased: sum_k q_k X_k / (K q_k) is the mean of X over the pool, which is what bdpt estimates.
+ *   vertices  A vertex y_(s-1) is the sub-path that ends there: an eye vertex draws single vertices where they are
+ *             worth much. The weights count n(y) samples, a function of the place that every strategy can compute. */
 enum method { PT, BDPT, BINS, POOL, VERTICES, METHODS };
 static const char *const NAMES[METHODS] = {"pt", "bdpt", "bins", "pool", "vertices"};
 #define CHOICES "pt|bdpt|bins|pool|vertices"
 enum { BIN_PATHS = 8, MAX_AGE = 24, RESTART = 32, DRAWS = 4, TABLE = SIZE * DEPTH };
-static const double DELTA = 0.1; /* share of the draws that goes by nothing learnt, so that none becomes impossible */
+static const double DELTA = 0.1; /* share of draws that ignore what was learnt, so that every draw is possible */
 
-struct table { /* a probability for sub-path k at [k], or for its vertex y_j at [k * DEPTH + j - 1]; to draw by it */
+struct table { /* probabilities: of sub-path k at [k], or of its vertex y_j at [k * DEPTH + j - 1] */
     double q[TABLE];
     struct bin bin[TABLE];
     bool made;
@@ -373,7 +373,7 @@ struct table { /* a probability for sub-path k at [k], or for its vertex y_j at 
 struct work { /* all memory there is */
     rgb image[SIZE * SIZE];                   /* sums over samples, top row first */
     double worth[PLACES];                     /* of a light vertex in that cell */
-    struct light_path path[SIZE * BIN_PATHS]; /* of a row; all but bins: one per pixel */
+    struct light_path path[SIZE * BIN_PATHS]; /* of a row; other methods than bins: one per pixel */
     struct table table;
     int scratch[TABLE];
 };
@@ -409,7 +409,7 @@ static struct light_path *choose_of_bins(const struct counts *n, struct light_pa
     return next(rng) * (b0 + b1) < b0 ? &pair[0] : &pair[1];
 }
 
-/* What is in q, made probabilities, and the alias table over them. */
+/* Makes probabilities of the weights in q, and the alias table of them. */
 static void table_make(struct table *t, int size, int *scratch)
 {
     double sum = 0;
@@ -472,7 +472,7 @@ static void render(struct work *w, enum method method, int spp, uint64_t *rng)
     for (int y = 0; y < SIZE; y++) {
         for (int i = 0; i < spp; i++) {
             int shift = (int)(next(rng) * SIZE);
-            for (int k = 0; k < SIZE && !pt && method != BINS; k++) /* path tracing makes do with none */
+            for (int k = 0; k < SIZE && !pt && method != BINS; k++) /* path tracing needs none */
                 path_light(&n, &w->path[k], i, rng);
             w->table.made = false;
             if (method == POOL)
@@ -482,7 +482,7 @@ static void render(struct work *w, enum method method, int spp, uint64_t *rng)
                 double W = 1;
                 if (method == BINS)
                     own = used = choose_of_bins(&n, &w->path[x * BIN_PATHS], i, rng);
-                if (method == POOL) { /* every bin is visited by one pixel, no one knows which */
+                if (method == POOL) { /* every bin is visited by one pixel, in random order */
                     int k = alias_choose(w->table.bin, (x + shift) % SIZE, next(rng));
                     used = &w->path[k];
                     W = 1 / (SIZE * w->table.q[k]);
@@ -492,7 +492,7 @@ static void render(struct work *w, enum method method, int spp, uint64_t *rng)
                 rgb joined = draws ? sum_draws(w, &n, eye, n_eye, rng) : sum_pairs(&n, eye, n_eye, used);
                 rgb sum = add(sum_eye(&n, eye, n_eye, rng), mul(joined, W)), *pixel = &w->image[y * SIZE + x];
                 *pixel = add(*pixel, sum);
-                splat_path(&n, own, w->image); /* each once, whoever was chosen */
+                splat_path(&n, own, w->image); /* each once, chosen or not */
                 if (method == BINS)
                     path_light(&n, own, i, rng);
             }
@@ -501,7 +501,7 @@ static void render(struct work *w, enum method method, int spp, uint64_t *rng)
     }
 }
 
-/* ---- Pictures (src/image/png.c) ------------------------------------------------------------------------------------
+/* ---- Images (src/image/png.c) --------------------------------------------------------------------------------------
  * PNG: chunks, each with a checksum. Its pixels are a zlib stream, here of blocks that are stored as they are. */
 static void put(FILE *f, uint32_t *crc, unsigned byte)
 {
@@ -582,7 +582,7 @@ int main(int argc, char **argv)
         method++;
     if (argc < 4 || argc > 5 || method == METHODS || spp < 1)
         return fprintf(stderr, "usage: %s " CHOICES " SAMPLES OUT.png|OUT.pfm [SEED]\n", argv[0]), 2;
-    uint64_t rng = argc > 4 ? (uint64_t)strtoul(argv[4], NULL, 10) << 40 : 0; /* no picture takes 2^40 numbers */
+    uint64_t rng = argc > 4 ? (uint64_t)strtoul(argv[4], NULL, 10) << 40 : 0; /* no image takes 2^40 numbers */
     FILE *f = fopen(argv[3], "wb");
     struct work *work = calloc(1, sizeof *work);
     if (work == NULL || f == NULL)

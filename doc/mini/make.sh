@@ -4,7 +4,7 @@
 cd "$(dirname "$0")" || exit 1
 out=${1:-.}
 step=0
-for name in 1-rays 2-paths 3-lamp 4-light 5-bdpt 6-choice 7-vertices asbdpt; do
+for name in 1-rays 2-paths 3-direct 4-light 5-bdpt 6-choice 7-vertices asbdpt; do
     step=$((step + 1))
     awk -v step=$step '
         { from = substr($0, 1, 1); to = substr($0, 2, 1) }
