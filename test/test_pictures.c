@@ -109,7 +109,7 @@ static void test_demo(struct test *t)
     float *ref = image_read_linear("ref/cornell-box.pfm", &width, &height, NULL, &err);
     bool ok = CHECK(t, ref != NULL && measure(&plan, &r, &err), "%s", err.text);
     if (ok)
-        demo_draw(&r, &sheet);
+        sheet = pictures_sheet(&r.scene[0]);
     for (int i = 0; ok && i < SIDES; i++) {
         /* Pictures of 64 x 64 pixels, each a square of k x k, 24 pixels apart: take one back out of the sheet. */
         int k = (sheet.width - 4 * 24) / 3 / 64, left = 24 + i * (64 * k + 24), top = sheet.height - 24 - 64 * k;
@@ -119,11 +119,11 @@ static void test_demo(struct test *t)
                 for (int c = 0; c < 3; c++)
                     mean[3 * (y / 2 * 32 + x / 2) + c] +=
                         0.25f * sheet.pixels[3 * ((top + y * k) * sheet.width + left + x * k) + c];
-        double rmse8 = compare_pixels(mean, ref, 32 * 32 * 3).rmse8, said = r.scene[0].run[i][0].step[0].value[Q_RMSE8];
+        double rmse8 = compare_pixels(mean, ref, 32 * 32 * 3).rmse8, said = r.scene[0].run[i][0][0].value[Q_RMSE8];
         CHECK(t, fabs(rmse8 - said) < 0.01 && said > 1, "label %d says %g, the picture has %g", i, said, rmse8);
     }
     if (ok) {
-        CHECK(t, r.scene[0].run[0][0].step[0].spp == 2 && r.scene[0].run[1][0].step[0].spp >= 1, "samples");
+        CHECK(t, r.scene[0].run[0][0][0].spp == 2 && r.scene[0].run[1][0][0].spp >= 1, "samples");
         sheet_free(&sheet);
     }
     free(ref);

@@ -11,12 +11,11 @@
 #include "lab/stats.h"
 #include "image/image.h"
 #include "lab/compare.h"
-#include "lab/figures.h"
 #include "lab/markup.h"
 #include "lab/measure.h"
 #include "lab/pictures.h"
+#include "lab/plot.h"
 #include "lab/report.h"
-#include "lab/tables.h"
 #include "parser/parser.h"
 #include "helpers.h"
 #include "tests.h"
@@ -40,14 +39,20 @@ static void test_statistics(struct test *t)
     CHECK(t, fabs(student_quantile(0.05, 2) - 4.302653) < 1e-5 && fabs(student_quantile(0.05, 10) - 2.228139) < 1e-5,
           "t(2) and t(10) at 5 %%: %g, %g", student_quantile(0.05, 2), student_quantile(0.05, 10));
     const double a[3] = {2.0, 2.2, 2.4}, b[2] = {1.0, 1.2}, below[2] = {-1, -2};
-    struct interval i = results_ratio(a, 3, b, 2), one = results_ratio(a, 1, b, 2);
+    struct interval i = results_ratio(a, 3, b, 2, 0), one = results_ratio(a, 1, b, 2, 0);
     double va = 0.04 / 3 / (2.2 * 2.2), vb = 0.02 / 2 / (1.1 * 1.1);
     double dof = (va + vb) * (va + vb) / (va * va / 2 + vb * vb / 1);
     CHECK(t, fabs(i.value - 2) < 1e-12 && fabs(i.low * i.high - 4) < 1e-9 &&
                  fabs(log(i.high / 2) - student_quantile(0.05, dof) * sqrt(va + vb)) < 1e-9,
           "ratio %g of means, from %g to %g: symmetric in the logarithm", i.value, i.low, i.high);
+    struct interval priced = results_ratio(a, 3, b, 2, 0.01), mean = results_mean_log(a, 3);
+    double v = va + vb + 0.01, freedom = v * v / (va * va / 2 + vb * vb / 1 + 1e-4 / 2);
+    CHECK(t, fabs(log(priced.high / 2) - student_quantile(0.05, freedom) * sqrt(v)) < 1e-9, "an uncertain price: to %g",
+          priced.high);
+    CHECK(t, fabs(log(mean.value) - 2.2) < 1e-12 && fabs(log(mean.high) - 2.2 - 4.302653 * 0.2 / sqrt(3)) < 1e-5,
+          "geometric mean %g, to %g", mean.value, mean.high);
     CHECK(t, isnan(one.low) && isfinite(one.value), "one seed has no interval");
-    CHECK(t, isnan(results_ratio(below, 2, b, 2).value), "error below the reference's noise has no ratio");
+    CHECK(t, isnan(results_ratio(below, 2, b, 2, 0).value), "error below the reference's noise has no ratio");
 }
 
 /* Of values of a known variance their pairs tell it: the mean of seeds' squares is that of all pairs; each seed's is
@@ -76,19 +81,16 @@ static void test_pairs_of_seeds(struct test *t)
 /* Ticks lie on the axis, rise, and are round: they need few digits. */
 static void check_axis(struct test *t, const struct plot_axis *a)
 {
-    double tick[AXIS_MAX_TICKS];
-    bool major[AXIS_MAX_TICKS];
-    int n = axis_ticks(a, tick, major), majors = 0;
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < a->n_ticks; i++) {
         char digits[32];
-        double at = axis_position(a, tick[i]), most = fmax(fabs(tick[i]), a->high - a->low);
-        snprintf(digits, sizeof digits, "%.3g", tick[i]);
-        majors += major[i];
-        CHECK(t, at > -1e-9 && at < 1 + 1e-9 && fabs(atof(digits) - tick[i]) <= 1e-9 * most &&
-                     (i == 0 || tick[i] > tick[i - (i > 0)]),
-              "tick %d, %.12g, of [%g, %g]", i, tick[i], a->low, a->high);
+        double at = axis_position(a, a->tick[i]), most = fmax(fabs(a->tick[i]), a->high - a->low);
+        snprintf(digits, sizeof digits, "%.3g", a->tick[i]);
+        CHECK(t, at > -1e-9 && at < 1 + 1e-9 && fabs(atof(digits) - a->tick[i]) <= 1e-9 * most &&
+                     (i == 0 || a->tick[i] > a->tick[i - (i > 0)]),
+              "tick %d, %.12g, of [%g, %g]", i, a->tick[i], a->low, a->high);
     }
-    CHECK(t, majors >= (a->logarithmic ? 1 : 3) && majors <= 14, "%d numbers on [%g, %g]", majors, a->low, a->high);
+    CHECK(t, a->n_ticks >= (a->logarithmic ? 1 : 3) && a->n_ticks <= 14, "%d numbers on [%g, %g]", a->n_ticks, a->low,
+          a->high);
 }
 
 /* Pictures of noise beside a reference with a tenth of its variance. What has the same mean is marked as rarely as the
@@ -233,7 +235,7 @@ static bool same_results(const struct results *a, const struct results *b, bool 
     for (int v = 0; v < N_METHODS; v++)
         for (int seed = 0; seed < plan_seeds(a->plan, v); seed++)
             for (int i = 0; i < a->plan->n_steps; i++) {
-                const struct run_step *p = &x->run[v][seed].step[i], *q = &y->run[v][seed].step[i];
+                const struct run *p = &x->run[v][seed][i], *q = &y->run[v][seed][i];
                 for (int k = first; k < N_QUANTITIES; k++)
                     same = same && p->spp == q->spp && p->value[k] == q->value[k];
             }
@@ -275,11 +277,11 @@ static void check_runs(struct test *t, const struct results *r)
     CHECK(t, strcmp(s->name, "cornell-box") == 0, "scene name %s", s->name);
     for (int v = 0; v < N_METHODS; v++)
         for (int i = 0; i < r->plan->n_steps; i++) {
-            double direct = direct_rmse8(t, r, v, i), ours = s->run[v][0].step[i].value[Q_RMSE8];
+            double direct = direct_rmse8(t, r, v, i), ours = s->run[v][0][i].value[Q_RMSE8];
             CHECK(t, fabs(direct - ours) < 1e-9, "%s after %ld spp: rmse8 %g, rendered in one go %g",
                   r->plan->methods.item[v].text, r->plan->spp[i], ours, direct);
         }
-    const struct run_step *step = s->run[0][0].step;
+    const struct run *step = s->run[0][0];
     double rmse8 = step[0].value[Q_RMSE8], noise8 = s->reference.noise8;
     CHECK(t, fabs(step[0].square[SQUARE_RMSE8] - (rmse8 * rmse8 - noise8 * noise8)) < 1e-6 * rmse8 * rmse8,
           "squared error %g, of %g with the reference's %g", step[0].square[SQUARE_RMSE8], rmse8, noise8);
@@ -288,23 +290,24 @@ static void check_runs(struct test *t, const struct results *r)
     CHECK(t, seconds[0] > 0 && seconds[1] >= seconds[0], "time falls: %g, %g s", seconds[0], seconds[1]);
 }
 
-static void check_tables(struct test *t, const struct results *r)
+/* The page has, in their rows, the mean of pool's two seeds with its standard error, and the last printed ratio. */
+static void check_tables(struct test *t, const struct results *r, const char *page)
 {
     const struct scene_results *s = &r->scene[0];
-    struct table table;
     int last = r->plan->n_steps - 1;
-    double x = s->run[POOL][0].step[last].value[Q_RMSE8], y = s->run[POOL][1].step[last].value[Q_RMSE8];
-    table_make(r, s, TABLE_RMSE, &table);
-    double found = table.cell[(size_t)last * table.columns + 1 + POOL].value;
-    double error = results_mean(s, POOL, last, Q_RMSE8).error;
-    CHECK(t, found == 0.5 * (x + y), "RMSE of pool in the table: %g, of two seeds %g and %g", found, x, y);
-    CHECK(t, fabs(error - 0.5 * fabs(x - y)) < 1e-12, "standard error of two values: %g", error);
-    table_free(&table);
-    const struct published *p = published_find("cornell-box");
-    CHECK(t, table_make(r, s, TABLE_PRINTED, &table), "the scene has printed numbers");
-    found = table.cell[table.n_cells - 1].value;
-    CHECK(t, found == p->asbdpt[4] / p->bdpt[4], "the last printed ratio: %g", found);
-    table_free(&table);
+    double x = s->run[POOL][0][last].value[Q_RMSE8], y = s->run[POOL][1][last].value[Q_RMSE8];
+    struct estimate e = results_mean(s, POOL, last, Q_RMSE8);
+    CHECK(t, e.mean == 0.5 * (x + y) && fabs(e.error - 0.5 * fabs(x - y)) < 1e-12, "mean and error of two values: %g, "
+          "%g", e.mean, e.error);
+    const char *row = strstr(page, "standard error\n\n| spp |");
+    for (int i = 0; row != NULL && i < 2 + 2 + last; i++)
+        row = strchr(row + 1, '\n');
+    double found[4] = {0};
+    int n = row != NULL ? sscanf(row, "\n| %lf | %lf %*s %*f | %lf %*s %*f | %lf", &found[0], &found[1], &found[2],
+                                 &found[3]) : 0;
+    CHECK(t, n == 4 && found[0] == 64 && fabs(found[3] - e.mean) < 0.5 * e.error + 0.01 * e.mean,
+          "the last row of the table of errors has %d numbers, of pool %g, not %g", n, found[3], e.mean);
+    CHECK(t, strstr(page, "| 512 | - | - | - | 0.8086 | 1.8169 | 2.247 |\n") != NULL, "what was printed of the scene");
 }
 
 /* The heat map of a method on the sheet has the colours that its errors have on the common scale. */
@@ -324,7 +327,7 @@ static void check_sheet(struct test *t, const struct results *r)
     CHECK(t, scale > 0, "the scale is %g", scale);
     for (int i = 0; i < s->width * s->height; i++) {
         float e = (float)compare_pixels(s->image[POOL] + 3 * i, s->reference.pixels + 3 * i, 3).rmse8, colour[3];
-        int x = COLUMN_GAP + (POOL + 1) * column + i % s->width * k, y = below + i / s->width * k;
+        int x = COLUMN_GAP + POOL * column + i % s->width * k, y = below + i / s->width * k;
         compare_heatmap(&e, 1, scale, colour);
         for (int c = 0; c < 3; c++)
             CHECK(t, srgb_byte((double)colour[c]) == img.u8[3 * (y * img.width + x) + c], "pixel %d, error %g of %g", i,
@@ -336,26 +339,22 @@ static void check_sheet(struct test *t, const struct results *r)
 /* Every file the experiment leaves is well-formed, and every one that the page names is there. */
 static void check_output(struct test *t, const struct results *r)
 {
-    static const char *const plots[] = {"convergence", "samples", "bias", "sweep-1"};
     struct error err = {.text = ""};
     CHECK(t, report_write(r, &err), "output: %s", err.text);
     check_sheet(t, r);
-    for (size_t i = 0; i < sizeof plots / sizeof plots[0]; i++) {
-        char name[128];
-        snprintf(name, sizeof name, "plots/cornell-box-%s.svg", plots[i]);
-        char *svg = text_of(t, r->plan->directory, name);
-        CHECK(t, unclosed(svg) == 0 && strstr(svg, "nan") == NULL && strstr(svg, "inf\"") == NULL, "%s", name);
-        free(svg);
-    }
+    char *svg = text_of(t, r->plan->directory, "plots/cornell-box.svg");
+    int lines = 0;
+    for (const char *p = svg; (p = strstr(p, "\" d=\"M")) != NULL; p++)
+        lines++;
+    CHECK(t, unclosed(svg) == 0 && strstr(svg, "nan") == NULL && strstr(svg, "inf") == NULL && lines > 100,
+          "the plot, with %d lines", lines);
+    free(svg);
     int runs = 0;
     for (int v = 0; v < N_METHODS; v++)
         runs += plan_seeds(r->plan, v);
-    char *means = text_of(t, r->plan->directory, "results.csv"), *each = text_of(t, r->plan->directory, "runs.csv");
-    CHECK(t, lines_of(means) == 1 + N_METHODS * r->plan->n_steps, "results.csv has %d lines", lines_of(means));
+    char *each = text_of(t, r->plan->directory, "runs.csv");
     CHECK(t, lines_of(each) == 1 + runs * r->plan->n_steps, "runs.csv has %d lines", lines_of(each));
-    free(means);
     free(each);
-
     char *page = text_of(t, r->plan->directory, "results.md");
     int named = 0;
     for (const char *p = page; (p = strstr(p, "](")) != NULL; p += 2, named++) {
@@ -363,7 +362,8 @@ static void check_output(struct test *t, const struct results *r)
         snprintf(path, sizeof path, "%s/%.*s", r->plan->directory, (int)strcspn(p + 2, ")"), p + 2);
         CHECK(t, file_exists(path), "%s, which the page names, is not there", path);
     }
-    CHECK(t, named == 2 + 1 + 4 && strstr(page, "nan") == NULL, "the page names %d files", named);
+    CHECK(t, named == 3 && strstr(page, "nan") == NULL, "the page names %d files", named);
+    check_tables(t, r, page);
     free(page);
 }
 
@@ -374,7 +374,7 @@ static void check_again(struct test *t, struct setup *s, const struct results *f
     struct results again;
     carry_out(t, s, &again);
     CHECK(t, same_results(first, &again, times) == same, "%s", what);
-    again.scene[0].run[POOL][0] = again.scene[0].run[POOL][1];
+    memcpy(again.scene[0].run[POOL][0], again.scene[0].run[POOL][1], sizeof again.scene[0].run[POOL][0]);
     CHECK(t, !same_results(first, &again, false), "two seeds have different results");
     results_free(&again);
 }
@@ -390,7 +390,6 @@ static void test_experiment(struct test *t)
 {
     struct setup s;
     struct results first;
-    struct table table;
     char path[512];
     set_up(t, &s);
     if (!carry_out(t, &s, &first)) {
@@ -398,7 +397,6 @@ static void test_experiment(struct test *t)
         return;
     }
     check_runs(t, &first);
-    check_tables(t, &first);
     check_output(t, &first);
 
     /* Started again, nothing is done twice: even the times are the old ones. */
@@ -418,9 +416,11 @@ static void test_experiment(struct test *t)
     write_scene(s.scene_path, "[9 9 9]");
     check_again(t, &s, &first, false, false, "a brighter light does");
     first.scene[0].reference.mean_error = NAN; /* what is not known of a reference is said to be so */
-    table_make(&first, &first.scene[0], TABLE_BIAS, &table);
-    CHECK(t, strstr(table.caption, "error: not known)") != NULL, "caption \"%s\"", table.caption);
-    table_free(&table);
+    struct error err;
+    CHECK(t, report_write(&first, &err), "%s", err.text);
+    char *page = text_of(t, s.directory, "results.md");
+    CHECK(t, strstr(page, "error: not known)") != NULL, "an unknown error of the reference");
+    free(page);
     results_free(&first);
 }
 

@@ -28,8 +28,8 @@ pathgraph() {
         for radius in 0 .01 .02 .05 .1 .2 .4; do
             [ "$radius" = 0 ] && set -- --integrator pt || set -- --integrator pathgraph -P "radius=$radius"
             render "scenes/$scene.pbrt" "$@" --spp 512 --res "$res" --filter box -o "$dir/x.pfm"
-            error=$(sh test/lab/blocks.sh "$dir/x.pfm" "$dir/$scene.pfm" "$res")
-            echo "$scene $radius $(echo "$error" | awk '{ print sqrt($1) }')"
+            echo "$scene $radius $(./asbdpt-lab compare "$dir/x.pfm" "$dir/$scene.pfm" |
+                awk '$1 == "relmse8x8" { print sqrt($2) }')"
         done
     done >"$dir/pathgraph.txt" <<SCENES
 cornell-box 48x48

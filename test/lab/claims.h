@@ -2,13 +2,13 @@
  *
  * A claim says that the squared error of a method is below so much of another's, after the same CPU time or the same
  * samples, as its paper has it, in all scenes or in those of a name. It is
- *     found        if the 95 % interval (equal_bootstrap: over scenes and seeds) of the ratio lies below, by rmse8, by
- *                  relmse and by 8x8,
+ *     found        if the 95 % interval of the ratio (equal_mean) lies below, by rmse8, by relmse and by 8x8,
  *     not found    if one of the three lies above,
  *     cannot tell  otherwise,
  *     not judged   where what is here is not the paper's method; the ratio is shown all the same.
- * Three intervals are looked at and all must agree, so a false `found` is rarer than one in forty. [Popov 2015] makes
- * no claim here: its bound of the variance is missing.
+ * Three intervals are looked at and all must agree, so of claims that are only as good as their number at most one in
+ * forty is found. The table says how many that would be of all that are judged. [Popov 2015] makes no claim here: its
+ * bound of the variance is missing.
  *
  * Tests: test_equal_time.c.
  */

@@ -41,11 +41,12 @@ static void print_number(const char *before, const char *name, double value, boo
         printf("%s\"%s\": null", before, name);
 }
 
-static void print(const struct difference *d, bool json)
+static void print(const struct difference *d, double blocks, bool json)
 {
     print_number("{", "rmse", d->rmse, json);
     print_number(", ", "rmse8", d->rmse8, json);
     print_number(", ", "relmse", d->relmse, json);
+    print_number(", ", "relmse8x8", blocks, json);
     print_number(", ", "mean_ratio", d->mean_ratio, json);
     printf(json ? ", \"nonfinite\": %ld" : "nonfinite  %ld\n", d->nonfinite);
     print_number(", ", "psnr", d->psnr, json);
@@ -92,9 +93,11 @@ static bool compare_files(const struct compare_options *o, struct error *err)
                        o->reference, w2, h2);
     if (ok) {
         struct difference d = compare_pixels(x, r, (long)w1 * h1 * 3);
+        double square[N_SQUARES];
+        compare_squares(x, r, r, w1, h1, square);
         if (about1.linear != about2.linear)
             warn_of_display(about1.linear ? o->reference : o->image, about1.linear ? o->image : o->reference);
-        print(&d, o->json);
+        print(&d, square[SQUARE_BLOCKS], o->json);
         ok = !mapped || write_heatmap(o, &map, x, r, w1, h1, err);
         mapped = false;
         if (ok && o->max_rmse > 0 && d.nonfinite > 0)

@@ -34,6 +34,17 @@ static const struct option OPTIONS[] = {
     {.name = NULL},
 };
 
+/* A line for each method. */
+static void print(const struct results *r)
+{
+    const struct scene_results *s = &r->scene[0];
+    for (int i = 0; i < r->plan->methods.n; i++) {
+        const struct run *run = s->run[i][0];
+        printf("%-8s %6ld spp %8.2f s of CPU   rmse8 %.3f   of 8x8 pixels %.3f\n", r->plan->methods.item[i].text,
+               run->spp, run->value[Q_SECONDS], run->value[Q_RMSE8], pictures_blocks(s, i));
+    }
+}
+
 static int run(void *options)
 {
     struct demo_options *o = options;
@@ -52,13 +63,13 @@ static int run(void *options)
         return fail(&err);
     bool ok = measure(p, &results, &err);
     if (ok) {
-        demo_draw(&results, &picture);
+        picture = pictures_sheet(&results.scene[0]);
         ok = outputs_write(&out, picture.width, picture.height, picture.pixels, p->quiet, &err);
     }
     outputs_abandon(&out); /* unless they are written */
     sheet_free(&picture);
     if (ok)
-        demo_print(stdout, &results);
+        print(&results);
     results_free(&results);
     return ok ? EXIT_OK : fail(&err);
 }

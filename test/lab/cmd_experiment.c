@@ -9,7 +9,6 @@
 #include "lab/equal.h"
 #include "lab/family.h"
 #include "lab/measure.h"
-#include "lab/pictures.h"
 #include "lab/report.h"
 
 /* The scenes measured when none is named, the first five of them by `experiment`; the program is run from the top of
@@ -194,8 +193,6 @@ static bool plan_family(struct plan_options *o, char command[COMMAND], struct er
 static bool write_equal(const struct results *r, struct error *err)
 {
     bool ok = family_write(r, "equal-time.md", err);
-    for (int i = 0; ok && i < r->plan->n_scenes; i++)
-        ok = pictures_write(&r->scene[i], err);
     if (ok) {
         family_tables(stdout, r);
         printf("%s/equal-time.md\n", r->plan->directory);

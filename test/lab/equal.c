@@ -9,11 +9,8 @@
 #include "base/maths.h"
 #include "base/number.h"
 #include "base/progress.h"
-#include "base/rng.h"
-#include "lab/numbers.h"
-#include "lab/stats.h"
 
-enum { MOST_SAMPLES = 1 << 20, DRAWS = 2000, MOST_SCENES = 64 };
+enum { MOST_SAMPLES = 1 << 20, MOST_SCENES = 64 };
 
 const char *const EQUAL_NAMES[N_SQUARES] = {"rmse8", "relmse", "8x8"};
 
@@ -36,17 +33,28 @@ void equal_squares(const struct scene_results *s, int method, enum square which,
 {
     double n = equal_afforded(s, method);
     for (int i = 0; i < s->plan->n_seeds; i++) {
-        const struct run_step *r = &s->run[method][i].step[0];
+        const struct run *r = &s->run[method][i][0];
         out[i] = n >= 1 ? r->square[which] * (double)r->spp / (basis == AT_EQUAL_TIME ? n : 1) : NAN;
     }
 }
 
-struct interval equal_ratio(const struct scene_results *s, int method, int over, enum square which)
+/* Variance of the logarithm of a price that is the median of three rounds: their range is 1.69 standard deviations, the
+ * median's own is 0.67 of one. */
+static double price_variance(const struct scene_results *s, int method) { return sqr(0.396 * s->price[method].spread); }
+
+static struct interval ratio_at(const struct scene_results *s, int method, int over, enum square which,
+                                enum basis basis)
 {
     double x[PLAN_MAX_SEEDS], y[PLAN_MAX_SEEDS];
-    equal_squares(s, method, which, AT_EQUAL_TIME, x);
-    equal_squares(s, over, which, AT_EQUAL_TIME, y);
-    return results_ratio(x, s->plan->n_seeds, y, s->plan->n_seeds);
+    double price = basis == AT_EQUAL_TIME ? price_variance(s, method) + price_variance(s, over) : 0;
+    equal_squares(s, method, which, basis, x);
+    equal_squares(s, over, which, basis, y);
+    return results_ratio(x, s->plan->n_seeds, y, s->plan->n_seeds, price);
+}
+
+struct interval equal_ratio(const struct scene_results *s, int method, int over, enum square which)
+{
+    return ratio_at(s, method, over, which, AT_EQUAL_TIME);
 }
 
 struct equal_ends equal_ends(const struct results *r, int method, enum square which)
@@ -76,56 +84,48 @@ double equal_price(const struct results *r, int method)
     return m_exp(sum / r->plan->n_scenes);
 }
 
-/* --- the bootstrap ----------------------------------------------------------------------------------- */
+/* --- means over scenes ------------------------------------------------------------------------------- */
 
-/* The logarithm of the mean of n seeds drawn from n, never far below that of all. */
-static double drawn_log(struct rng *rng, const double *x, int n, double all)
+/* Logarithm of a method's ratio to another in one scene. */
+static double log_ratio(const struct scene_results *s, int method, int over, enum square which, enum basis basis)
 {
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += x[rng_below(rng, (uint32_t)n)];
-    return m_log(fmax(sum / n, 1e-3 * all));
+    double x[PLAN_MAX_SEEDS], y[PLAN_MAX_SEEDS];
+    equal_squares(s, method, which, basis, x);
+    equal_squares(s, over, which, basis, y);
+    double a = sum_of(x, s->plan->n_seeds), b = sum_of(y, s->plan->n_seeds);
+    return a > 0 && b > 0 ? m_log(a / b) : NAN;
 }
 
-struct interval equal_bootstrap(const struct results *r, int method, int over, enum square which, enum basis basis,
-                                const char *wanted, int *n)
+struct interval equal_mean(const struct results *r, int method, int over, enum square which, enum basis basis,
+                           const char *wanted, int *n)
 {
-    static const struct interval none = {NAN, NAN, NAN};
-    double x[MOST_SCENES][2][PLAN_MAX_SEEDS], all[MOST_SCENES][2], deviation[DRAWS], value = 0;
-    int seeds = r->plan->n_seeds, k = 0;
-    struct rng rng = rng_stream(0, RNG_TEST, 0, 0);
-    for (int i = 0; i < r->plan->n_scenes && k < MOST_SCENES; i++) {
-        const struct scene_results *s = &r->scene[i];
+    const struct scene_results *last = NULL;
+    double log[MOST_SCENES];
+    *n = 0;
+    for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes && *n < MOST_SCENES; s++) {
         if (wanted != NULL && strncmp(s->name, wanted, strlen(wanted)) != 0)
             continue;
         if (basis == AT_EQUAL_SAMPLES && (s->mark[method] != MARK_NONE || s->mark[over] != MARK_NONE))
             continue;
-        for (int side = 0; side < 2; side++) {
-            equal_squares(s, side == 0 ? method : over, which, basis, x[k][side]);
-            all[k][side] = sum_of(x[k][side], seeds) / seeds;
-        }
-        value += m_log(all[k][0] / all[k][1]);
-        k++;
+        last = s;
+        log[(*n)++] = log_ratio(s, method, over, which, basis);
     }
-    *n = k;
-    value /= k;
-    if (k == 0 || !isfinite(value))
-        return none;
-    if (k == 1)
-        return results_ratio(x[0][0], seeds, x[0][1], seeds);
-    for (int d = 0; d < DRAWS; d++) {
-        double sum = 0;
-        for (int i = 0; i < k; i++) {
-            uint32_t at = rng_below(&rng, (uint32_t)k);
-            sum += drawn_log(&rng, x[at][0], seeds, all[at][0]) - drawn_log(&rng, x[at][1], seeds, all[at][1]);
+    return *n == 1 ? ratio_at(last, method, over, which, basis) : results_mean_log(log, *n);
+}
+
+struct interval equal_over_best(const struct results *r, int method, const int *others, int n_others, enum square which)
+{
+    double log[MOST_SCENES];
+    int n = r->plan->n_scenes < MOST_SCENES ? r->plan->n_scenes : MOST_SCENES;
+    for (int i = 0; i < n; i++) {
+        log[i] = NAN;
+        for (int k = 0; k < n_others; k++) {
+            double over = log_ratio(&r->scene[i], method, others[k], which, AT_EQUAL_TIME);
+            if (r->scene[i].mark[others[k]] == MARK_NONE && !(over <= log[i]))
+                log[i] = over;
         }
-        deviation[d] = sum / k - value;
     }
-    stats_sort(deviation, DRAWS);
-    double wider = sqrt(k / (k - 1.0));
-    struct interval out = {m_exp(value), m_exp(value + wider * deviation[DRAWS / 40]),
-                           m_exp(value + wider * deviation[DRAWS - 1 - DRAWS / 40])};
-    return out;
+    return results_mean_log(log, n);
 }
 
 /* --- the words --------------------------------------------------------------------------------------- */
@@ -180,9 +180,9 @@ void equal_verdict(FILE *f, const struct results *r)
         bool marked = results_marked(r, v) > 0;
         fprintf(f, "Squared error of %s over that of %s after the same time, per pixel: ", p->methods.item[v].text,
                 p->methods.item[0].text);
-        say(f, r, equal_bootstrap(r, v, 0, SQUARE_RELMSE, AT_EQUAL_TIME, NULL, &n), marked);
+        say(f, r, equal_mean(r, v, 0, SQUARE_RELMSE, AT_EQUAL_TIME, NULL, &n), marked);
         fputs("In means over 8x8 pixels, where errors that neighbours share do not hide: ", f);
-        say(f, r, equal_bootstrap(r, v, 0, SQUARE_BLOCKS, AT_EQUAL_TIME, NULL, &n), marked);
+        say(f, r, equal_mean(r, v, 0, SQUARE_BLOCKS, AT_EQUAL_TIME, NULL, &n), marked);
     }
     fprintf(f, "Measured with %d seed%s on", p->n_seeds, p->n_seeds == 1 ? "" : "s");
     for (int i = 0; i < p->n_scenes; i++)

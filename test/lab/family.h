@@ -1,8 +1,8 @@
 /* family.h: methods beside each other at equal time (equal.h): what `asbdpt-lab equal-time` and `family` write.
  *
  * Files: a page of Markdown, runs.csv with every picture's errors, family.svg with the ratios to the first method and
- * their intervals, family.png with crops of all pictures; where there are both halves (methods.h), family-choice.svg
- * with those of the choice alone.
+ * their intervals, and images/SCENE.png with all pictures and their errors; where there are both halves (methods.h),
+ * family-choice.svg with the ratios of the choice alone.
  *
  * Tests: test_equal_time.c.
  */

@@ -48,7 +48,7 @@ static void compare_picture(struct subject *s, int method, int seed, int step)
 {
     struct scene_results *out = s->out;
     const struct reference *ref = &out->reference;
-    struct run_step *to = &out->run[method][seed - 1].step[step];
+    struct run *to = &out->run[method][seed - 1][step];
     const float *x = s->picture[method][seed - 1];
     struct difference d = compare_pixels(x, ref->pixels, 3L * out->width * out->height);
     to->value[Q_RMSE] = d.rmse;
@@ -65,7 +65,7 @@ static void compare_picture(struct subject *s, int method, int seed, int step)
 /* The picture of the last step is kept; of the first seed as it is. */
 static void take_step(struct subject *s, int method, int seed, int step, long spp, struct record *r)
 {
-    struct run_step *to = &s->out->run[method][seed - 1].step[step];
+    struct run *to = &s->out->run[method][seed - 1][step];
     float **picture = &s->picture[method][seed - 1], **image = &s->out->image[method];
     bool shown = method < s->plan->n_compared && seed == 1;
     free(*picture);
@@ -141,10 +141,8 @@ static bool read_or_render_run(struct subject *s, int method, int seed)
     const struct plan *p = s->plan;
     long spp = p->equal ? equal_samples(s->out, method) : 0;
     const long *steps = p->equal ? &spp : p->spp;
-    struct seed_run *run = &s->out->run[method][seed - 1];
-    run->n = p->equal ? 1 : p->n_steps;
     s->pace->share = 0;
-    bool ok = read_run(s, method, seed, steps, run->n) || render_run(s, method, seed, steps, run->n);
+    bool ok = read_run(s, method, seed, steps, p->n_steps) || render_run(s, method, seed, steps, p->n_steps);
     s->pace->done++;
     return ok;
 }
@@ -175,7 +173,7 @@ static void compare_pairs(struct subject *s, int method)
     for (int k = 0; k < N_SQUARES; k++) {
         results_pairs(half[k], n, each);
         for (int i = 0; i < n; i++)
-            out->run[method][i].step[0].square[k] = each[i];
+            out->run[method][i][0].square[k] = each[i];
     }
 }
 

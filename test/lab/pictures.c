@@ -10,19 +10,29 @@
 
 static const double SOFT = 0.65; /* the grey of what matters less */
 
+/* The largest size in which a text fits, up to `most`; 0: none. */
+static int fitting(const char *text, int width, int most)
+{
+    while (most > 0 && sheet_text_width(text, most) > width)
+        most--;
+    return most;
+}
+
 /* Column `number` of a sheet: name, an error by the name of its kind (NaN: unknown) and what it took, and below it the
- * picture, each of its pixels a square of k x k. */
+ * picture, each of its pixels a square of k x k. In a narrow column the error is below the name. */
 static void draw_column(struct sheet *sheet, int number, const char *name, const char *kind, double error,
                         const char *cost, const float *pixels, int width, int height, int k)
 {
-    int x = COLUMN_GAP + number * (width * k + COLUMN_GAP);
-    int size = sheet_text_width(name, 3) < width * k * 2 / 3 ? 3 : 2;
-    char text[100] = "";
+    int x = COLUMN_GAP + number * (width * k + COLUMN_GAP), size;
+    char both[200], text[40] = "";
     if (isfinite(error))
         snprintf(text, sizeof text, "%s %.1f", kind, error);
-    sheet_text(sheet, x, COLUMN_GAP, size, SHEET_INK, name);
-    sheet_text(sheet, x + width * k - sheet_text_width(text, size), COLUMN_GAP, size, SHEET_INK, text);
-    sheet_text(sheet, x, COLUMN_GAP + 30, 2, SOFT, cost);
+    snprintf(both, sizeof both, "%s  %s", name, text);
+    size = fitting(both, width * k, 3);
+    sheet_text(sheet, x, COLUMN_GAP, size > 0 ? size : 1, SHEET_INK, name);
+    sheet_text(sheet, x + (size > 0 ? width * k - sheet_text_width(text, size) : 0), COLUMN_GAP + (size > 0 ? 0 : 15),
+               size > 0 ? size : 1, SHEET_INK, text);
+    sheet_text(sheet, x, COLUMN_GAP + 30, fitting(cost, width * k, 2), SOFT, cost);
     sheet_paste(sheet, x, COLUMN_GAP + COLUMN_LABEL, pixels, width, height, k);
 }
 
@@ -48,47 +58,7 @@ double pictures_error_scale(const struct scene_results *s)
     return most;
 }
 
-/* How many times as wide and high as it is a picture is shown. */
-static int enlarged(int width) { return width < COLUMN_WIDTH ? COLUMN_WIDTH / width : 1; }
-
-/* The reference, and each method above its errors. */
-static void draw(const struct scene_results *s, const float *heat, struct sheet *sheet)
-{
-    int k = enlarged(s->width), methods = s->plan->n_compared;
-    int below = COLUMN_GAP + COLUMN_LABEL + s->height * k + COLUMN_GAP;
-    char text[100];
-    sheet_init(sheet, (methods + 1) * (s->width * k + COLUMN_GAP) + COLUMN_GAP, below + s->height * k + COLUMN_GAP,
-               SHEET_PAPER);
-    draw_column(sheet, 0, "reference", "noise", s->reference.noise8, "", s->reference.pixels, s->width, s->height, k);
-    snprintf(text, sizeof text, "errors: dark 0, bright %.3g and more", pictures_error_scale(s));
-    sheet_text(sheet, COLUMN_GAP, below, 2, SOFT, text);
-    for (int v = 0; v < methods; v++) {
-        const struct run_step *last = &s->run[v][0].step[plan_last_step(s->plan)];
-        snprintf(text, sizeof text, "%ld samples per pixel, %.1f s of CPU", last->spp, last->value[Q_SECONDS]);
-        draw_column(sheet, v + 1, s->plan->methods.item[v].text, "error", last->value[Q_RMSE8], text, s->image[v],
-                    s->width, s->height, k);
-        sheet_paste(sheet, COLUMN_GAP + (v + 1) * (s->width * k + COLUMN_GAP), below,
-                    heat + 3L * v * s->width * s->height, s->width, s->height, k);
-    }
-}
-
-bool pictures_write(const struct scene_results *s, struct error *err)
-{
-    char name[300];
-    long n;
-    struct sheet sheet;
-    float *error = display_errors(s, &n), *heat = mem_alloc((size_t)n * 3, sizeof *heat);
-    compare_heatmap(error, n, picture_percentile(error, n, PICTURES_PERCENTILE), heat);
-    draw(s, heat, &sheet);
-    free(heat);
-    free(error);
-    snprintf(name, sizeof name, "images/%s.png", s->name);
-    return sheet_write(&sheet, s->plan->directory, name, err);
-}
-
-/* --- a demonstration --------------------------------------------------------------------------------- */
-
-static double shown_blocks(const struct scene_results *s, int method)
+double pictures_blocks(const struct scene_results *s, int method)
 {
     int k = plan_scale(s->plan);
     float *small = sheet_shrink(s->image[method], s->width * k, s->height * k, k);
@@ -97,36 +67,61 @@ static double shown_blocks(const struct scene_results *s, int method)
     return rmse8;
 }
 
-void demo_draw(const struct results *r, struct sheet *sheet)
+/* How many times as wide and high as it is a picture is shown: of many methods less. */
+static int enlarged(int width, int methods)
 {
-    const struct scene_results *s = &r->scene[0];
-    const struct plan *p = r->plan;
-    int scale = plan_scale(p), width = s->width * scale, height = s->height * scale, n = p->methods.n;
-    int k = enlarged(width);
-    char cost[100];
-    sheet_init(sheet, (n + 1) * (width * k + COLUMN_GAP) + COLUMN_GAP, COLUMN_LABEL + height * k + 2 * COLUMN_GAP,
-               SHEET_PAPER);
-    for (int i = 0; i < n; i++) {
-        const struct run_step *step = &s->run[i][0].step[0];
-        snprintf(cost, sizeof cost, "%ld spp, %.1f s; in 8x8 %.1f", step->spp, step->value[Q_SECONDS],
-                 shown_blocks(s, i));
-        draw_column(sheet, i, p->methods.item[i].text, "error", step->value[Q_RMSE8], cost, s->image[i], width, height,
-                    k);
-    }
-    if (scale > 1)
-        snprintf(cost, sizeof cost, "%.14s; %d x %d in one", s->reference.origin, scale, scale);
-    else
-        snprintf(cost, sizeof cost, "%.14s", s->reference.origin);
-    draw_column(sheet, n, "reference", "noise", s->reference.noise8, cost, s->reference.pixels, s->width, s->height,
-                k * scale);
+    int most = COLUMN_WIDTH / (1 + methods / 8);
+    return width < most ? most / width : 1;
 }
 
-void demo_print(FILE *f, const struct results *r)
+/* The errors of all methods below their pictures, and what their colours mean. */
+static void draw_errors(const struct scene_results *s, struct sheet *sheet, int k)
 {
-    const struct scene_results *s = &r->scene[0];
-    for (int i = 0; i < r->plan->methods.n; i++) {
-        const struct run_step *step = &s->run[i][0].step[0];
-        fprintf(f, "%-8s %6ld spp %8.2f s of CPU   rmse8 %.3f   of 8x8 pixels %.3f\n", r->plan->methods.item[i].text,
-                step->spp, step->value[Q_SECONDS], step->value[Q_RMSE8], shown_blocks(s, i));
+    char text[100];
+    long n;
+    int y = COLUMN_GAP + COLUMN_LABEL + s->height * k + COLUMN_GAP;
+    float *error = display_errors(s, &n), *heat = mem_alloc((size_t)n * 3, sizeof *heat);
+    compare_heatmap(error, n, picture_percentile(error, n, PICTURES_PERCENTILE), heat);
+    snprintf(text, sizeof text, "errors: dark 0, bright %.3g and more", pictures_error_scale(s));
+    sheet_text(sheet, COLUMN_GAP + s->plan->n_compared * (s->width * k + COLUMN_GAP), y, fitting(text, k * s->width, 2),
+               SOFT, text);
+    for (int v = 0; v < s->plan->n_compared; v++)
+        sheet_paste(sheet, COLUMN_GAP + v * (s->width * k + COLUMN_GAP), y, heat + 3L * v * s->width * s->height,
+                    s->width, s->height, k);
+    free(heat);
+    free(error);
+}
+
+struct sheet pictures_sheet(const struct scene_results *s)
+{
+    const struct plan *p = s->plan;
+    struct sheet sheet;
+    int scale = plan_scale(p), width = s->width * scale, height = s->height * scale, k = enlarged(width, p->n_compared);
+    int rows = scale > 1 ? 1 : 2;
+    char text[100];
+    sheet_init(&sheet, (p->n_compared + 1) * (width * k + COLUMN_GAP) + COLUMN_GAP,
+               COLUMN_GAP + COLUMN_LABEL + rows * (height * k + COLUMN_GAP), SHEET_PAPER);
+    int told = snprintf(text, sizeof text, "%.14s", s->reference.origin);
+    if (scale > 1)
+        snprintf(text + told, sizeof text - (size_t)told, "; %d x %d in one", scale, scale);
+    draw_column(&sheet, p->n_compared, "reference", "noise", s->reference.noise8, text, s->reference.pixels, s->width,
+                s->height, k * scale);
+    for (int v = 0; v < p->n_compared; v++) {
+        const struct run *last = &s->run[v][0][plan_last_step(p)];
+        snprintf(text, sizeof text, "%ld spp, %.1f s; in 8x8 %.1f", last->spp, last->value[Q_SECONDS],
+                 pictures_blocks(s, v));
+        draw_column(&sheet, v, p->methods.item[v].label, "error", last->value[Q_RMSE8], text, s->image[v], width,
+                    height, k);
     }
+    if (scale == 1)
+        draw_errors(s, &sheet, k);
+    return sheet;
+}
+
+bool pictures_write(const struct scene_results *s, struct error *err)
+{
+    char name[300];
+    struct sheet sheet = pictures_sheet(s);
+    snprintf(name, sizeof name, "images/%s.png", s->name);
+    return sheet_write(&sheet, s->plan->directory, name, err);
 }

@@ -1,8 +1,11 @@
-/* pictures.h: the pictures of an experiment on one sheet: the reference and what each method made of a scene, and below
- * each its errors as a heat map.
+/* pictures.h: the pictures of a scene on one sheet: what each method made of the scene, below each its errors as a heat
+ * map, and the reference.
  *
- * The heat maps share one scale, so that they can be compared: dark is no error, bright is the 99th percentile of all
- * their errors, and more. Errors are those of the displayed 8-bit values, as in the tables.
+ * Columns are labelled with the root mean square of the errors of all 8-bit values, and with that of means over 8x8
+ * pixels. Where pictures are k times as wide and high as the reference (plan.h, scale), the mean of k x k of their
+ * pixels is compared with one of the reference: with a box filter both have the same expectation. The heat maps share
+ * one scale, so that they can be compared: dark is no error, bright is the 99th percentile of all their errors, and
+ * more. Errors are those of the displayed 8-bit values, as in the tables.
  *
  * Tests: test_report.c, test_pictures.c, test/cli.sh.
  */
@@ -18,15 +21,12 @@ enum { COLUMN_GAP = 24, COLUMN_LABEL = 60, COLUMN_WIDTH = 480, PICTURES_PERCENTI
  * channels of a pixel's 8-bit errors, over all pixels and compared methods. */
 double pictures_error_scale(const struct scene_results *s);
 
-/* pictures_write: images/SCENE.png. Returns false with a message. */
+/* pictures_sheet: the sheet, with heat maps only if the plan's pictures have the reference's size; to be released with
+ * sheet_free. pictures_write: the same as images/SCENE.png; false with a message. */
+struct sheet pictures_sheet(const struct scene_results *s);
 bool pictures_write(const struct scene_results *s, struct error *err);
 
-/* demo_draw: the pictures of the one scene of a plan at equal time side by side with the reference, labelled with the
- * root mean square of the errors of all 8-bit values, and with that of means over 8x8 pixels; to be released with
- * sheet_free. Where pictures are k times as wide and high as the reference (plan.h, scale), the mean of k x k of their
- * pixels is compared with one of it: with a box filter both have the same expectation. demo_print: a line for each
- * method. */
-void demo_draw(const struct results *r, struct sheet *picture);
-void demo_print(FILE *f, const struct results *r);
+/* pictures_blocks: the error of means over 8x8 pixels of a method's first picture. */
+double pictures_blocks(const struct scene_results *s, int method);
 
 #endif

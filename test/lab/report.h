@@ -8,7 +8,7 @@
 
 #include "lab/results.h"
 
-/* report_write: images/, plots/, results.csv, runs.csv and results.md in plan->directory. False with a message. */
+/* report_write: images/, plots/, runs.csv and results.md in plan->directory. False with a message. */
 bool report_write(const struct results *r, struct error *err);
 
 #endif

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/alias.h"
 #include "base/file.h"
 #include "base/maths.h"
 #include "lab/stats.h"
@@ -43,60 +44,34 @@ static void write_number(FILE *f, double v)
         fputc(',', f);
 }
 
-static void write_interval(FILE *f, struct interval i)
+/* A line of runs.csv. */
+static void write_run(FILE *f, const struct scene_results *s, int method, int seed, const struct run *run)
 {
-    write_number(f, i.value);
-    write_number(f, i.low);
-    write_number(f, i.high);
+    const struct measured *m = &s->plan->methods.item[method];
+    write_text(f, s->name);
+    fprintf(f, ",%s,%" PRIu64 ",%ld", m->text, plan_seed(s->plan, method, seed + 1), run->spp);
+    for (int q = 0; q < N_QUANTITIES; q++)
+        write_number(f, run->value[q]);
+    for (int k = 0; k < N_SQUARES; k++)
+        write_number(f, run->square[k]);
+    fprintf(f, ",%ld", run->nonfinite);
+    write_number(f, s->plan->equal ? s->price[method].before : NAN);
+    write_number(f, s->plan->equal ? s->price[method].each : NAN);
+    fprintf(f, ",%s,%s,%s\n", MARKS[s->mark[method]], m->label,
+            (const char *const[]){"", "choice", "services", "both"}[m->halves]);
 }
 
 void results_csv(FILE *f, const struct results *r)
 {
-    fputs("scene,method,spp,seeds", f);
-    for (int q = 0; q < N_QUANTITIES; q++)
-        fprintf(f, ",%s,%s_error", NAMES[q], NAMES[q]);
-    fputs(",rmse8_ratio,rmse8_ratio_low,rmse8_ratio_high,cost,cost_low,cost_high\n", f);
-    for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
-        for (int v = 0; v < r->plan->methods.n; v++)
-            for (int step = 0; step < r->plan->n_steps; step++) {
-                write_text(f, s->name);
-                fprintf(f, ",%s,%ld,%d", r->plan->methods.item[v].text, r->plan->spp[step],
-                        plan_seeds(r->plan, v));
-                for (int q = 0; q < N_QUANTITIES; q++) {
-                    struct estimate e = results_mean(s, v, step, (enum quantity)q);
-                    write_number(f, e.mean);
-                    write_number(f, e.error);
-                }
-                write_interval(f, results_over_first(s, v, step, false));
-                write_interval(f, results_over_first(s, v, step, true));
-                fputc('\n', f);
-            }
-}
-
-static void write_step(FILE *f, const struct run_step *s)
-{
-    fprintf(f, "%ld", s->spp);
-    for (int q = 0; q < N_QUANTITIES; q++)
-        write_number(f, s->value[q]);
-    for (int k = 0; k < N_SQUARES; k++)
-        write_number(f, s->square[k]);
-    fprintf(f, ",%ld\n", s->nonfinite);
-}
-
-void results_runs_csv(FILE *f, const struct results *r)
-{
     fputs("scene,method,seed,spp", f);
     for (int q = 0; q < N_QUANTITIES; q++)
         fprintf(f, ",%s", NAMES[q]);
-    fputs(",square8,square,square8x8,nonfinite\n", f);
+    fputs(",square8,square,square8x8,nonfinite,price_before,price_each,mark,label,half\n", f);
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
         for (int v = 0; v < r->plan->methods.n; v++)
             for (int i = 0; i < plan_seeds(r->plan, v); i++)
-                for (int step = 0; step < s->run[v][i].n; step++) {
-                    write_text(f, s->name);
-                    fprintf(f, ",%s,%" PRIu64 ",", r->plan->methods.item[v].text, plan_seed(r->plan, v, i + 1));
-                    write_step(f, &s->run[v][i].step[step]);
-                }
+                for (int step = 0; step < r->plan->n_steps; step++)
+                    write_run(f, s, v, i, &s->run[v][i][step]);
 }
 
 bool results_write(const struct results *r, const char *name, void (*write)(FILE *, const struct results *),
@@ -113,14 +88,10 @@ bool results_write(const struct results *r, const char *name, void (*write)(FILE
 
 static struct estimate mean_of(const double *x, int n)
 {
-    struct estimate e = {NAN, NAN, n};
-    double sum = 0, square = 0;
+    struct estimate e = {n > 0 ? sum_of(x, n) / n : NAN, NAN, n};
+    double square = 0;
     for (int i = 0; i < n; i++)
-        sum += x[i];
-    if (n > 0)
-        e.mean = sum / n;
-    for (int i = 0; i < n; i++)
-        square += (x[i] - e.mean) * (x[i] - e.mean);
+        square += sqr(x[i] - e.mean);
     if (n > 1)
         e.error = sqrt(square / (n - 1) / n);
     return e;
@@ -131,7 +102,7 @@ struct estimate results_mean(const struct scene_results *s, int method, int step
     double x[PLAN_MAX_SEEDS];
     int n = plan_seeds(s->plan, method);
     for (int i = 0; i < n; i++)
-        x[i] = s->run[method][i].step[step].value[q];
+        x[i] = s->run[method][i][step].value[q];
     return mean_of(x, n);
 }
 
@@ -140,7 +111,7 @@ struct estimate results_square(const struct scene_results *s, int method, int st
     double x[PLAN_MAX_SEEDS];
     int n = plan_seeds(s->plan, method);
     for (int i = 0; i < n; i++)
-        x[i] = s->run[method][i].step[step].square[k];
+        x[i] = s->run[method][i][step].square[k];
     return mean_of(x, n);
 }
 
@@ -180,7 +151,7 @@ double student_quantile(double p, double dof)
     return 0.5 * (low + high);
 }
 
-struct interval results_ratio(const double *a, int na, const double *b, int nb)
+struct interval results_ratio(const double *a, int na, const double *b, int nb, double price)
 {
     struct estimate ea = mean_of(a, na), eb = mean_of(b, nb);
     struct interval out = {ea.mean / eb.mean, NAN, NAN};
@@ -191,11 +162,19 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb)
     if (na < 2 || nb < 2)
         return out;
     /* var ln x = var x / x^2; Welch's degrees of freedom. */
-    double va = ea.error * ea.error / (ea.mean * ea.mean), vb = eb.error * eb.error / (eb.mean * eb.mean);
-    double v = va + vb, dof = v > 0 ? v * v / (va * va / (na - 1) + vb * vb / (nb - 1)) : 1;
+    double va = sqr(ea.error / ea.mean), vb = sqr(eb.error / eb.mean), v = va + vb + price;
+    double dof = v > 0 ? sqr(v) / (sqr(va) / (na - 1) + sqr(vb) / (nb - 1) + sqr(price) / 2) : 1;
     double factor = m_exp(student_quantile(0.05, dof) * sqrt(v));
     out.low = out.value / factor;
     out.high = out.value * factor;
+    return out;
+}
+
+struct interval results_mean_log(const double *log, int n)
+{
+    struct estimate e = mean_of(log, n);
+    double half = n > 1 ? student_quantile(0.05, n - 1) * e.error : NAN;
+    struct interval out = {m_exp(e.mean), m_exp(e.mean - half), m_exp(e.mean + half)};
     return out;
 }
 
@@ -206,9 +185,9 @@ struct interval results_over_first(const struct scene_results *s, int method, in
     for (int k = 0; k < 2; k++) {
         n[k] = plan_seeds(s->plan, compared[k]);
         for (int i = 0; i < n[k]; i++) {
-            const struct run_step *r = &s->run[compared[k]][i].step[step];
+            const struct run *r = &s->run[compared[k]][i][step];
             x[k][i] = paid ? r->square[SQUARE_RMSE8] * r->value[Q_SECONDS] : r->value[Q_RMSE8];
         }
     }
-    return results_ratio(x[0], n[0], x[1], n[1]);
+    return results_ratio(x[0], n[0], x[1], n[1], 0);
 }

@@ -1,9 +1,8 @@
-/* results.h: what was measured, in memory and in files, and the statistics over its seeds.
+/* results.h: one table of runs: what was measured, in memory and as runs.csv, and the statistics over its seeds.
  *
- * Every number shown anywhere (tables, plots, CSV) comes from the functions here. On disk there are
- *     results.csv   of an experiment one line per scene, method and number of samples: means over seeds with standard
- *                   errors, ratios to the first method with 95 % intervals; empty where unknown
- *     runs.csv      one line per scene, method, seed and number of samples: what was measured
+ * Every number shown anywhere (tables, plots) is a query on this table. runs.csv has a line for each scene, method,
+ * seed and number of samples: errors, squares, CPU time, price, and whether the method is marked. A number that is not
+ * known is left out.
  *
  * Tests: test_report.c.
  */
@@ -33,16 +32,10 @@ enum quantity {
  *     Of S seeds with half squared differences d_ij, V is the mean of all pairs, and seed i has
  *     V + 2 (S-1)/(S-2) (mean_j d_ij - V): these have the mean V and scatter as independent errors would.
  * A square may be below 0. */
-struct run_step {
+struct run {
     long spp;
     double value[N_QUANTITIES], square[N_SQUARES];
     long nonfinite; /* values that could not be compared */
-};
-
-/* What one seed of a method brought: a whole convergence curve. */
-struct seed_run {
-    struct run_step step[PLAN_MAX_STEPS]; /* [n] */
-    int n;                                /* 0: not done */
 };
 
 /* What a method costs, in CPU time of a sample of the first method, by medians over rounds in which both were timed:
@@ -62,8 +55,8 @@ struct scene_results {
     enum mark mark[METHODS_MAX]; /* after all samples */
     struct price price[METHODS_MAX]; /* of equal time */
     double seconds;                  /* of equal time: CPU seconds of a sample of the first method */
-    struct seed_run run[METHODS_MAX][PLAN_MAX_SEEDS]; /* the first plan_seeds() of each */
-    float *image[METHODS_MAX];                        /* of what is compared: first seed, all samples; owned */
+    struct run run[METHODS_MAX][PLAN_MAX_SEEDS][PLAN_MAX_STEPS]; /* the first plan_seeds() and n_steps of each */
+    float *image[METHODS_MAX]; /* of what is compared: first seed, all samples; owned */
 };
 
 struct results {
@@ -77,8 +70,8 @@ void results_free(struct results *r);
  *   half  [n*n] half squared differences, of which those beside the diagonal are read;  out  [n] */
 void results_pairs(const double *half, int n, double *out);
 
+/* results_csv: runs.csv. */
 void results_csv(FILE *f, const struct results *r);
-void results_runs_csv(FILE *f, const struct results *r);
 
 /* A mean over seeds. */
 struct estimate {
@@ -103,8 +96,12 @@ bool results_write(const struct results *r, const char *name, void (*write)(FILE
                    struct error *err);
 
 /* results_ratio: mean of a[na] over mean of b[nb], both independent and positive on average. The interval is Welch's,
- * on the logarithm of the ratio. */
-struct interval results_ratio(const double *a, int na, const double *b, int nb);
+ * on the logarithm of the ratio.
+ *   price  variance of that logarithm which seeds do not show, known by three rounds of timing; or 0 */
+struct interval results_ratio(const double *a, int na, const double *b, int nb, double price);
+
+/* results_mean_log: geometric mean of n numbers given by their logarithms, with Student's interval. */
+struct interval results_mean_log(const double *log, int n);
 
 /* results_over_first: a method over the first after the same number of samples: rmse8, the dissertation's comparison;
  * or squared error times seconds, what a method has paid for the inverse of its variance, as the squared error falls as

@@ -48,8 +48,7 @@ measure() {
     render "$1" "$2" "$3" "$SPP" "$picture" || return
     errors=$("$dir/programs/asbdpt-lab" compare "$picture" "$reference" --json) || return
     seconds=$(sed -n 's/.*"cpu_seconds": \([0-9.e-]*\).*/\1/p' "$picture.json")
-    blocks=$(sh test/lab/blocks.sh "$picture" "$reference" "$RES") || return
-    echo "$1 $2 $3 $(echo "$errors" | tr -d ',' | awk '{ print $4, $6 }') $blocks $seconds" >>"$dir/runs.txt"
+    echo "$1 $2 $3 $(echo "$errors" | tr -d ',' | awk '{ print $4, $6, $8 }') $seconds" >>"$dir/runs.txt"
     rm "$picture" "$picture.json"
 }
 
