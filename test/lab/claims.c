@@ -94,8 +94,8 @@ void claims_table(FILE *f, const struct results *r, enum half half)
     struct table t =
         table_begin(f, "Claims: squared error over that of another method after the same CPU time, or the same "
                     "samples, geometric mean over scenes with its 95 %% interval; found if below the number claimed by "
-                    "all three, not found if above by one. By chance at most one in forty is found that is only as good as "
-                    "the number: %.1f of the %d judged here", judged / 40.0, judged);
+                    "all three, not found if above by one. By chance at most one in forty is found that is only as "
+                    "good as the number: %.1f of the %d judged here", judged / 40.0, judged);
     table_column(&t, "claim");
     table_column(&t, "criterion");
     for (int k = 0; k < N_SQUARES; k++)
