@@ -24,6 +24,9 @@ struct hearing {
 void hear_warning(void *context, const char *text);
 void hear_error(void *context, const char *text);
 
+/* leave_out_directory: of a text, wherever the test's own directory is named in it. */
+void leave_out_directory(struct test *t, char *text);
+
 void check_contents(struct test *t, const char *name, const char *text, const struct scene *s);
 void check_parser_pieces(struct test *t);
 void check_parser_limits(struct test *t);

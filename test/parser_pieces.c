@@ -20,18 +20,6 @@
 #include "parser_parts.h"
 #include "tests.h"
 
-/* Of a file that is no scene messages say no more than where the first error is. */
-static void check_nothing_quoted(struct test *t)
-{
-    struct scene s;
-    struct error err = {.text = ""};
-    struct hearing *heard = mem_alloc(1, sizeof *heard);
-    struct message_sink sink = {hear_warning, hear_error, heard};
-    CHECK(t, !parse_scene("test/fixtures/include-no-scene.pbrt", NULL, &s, &sink, &err) && heard->errors.n == 1 &&
-                 strstr(err.text, "secret") == NULL, "%d errors, the first\n%s", heard->errors.n, err.text);
-    free(heard);
-}
-
 /* More names than chains: all are found, the newest first, and forgotten again. */
 static void check_symbols(struct test *t)
 {
@@ -163,7 +151,6 @@ static void check_subdivided(struct test *t)
 void check_parser_pieces(struct test *t)
 {
     check_symbols(t);
-    check_nothing_quoted(t);
     check_numbers(t);
     check_spectra(t);
     check_cleaning(t);

@@ -65,6 +65,14 @@ static void put_options(struct words *w, const struct scene *s)
         put(w, "setting %s %s %s\n", s->settings.item[i].name, s->settings.item[i].value, s->settings.item[i].origin);
 }
 
+/* Where the origin of a texture's space lies. */
+static void put_space(struct words *w, const struct texture_set *set, int space)
+{
+    vec3 o = space < set->n_spaces ? transform_point(&set->space[space], vec(0, 0, 0)) : vec(0, 0, 0);
+    put3(w, "space", o.x, o.y, o.z);
+    put(w, "\n");
+}
+
 static void put_textures(struct words *w, const struct scene *s)
 {
     for (int i = 0; i < s->textures.n_textures; i++) {
@@ -84,7 +92,12 @@ static void put_textures(struct words *w, const struct scene *s)
         }
         if (t->kind == TEXTURE_MIX)
             put_texture(w, s, "amount", t->amount);
-        put(w, " mapping %d %g %g %g %g\n", (int)t->map.kind, t->map.su, t->map.sv, t->map.du, t->map.dv);
+        const struct mapping *m = &t->map;
+        put(w, " mapping %d %g %g %g %g", (int)m->kind, m->su, m->sv, m->du, m->dv);
+        put3(w, "v1", m->v1.x, m->v1.y, m->v1.z);
+        put3(w, "v2", m->v2.x, m->v2.y, m->v2.z);
+        put(w, " noise %d %g %g %g", t->octaves, t->omega, t->scale, t->variation);
+        put_space(w, &s->textures, m->kind == MAPPING_SPHERICAL || m->kind == MAPPING_CYLINDRICAL ? m->space : t->space);
     }
 }
 
@@ -182,6 +195,7 @@ void check_contents(struct test *t, const char *name, const char *text, const st
     put_media(w, s);
     put_shapes(w, s);
     put_lights(w, s);
+    leave_out_directory(t, w->text);
     const char *from = w->text;
     for (const char *p = strstr(text, "# has: "); p != NULL; p = strstr(p + 1, "# has: ")) {
         char want[TEXT];

@@ -1,62 +1,89 @@
 /* test_parser.c: scene files.
  *
- * Every file of test/fixtures says in its first line what must come of it: "# expect: ok", or LINE:COL and a part
- * of the message of the first error; further lines "# also: ..." name parts of the other errors and "# warn: ..." of
- * the warnings, in order, "# has: ..." parts of what a scene holds (parser_words.c), and "# integrator: ..." the one
- * that the user names. Then damaged copies of all fixtures, which must be accepted or refused, never crash (run it with
+ * test/fixtures/scenes.txt holds scenes, each below a line "== NAME"; a "!" behind the name leaves out the scene's last
+ * newline. Every scene says in its first line what must come of it: "# expect: ok", or LINE:COL and a part of the
+ * message of the first error; further lines "# also: ..." name parts of the other errors and "# warn: ..." of the
+ * warnings, in order, "# has: ..." parts of what a scene holds (parser_words.c), and "# integrator: ..." the one
+ * that the user names. Then damaged copies of all scenes, which must be accepted or refused, never crash (run it with
  * sanitizers).
  */
 #define _POSIX_C_SOURCE 200809L
 
-#include <dirent.h>
-#include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include "parser/lexer.h"
 #include "parser/parse.h"
 #include "parser/parser.h"
 #include "parser/scene_files.h"
-#include "base/os.h"
+#include "base/mem.h"
 #include "base/rng.h"
-#include "parser/spectrum.h"
-#include "parser/symbols.h"
 #include "helpers.h"
 #include "parser_parts.h"
 #include "tests.h"
 
-static const char FIXTURES[] = "test/fixtures";
 enum { MAX_FIXTURES = 400 };
 
-/* The names of the fixtures, sorted. */
+/* Scenes of scenes.txt; their files are made in the test's own directory. */
 struct fixtures {
-    char name[MAX_FIXTURES][64];
+    struct fixture {
+        char name[64];
+        const char *text; /* not ended by a zero */
+        size_t size;
+    } scene[MAX_FIXTURES];
     int n;
+    char *all, *shown; /* what the texts lie in */
 };
 
-static int by_name(const void *a, const void *b) { return strcmp(a, b); }
-
-static bool ends_in(const char *name, const char *end)
+static void add_fixture(struct fixtures *f, const char *name, const char *text, size_t size)
 {
-    size_t n = strlen(name), m = strlen(end);
-    return n >= m && strcmp(name + n - m, end) == 0;
+    struct fixture *out = &f->scene[f->n];
+    f->n += f->n + 1 < MAX_FIXTURES;
+    snprintf(out->name, sizeof out->name, "%.*s", (int)strcspn(name, "!\n"), name);
+    out->text = text;
+    out->size = size;
 }
 
-static void list_fixtures(struct fixtures *f)
+/* The scenes, and the one that doc/scene-format.md shows. */
+static void read_fixtures(struct fixtures *f)
 {
-    f->n = 0;
-    DIR *d = opendir(FIXTURES);
-    if (d == NULL)
+    static const char MARK[] = "\n== ";
+    struct error err;
+    size_t size, shown_size = 0;
+    f->all = text_read("test/fixtures/scenes.txt", &size, &err);
+    f->shown = text_read("test/fixtures/errors-several.pbrt", &shown_size, &err);
+    if (f->all == NULL || f->shown == NULL)
         return;
-    for (struct dirent *e = readdir(d); e != NULL && f->n < MAX_FIXTURES; e = readdir(d))
-        if (ends_in(e->d_name, ".pbrt") && strlen(e->d_name) < sizeof f->name[0])
-            strcpy(f->name[f->n++], e->d_name);
-    closedir(d);
-    qsort(f->name, (size_t)f->n, sizeof f->name[0], by_name);
+    for (char *name = strstr(f->all, MARK), *next; name != NULL; name = next) {
+        char *text = strchr(name + 1, '\n') + 1;
+        next = strstr(text - 1, MARK);
+        const char *end = next != NULL ? next + 1 : f->all + size;
+        add_fixture(f, name + strlen(MARK), text, (size_t)(end - text) - (text[-2] == '!'));
+    }
+    add_fixture(f, "errors-several.pbrt", f->shown, shown_size);
+}
+
+/* The file of a fixture, or of what has become of it. */
+static void write_scene(struct test *t, char path[TEXT], const char *name, const void *text, size_t size)
+{
+    snprintf(path, TEXT, "%s/%s", test_tmp(t), name);
+    remove(path); /* a new file is cheaper than an old one cut to nothing */
+    write_bytes(path, text, size);
+}
+
+/* Scenes find their parts beside them. */
+static void link_parts(struct test *t)
+{
+    static const char *const LINKS[][2] = {
+        {"test/fixtures/parts", "parts"}, {"test/fixtures/pictures", "pictures"}, {"scenes/features", "features"}};
+    char from[TEXT], path[TEXT];
+    for (size_t i = 0; i < sizeof LINKS / sizeof LINKS[0]; i++) {
+        size_t n = strlen(top_directory(from, sizeof from));
+        snprintf(from + n, sizeof from - n, "%s", LINKS[i][0]);
+        snprintf(path, sizeof path, "%s/%s", test_tmp(t), LINKS[i][1]);
+        CHECK(t, symlink(from, path) == 0, "cannot make a link %s", path);
+    }
 }
 
 static void hear(struct heard *h, const char *text)
@@ -67,6 +94,15 @@ static void hear(struct heard *h, const char *text)
 
 void hear_warning(void *context, const char *text) { hear(&((struct hearing *)context)->warnings, text); }
 void hear_error(void *context, const char *text) { hear(&((struct hearing *)context)->errors, text); }
+
+/* Paths become what they are in test/fixtures. */
+void leave_out_directory(struct test *t, char *text)
+{
+    char directory[TEXT];
+    size_t n = (size_t)snprintf(directory, sizeof directory, "%s/", test_tmp(t));
+    while ((text = strstr(text, directory)) != NULL)
+        memmove(text, text + n, strlen(text + n) + 1);
+}
 
 /* The comment "# KEY: value" number k at the head of the text; empty if there are fewer. */
 static void head_comment(const char *text, const char *key, int k, char out[TEXT])
@@ -92,7 +128,7 @@ static void check_refusal(struct test *t, const char *name, const char *path, co
     int line = 0, column = 0, used = 0;
     bool other_file = sscanf(expect, "%d:%d: %n", &line, &column, &used) != 2;
     if (other_file && sscanf(expect, "%511[^:]:%d:%d: %n", file, &line, &column, &used) == 3)
-        snprintf(where, sizeof where, "%s/%s:%d:%d: ", FIXTURES, file, line, column);
+        snprintf(where, sizeof where, "%s/%s:%d:%d: ", test_tmp(t), file, line, column);
     else
         snprintf(where, sizeof where, "%s:%d:%d: ", path, line, column);
     CHECK(t, strncmp(message, where, strlen(where)) == 0, "%s: expected %s, got\n%s", name, where, message);
@@ -100,13 +136,14 @@ static void check_refusal(struct test *t, const char *name, const char *path, co
 }
 
 /* Messages from number `first` on against the lines "# KEY: ..." of the head. */
-static void check_heard(struct test *t, const char *name, const char *text, const char *key, const struct heard *heard,
+static void check_heard(struct test *t, const char *name, const char *text, const char *key, struct heard *heard,
                         int first)
 {
     char expect[TEXT];
     int i = first;
     for (; i < heard->n; i++) {
         head_comment(text, key, i - first, expect);
+        leave_out_directory(t, heard->text[i]);
         CHECK(t, expect[0] != '\0' && strstr(heard->text[i], expect) != NULL, "%s: said \"%s\", expected \"%s\"", name,
               heard->text[i], expect);
     }
@@ -114,13 +151,13 @@ static void check_heard(struct test *t, const char *name, const char *text, cons
     CHECK(t, expect[0] == '\0', "%s: nothing said of \"%s\"", name, expect);
 }
 
-static void check_fixture(struct test *t, const char *name)
+static void check_fixture(struct test *t, const struct fixture *f)
 {
-    char path[TEXT], expect[TEXT], integrator[TEXT];
-    snprintf(path, sizeof path, "%s/%s", FIXTURES, name);
-    size_t size;
+    char path[TEXT], expect[TEXT], integrator[TEXT], *text = mem_alloc(f->size + 1, 1);
+    const char *name = f->name;
+    memcpy(text, f->text, f->size);
+    write_scene(t, path, name, text, f->size);
     struct error err = {.text = ""};
-    char *text = text_read(path, &size, &err);
     struct scene s;
     struct hearing *heard = mem_alloc(1, sizeof *heard);
     struct message_sink sink = {hear_warning, hear_error, heard};
@@ -133,6 +170,7 @@ static void check_fixture(struct test *t, const char *name)
         check_refusal(t, name, path, expect, err.text);
     CHECK(t, ok == (heard->errors.n == 0), "%s: %d errors", name, heard->errors.n);
     CHECK(t, ok || strncmp(heard->errors.text[0], err.text, TEXT - 1) == 0, "%s: the first error is another", name);
+    CHECK(t, strstr(err.text, "secret") == NULL, "%s: a line of what is no scene is quoted:\n%s", name, err.text);
     check_heard(t, name, text, "also", &heard->errors, 1);
     check_heard(t, name, text, "warn", &heard->warnings, 0);
     if (ok) {
@@ -174,32 +212,24 @@ static size_t damage(struct rng *r, char *text, size_t size)
 
 static void check_damaged(struct test *t, const struct fixtures *f, int rounds)
 {
-    char path[TEXT], from[TEXT];
-    size_t n = strlen(top_directory(from, sizeof from));
-    snprintf(from + n, sizeof from - n, "%s/parts", FIXTURES);
-    snprintf(path, sizeof path, "%s/parts", test_tmp(t));
-    if (!CHECK(t, symlink(from, path) == 0, "cannot make a link"))
-        return;
+    char path[TEXT];
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 2, 0);
     int accepted = 0, refused = 0, first_ok = 0, n_ok = 0;
     for (int i = 0; i < f->n; i++)
-        if (strncmp(f->name[i], "ok-", 3) == 0 && n_ok++ == 0)
+        if (strncmp(f->scene[i].name, "ok-", 3) == 0 && n_ok++ == 0)
             first_ok = i;
     if (!CHECK(t, n_ok > 0, "no fixture is ok"))
         return;
     for (int i = 0; i < rounds; i++) {
         struct error err = {.text = ""};
-        size_t size;
         int pick = i % 2 == 0 ? i / 2 % f->n : first_ok + i / 2 % n_ok; /* every other one was whole before */
-        snprintf(from, sizeof from, "%s/%s", FIXTURES, f->name[pick]);
-        char *text = text_read(from, &size, &err);
-        text = realloc(text, 2 * size + 64);
+        size_t size = f->scene[pick].size;
+        char *text = mem_alloc(2 * size + 64, 1);
+        memcpy(text, f->scene[pick].text, size);
         size = damage(&r, text, size);
         if (i % 3 == 0 && size > 0)
             size = damage(&r, text, size);
-        snprintf(path, sizeof path, "%s/damaged.pbrt", test_tmp(t));
-        remove(path); /* a new file is cheaper than an old one cut to nothing */
-        write_bytes(path, text, size);
+        write_scene(t, path, "damaged.pbrt", text, size);
         free(text);
         struct scene s;
         if (parse_scene(path, NULL, &s, NULL, &err)) {
@@ -222,12 +252,15 @@ static void check_damaged(struct test *t, const struct fixtures *f, int rounds)
 void test_parser(struct test *t)
 {
     struct fixtures *f = mem_alloc(1, sizeof *f);
-    list_fixtures(f);
-    if (CHECK(t, f->n >= 170, "only %d fixtures in %s: run the tests at the top of the tree", f->n, FIXTURES)) {
+    read_fixtures(f);
+    link_parts(t);
+    if (CHECK(t, f->n >= 230, "only %d scenes in test/fixtures: run the tests at the top of the tree", f->n)) {
         for (int i = 0; i < f->n; i++)
-            check_fixture(t, f->name[i]);
+            check_fixture(t, &f->scene[i]);
         check_damaged(t, f, 2000);
     }
+    free(f->all);
+    free(f->shown);
     free(f);
     check_parser_pieces(t);
     check_parser_limits(t);

@@ -243,61 +243,6 @@ static void test_noise(struct test *t)
           "no octaves");
 }
 
-/* The k-th texture of a file that is not a plain constant. */
-static const struct texture *nth(const struct texture_set *set, int k)
-{
-    for (int i = 0; i < set->n_textures; i++)
-        if (set->texture[i].kind != TEXTURE_CONSTANT && k-- == 0)
-            return &set->texture[i];
-    return NULL;
-}
-
-static double value_of(const struct texture_set *set, int id) { return set->texture[id].constant.r; }
-
-/* Is this the space that Translate 1 2 3 makes, or the world's? */
-static bool is_moved(const struct texture_set *set, int space, bool moved)
-{
-    vec3 o = transform_point(&set->space[space], vec(0, 0, 0));
-    return moved ? o.x == 1 && o.y == 2 && o.z == 3 : length(o) == 0;
-}
-
-/* What the parser makes of every parameter, and pbrt-v3's default of each. */
-static void test_patterns_read(struct test *t)
-{
-    static const enum texture_kind KINDS[] = {TEXTURE_FBM, TEXTURE_WRINKLED, TEXTURE_WINDY, TEXTURE_MARBLE,
-                                              TEXTURE_MARBLE, TEXTURE_UV, TEXTURE_DOTS, TEXTURE_DOTS,
-                                              TEXTURE_IMAGEMAP, TEXTURE_CUBES};
-    enum { N = sizeof KINDS / sizeof KINDS[0] };
-    struct scene s;
-    struct error err;
-    if (!CHECK(t, parse_scene("test/fixtures/ok-patterns.pbrt", NULL, &s, NULL, &err), "%s", err.text))
-        return;
-    const struct texture_set *set = &s.textures;
-    const struct texture *x[N];
-    bool all = true;
-    for (int i = 0; i < N; i++)
-        all = (x[i] = nth(set, i)) != NULL && x[i]->kind == KINDS[i] && all;
-    if (CHECK(t, all, "%d textures that are not constant", N)) {
-        static const double NOISE[][4] = {{8, 0.5}, {3, 0.7}, {0}, {4, 0.6, 2, 0.4}, {8, 0.5, 1, 0.2}};
-        for (int i = 0; i < 5; i++)
-            CHECK(t,
-                  x[i]->octaves == NOISE[i][0] && x[i]->omega == NOISE[i][1] &&
-                      x[i]->scale == NOISE[i][2] && x[i]->variation == NOISE[i][3] &&
-                      is_moved(set, x[i]->space, i >= 2),
-                  "texture %d of noise", i);
-        const struct mapping *uv = &x[5]->map, *planar = &x[6]->map, *round = &x[8]->map;
-        CHECK(t, uv->kind == MAPPING_UV && uv->su == 2 && uv->sv == 1 && uv->du == 0 && uv->dv == 0.5, "uv");
-        CHECK(t, planar->kind == MAPPING_PLANAR && planar->v1.z == 3 && planar->v2.x == 4, "planar");
-        CHECK(t, planar->du == 7 && planar->dv == 8 && planar->v1.x == 1 && planar->v2.z == 6, "planar");
-        CHECK(t, round->kind == MAPPING_CYLINDRICAL && is_moved(set, round->space, true), "cylindrical");
-        CHECK(t, x[7]->map.kind == MAPPING_SPHERICAL, "spherical");
-        CHECK(t, &set->texture[x[6]->tex2] == x[0] && value_of(set, x[6]->tex1) == 0, "dots");
-        CHECK(t, value_of(set, x[7]->tex2) == 1 && value_of(set, x[9]->tex1) == 3, "defaults");
-        CHECK(t, value_of(set, x[9]->tex2) == 0 && is_moved(set, x[9]->space, true), "cubes");
-    }
-    scene_free(&s);
-}
-
 /* --- pictures ---------------------------------------------------------------------------------------- */
 
 /* A 4 x 2 grey picture: from the lower left corner 0 1 2 3 below, 10 11 12 13 above. */
@@ -431,7 +376,6 @@ void test_texture(struct test *t)
     test_peer(t);
     test_dots(t);
     test_noise(t);
-    test_patterns_read(t);
     test_lookup(t);
     test_decoding(t);
     test_decoding_order(t);
