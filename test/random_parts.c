@@ -28,7 +28,7 @@ static void colour(struct writer *w, const char *name, double most)
     if (w->textures > 0 && chance(w, 0.3))
         put(w, "\"texture %s\" \"s%d\" ", name, pick(w, w->textures));
     else
-        put_rgb(w, name, between(w, 0, most), between(w, 0, most), between(w, 0, most));
+        put_point(w, "rgb", name, within(w, vec(0, 0, 0), vec(most, most, most)));
 }
 
 static void number(struct writer *w, const char *name)
@@ -77,7 +77,8 @@ static void texture(struct writer *w, bool colours)
         mapping(w);
         break;
     case 5:
-        put(w, "\"%s\" \"integer octaves\" %d ", chance(w, 0.5) ? "fbm" : "wrinkled", 1 + pick(w, 4));
+        put(w, "\"%s\" ", chance(w, 0.5) ? "fbm" : "wrinkled");
+        put(w, "\"integer octaves\" %d ", 1 + pick(w, 4));
         break;
     case 6:
         put(w, "\"scale\" ");
@@ -202,7 +203,7 @@ static void medium(struct writer *w, const char *name, double least, double most
 {
     double s = across(w, least, most) / unit, a = chance(w, 0.3) ? 0 : s * between(w, 0, 1);
     put(w, "MakeNamedMedium \"%s\" \"string type\" \"homogeneous\" ", name);
-    put_rgb(w, "sigma_s", s, s * between(w, 0.3, 1), s * between(w, 0.3, 1));
+    put_point(w, "rgb", "sigma_s", mul(within(w, vec(1, 0.3, 0.3), vec(1, 1, 1)), s));
     put_rgb(w, "sigma_a", a, a * between(w, 0, 1), a);
     if (chance(w, 0.7))
         put_float(w, "g", between(w, -0.5, 0.7));
@@ -241,8 +242,9 @@ void put_boxes(struct writer *w)
 
 void put_milk(struct writer *w)
 {
+    vec3 way = direction(w);
     put(w, "AttributeBegin Translate ");
-    put_vec(w, mul(direction(w), between(w, 0, 0.2)));
+    put_vec(w, mul(way, between(w, 0, 0.2)));
     if (chance(w, 0.4)) {
         put(w, "Material \"none\" ");
     } else if (chance(w, 0.3)) {
@@ -276,8 +278,10 @@ static void quad(struct writer *w)
         put(w, "\"float uv\" [ 0 0 1 0 1 1 0 1 ] ");
     if (chance(w, 0.3)) {
         put(w, "\"normal N\" [ ");
-        for (int i = 0; i < 4; i++)
-            put_vec(w, mul(vec(between(w, -0.3, 0.3), between(w, -0.3, 0.3), 1), across(w, 0.5, 2)));
+        for (int i = 0; i < 4; i++) {
+            vec3 n = within(w, vec(-0.3, -0.3, 1), vec(0.3, 0.3, 1));
+            put_vec(w, mul(n, across(w, 0.5, 2)));
+        }
         put(w, "] ");
     }
 }
@@ -316,8 +320,8 @@ void put_shape(struct writer *w, bool lamp)
         break;
     case 7:
         put(w, "\"hyperboloid\" ");
-        put_point(w, "point", "p1", vec(between(w, 0.3, 1), between(w, -0.3, 0.3), -0.8));
-        put_point(w, "point", "p2", vec(between(w, 0.3, 1), between(w, 0, 0.5), 0.8));
+        put_point(w, "point", "p1", within(w, vec(0.3, -0.3, -0.8), vec(1, 0.3, -0.8)));
+        put_point(w, "point", "p2", within(w, vec(0.3, 0, 0.8), vec(1, 0.5, 0.8)));
         part_of_quadric(w);
         break;
     case 8:
@@ -345,7 +349,7 @@ void put_area_light(struct writer *w)
 {
     double strength = across(w, 2, 8);
     put(w, "AreaLightSource \"diffuse\" ");
-    put_rgb(w, "L", strength * between(w, 0.3, 1), strength * between(w, 0.3, 1), strength);
+    put_point(w, "rgb", "L", mul(within(w, vec(0.3, 0.3, 1), vec(1, 1, 1)), strength));
     put(w, "\"bool twosided\" \"%s\"\n", chance(w, 0.6) ? "true" : "false");
     put_material(w, true);
     put_shape(w, true);
@@ -358,7 +362,7 @@ static void delta_light(struct writer *w, double unit)
     double strength = across(w, 10, 30) * unit * unit;
     w->delta_light = true;
     put(w, "LightSource \"%s\" ", KINDS[kind]);
-    put_rgb(w, "I", strength, strength * between(w, 0.3, 1), strength * between(w, 0.3, 1));
+    put_point(w, "rgb", "I", mul(within(w, vec(1, 0.3, 0.3), vec(1, 1, 1)), strength));
     if (kind == 1) {
         put_float(w, "coneangle", between(w, 2, 80));
         if (chance(w, 0.7))
@@ -392,8 +396,8 @@ static void light_at_infinity(struct writer *w)
 
 void put_light(struct writer *w, double unit)
 {
-    vec3 at = mul(direction(w), between(w, 2, 2.6) + (w->boxes ? 1.2 : 0));
-    struct map inwards = map_frame(normalize(neg(at))), m = map_then(map_uneven(w), inwards);
+    vec3 way = direction(w), at = mul(way, between(w, 2, 2.6) + (w->boxes ? 1.2 : 0));
+    struct map m = map_then(map_uneven(w), map_frame(neg(way)));
     int kind = pick(w, 8);
     put(w, "AttributeBegin\n");
     if (kind < 2) {

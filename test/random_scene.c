@@ -20,7 +20,8 @@ struct view {
 /* Directions ahead stay ahead under this map of camera space, and about where they were. */
 static struct map before_camera(struct writer *w)
 {
-    struct map m = {vec(across(w, 0.6, 1.7), 0, 0), vec(0, across(w, 0.6, 1.7), 0), vec(0, 0, across(w, 0.6, 1.7))};
+    vec3 s = stretches(w, 0.6, 1.7);
+    struct map m = {vec(s.x, 0, 0), vec(0, s.y, 0), vec(0, 0, s.z)};
     if (chance(w, 0.3))
         m.x = neg(m.x);
     if (chance(w, 0.4))
@@ -67,9 +68,11 @@ static void film(struct writer *w, bool tiny)
         put(w, "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 PixelFilter \"box\"\n");
         return;
     }
-    put(w, "Film \"image\" \"integer xresolution\" %d \"integer yresolution\" %d ", 10 + pick(w, 8), 10 + pick(w, 8));
+    put(w, "Film \"image\" \"integer xresolution\" %d ", 10 + pick(w, 8));
+    put(w, "\"integer yresolution\" %d ", 10 + pick(w, 8));
     if (chance(w, 0.25)) {
-        const double crop[4] = {between(w, 0, 0.4), between(w, 0.6, 1), between(w, 0, 0.4), between(w, 0.6, 1)};
+        vec3 low = within(w, vec(0, 0, 0), vec(0.4, 0.4, 0)), high = within(w, vec(0.6, 0.6, 0), vec(1, 1, 0));
+        const double crop[4] = {low.x, high.x, low.y, high.y};
         put_list(w, "float", "cropwindow", 4, crop);
     }
     put(w, "\nPixelFilter \"%s\" ", FILTERS[pick(w, 5)]);
@@ -124,7 +127,7 @@ static void closed_furnace(struct writer *w, struct random_scene *s)
     put_rgb(w, "Kd", a, a, a);
     for (int i = pick(w, 3); i >= 0; i--) {
         bool outer = i == 0;
-        struct map m = map_scaled(map_random(w), outer ? 8 : between(w, 0.2, 0.4));
+        struct map any = map_random(w), m = map_scaled(any, outer ? 8 : between(w, 0.2, 0.4));
         put(w, "\nAttributeBegin ");
         if (!outer) {
             put(w, "Translate ");
@@ -188,7 +191,8 @@ static struct patch triangle_patch(struct writer *w, const struct map *m, vec3 a
     if (chance(w, 0.6)) {
         put(w, "\"normal N\" [ ");
         for (int i = 0; i < 3; i++) {
-            N[i] = mul(add(z, mul(direction(w), 0.3)), across(w, 0.5, 2));
+            N[i] = add(z, mul(direction(w), 0.3));
+            N[i] = mul(N[i], across(w, 0.5, 2));
             put_vec(w, N[i]);
             p.ns = add(p.ns, map_normal(m, N[i]));
         }
@@ -310,9 +314,10 @@ static void direct(struct writer *w, struct random_scene *s)
 
 static void thing(struct writer *w)
 {
-    struct map m = map_scaled(map_random(w), between(w, 0.3, 0.7));
+    struct map any = map_random(w), m = map_scaled(any, between(w, 0.3, 0.7));
+    vec3 way = direction(w);
     put(w, "AttributeBegin Translate ");
-    put_vec(w, mul(direction(w), between(w, 0.2, 1.1)));
+    put_vec(w, mul(way, between(w, 0.2, 1.1)));
     put_map(w, &m);
     if (!w->media && chance(w, 0.15)) {
         put_area_light(w);

@@ -15,12 +15,6 @@ enum { MOST_LAMPS = 80 };
 static vec3 part(vec3 s, double x, double y, double z) { return vec(x * s.x, y * s.y, z * s.z); }
 static double area(vec3 s) { return 2 * (s.x * s.y + s.y * s.z + s.z * s.x); }
 
-static vec3 within(struct writer *w, vec3 low, vec3 high)
-{
-    double x = between(w, low.x, high.x), y = between(w, low.y, high.y);
-    return vec(x, y, between(w, low.z, high.z));
-}
-
 static void colour(struct writer *w, const char *name, double value)
 {
     vec3 c = mul(within(w, vec(0.6, 0.6, 0.6), vec(1, 1, 1)), value);

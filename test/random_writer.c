@@ -72,6 +72,18 @@ vec3 direction(struct writer *w)
     return vec(r * cos(phi), r * sin(phi), z);
 }
 
+vec3 within(struct writer *w, vec3 low, vec3 high)
+{
+    double x = between(w, low.x, high.x), y = between(w, low.y, high.y), z = between(w, low.z, high.z);
+    return vec(x, y, z);
+}
+
+vec3 stretches(struct writer *w, double low, double high)
+{
+    double x = across(w, low, high), y = across(w, low, high), z = across(w, low, high);
+    return vec(x, y, z);
+}
+
 /* --- linear maps ---------------------------------------------------------------------------------------- */
 
 struct map map_identity(void)
@@ -118,8 +130,8 @@ struct map map_frame(vec3 z)
 struct map map_uneven(struct writer *w)
 {
     double mirror = chance(w, 0.25) ? -1 : 1;
-    struct map m = {vec(mirror * across(w, 0.5, 1.7), 0, 0), vec(0, across(w, 0.5, 1.7), 0),
-                    vec(0, 0, across(w, 0.5, 1.7))};
+    vec3 s = stretches(w, 0.5, 1.7);
+    struct map m = {vec(mirror * s.x, 0, 0), vec(0, s.y, 0), vec(0, 0, s.z)};
     if (chance(w, 0.5))
         m.y.x = between(w, -0.6, 0.6);
     if (chance(w, 0.5))
@@ -127,7 +139,11 @@ struct map map_uneven(struct writer *w)
     return chance(w, 0.15) ? map_identity() : m;
 }
 
-struct map map_random(struct writer *w) { return map_then(map_uneven(w), map_frame(direction(w))); }
+struct map map_random(struct writer *w)
+{
+    struct map uneven = map_uneven(w);
+    return map_then(uneven, map_frame(direction(w)));
+}
 
 void put_map(struct writer *w, const struct map *m)
 {

@@ -37,12 +37,17 @@ void put_float(struct writer *w, const char *name, double value);
 void put_rgb(struct writer *w, const char *name, double r, double g, double b);
 
 /* pick: 0 to n - 1. chance: true with this probability. between: uniform. across: uniform in the logarithm.
- * direction: uniform on the sphere. */
+ * direction: uniform on the sphere. within: uniform in a box. stretches: three numbers of `across`.
+ *
+ * C leaves open which argument of a call is computed first. So an expression has one of these at the most: scenes are
+ * the same by every compiler. */
 int pick(struct writer *w, int n);
 bool chance(struct writer *w, double probability);
 double between(struct writer *w, double low, double high);
 double across(struct writer *w, double low, double high);
 vec3 direction(struct writer *w);
+vec3 within(struct writer *w, vec3 low, vec3 high);
+vec3 stretches(struct writer *w, double low, double high);
 
 /* A linear map: what becomes of the three axes. */
 struct map {
