@@ -53,6 +53,9 @@ $(BUILD)/inject: $(OBJECTS) $(BUILD)/obj/test/fuzz/inject.o
 $(BUILD)/inject-lab: $(LABS) $(BUILD)/obj/test/fuzz/inject.o
 	$(SAY)$(CC) $(FLAGS) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(LIBS)
 
+# What only tests is neither optimised with the rest at every link nor much by itself.
+$(filter-out $(LABS),$(TESTS)): FLAGS += $(if $(LTO),-fno-lto -O1)
+
 $(BUILD)/obj/test/%.o: test/%.c
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(FLAGS) -Itest -Itest/lab -MMD -MP $(CFLAGS) -c -o $@ $<
