@@ -97,7 +97,8 @@ static void put_textures(struct words *w, const struct scene *s)
         put3(w, "v1", m->v1.x, m->v1.y, m->v1.z);
         put3(w, "v2", m->v2.x, m->v2.y, m->v2.z);
         put(w, " noise %d %g %g %g", t->octaves, t->omega, t->scale, t->variation);
-        put_space(w, &s->textures, m->kind == MAPPING_SPHERICAL || m->kind == MAPPING_CYLINDRICAL ? m->space : t->space);
+        bool round = m->kind == MAPPING_SPHERICAL || m->kind == MAPPING_CYLINDRICAL;
+        put_space(w, &s->textures, round ? m->space : t->space);
     }
 }
 
