@@ -1,7 +1,6 @@
 #!/bin/sh
-# figures.sh PROGRAM [DIR]: makes every figure of the tour, but for those of measured numbers (test/evidence.sh), in
-# doc/tour/figures or DIR (about four minutes of CPU);
-# `make figures` calls it.
+# figures.sh PROGRAM [DIR]: makes every figure of the tour in doc/tour/figures or DIR (about four minutes of CPU), except
+# those of measured numbers, which test/evidence.sh makes. `make figures` calls it.
 program=$1
 case $program in /*) ;; *) program=$PWD/$program ;; esac
 lab=$program-lab
@@ -12,10 +11,10 @@ cd "$dir" || exit 1
 set -e
 mkdir -p "$out"
 render() { "$program" render "$scene" --quiet "$@"; }
-# chart NAME TITLE ZERO [AXIS]: table.txt as a picture.
+# chart NAME TITLE AXIS [BAND]: table.txt as a bar chart.
 chart() {
     [ -s table.txt ]
-    awk -v title="$2" -v zero="$3" -v axis="$4" -f "$tour/chart.awk" table.txt >"$out/$1.svg"
+    awk -v title="$2" -v axis="$3" -v band="${4-}" -f "$tour/chart.awk" table.txt >"$out/$1.svg"
 }
 
 # The same scene by every method, 16 samples per pixel.
@@ -62,7 +61,7 @@ for restart in 0 4 8 16 32; do
             printf "%s %.2f %.3f %.3f\n", n ? "restart_" n : "bdpt", mean, mean - error, mean + error
         }'
 done >table.txt
-chart bias "Mean of bins against the truth, in per cent; whiskers: two standard errors" 0
+chart bias "How far the mean of bins is from the truth" "per cent of the truth; whiskers: two standard errors"
 
 # p-values of two methods that agree, and of bins.
 for seed in 1 2 3 4 5 6 7 8; do
@@ -73,7 +72,8 @@ done
 for method in bdpt bins; do
     "$lab" verify "$scene" --files $method-*.pfm --against pool-*.pfm --tile 8 --quiet >verdict.txt || :
     awk '/^  [01]\.[0-9]-/ { print $1, $2 }' verdict.txt >table.txt
-    chart p-$method "p-values of $method against pool, by tenths" 0
+    chart p-$method "p-values of $method against pool, by tenths of [0,1]" \
+        "number of p-values; grey: expected if the means are equal" uniform
 done
 
 # The alias table, step by step.
