@@ -102,7 +102,7 @@ ref: asbdpt asbdpt-lab ## render the stored references of ref/ again (an hour; g
 	sh ref/make-ref.sh $(PROGRAM)
 
 # ---- what proves it ----
-test: asbdpt asbdpt-lab $(BUILD)/test layers standard references columns faults links limits measured ## build and run the test suite (three minutes on two cores)
+test: asbdpt asbdpt-lab $(BUILD)/test layers standard references columns faults links limits measured stats ## build and run the test suite (three minutes on two cores)
 	sh test/suites.sh "sh test/mini.sh $(PROGRAM)" "sh test/cli.sh $(PROGRAM)" "sh test/keep.sh $(PROGRAM)" $(BUILD)/test \
 	    $(foreach name,outputs install hashes_test hashes,"sh test/$(name).sh $(PROGRAM)") \
 	    "LIST=test/lab/hashes.txt sh test/hashes.sh $(LAB)" \
@@ -195,7 +195,7 @@ doc: ## all documents as static HTML in out/html
 figures: asbdpt asbdpt-lab ## make the figures of doc/tour again
 	sh doc/tour/figures.sh $(PROGRAM)
 
-stats: ## files, lines of code and comment, and the longest functions of every room
+stats: ## files, lines, code and comment of every part, and words of documents, beside their limits ("check": must be within)
 	@sh test/tree_stats.sh
 
 help: ## list the targets

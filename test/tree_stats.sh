@@ -1,41 +1,65 @@
 #!/bin/sh
-# tree_stats.sh: for every room of src: files, lines of code, comment share, and its five longest functions.
-# A line of code holds something beside comment; a function begins at a line that is not indented and ends with "}".
-for room in $(cat src/LAYERS) total; do
-    files=$(if [ "$room" = total ]; then ls src/*/*.[ch]; else ls src/"$room"/*.[ch]; fi)
-    awk -v room="$room" '
-        FNR == 1 { n_files++; inside = 0 }
+# tree_stats.sh: how large the tree is: for every room of src and every other part, its files, lines, lines of code and
+# share of comment; and words of the documents. Some totals have a limit, which is shown beside them.
+#   sh test/tree_stats.sh [check]    with "check" the status is 1 if a total is above its limit
+# A line of code holds something beside comment. Words to be read are those outside of tables. Lines of scripts are those
+# of all shell and awk, of the documents' tools, too.
+set -u
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+if git rev-parse >/dev/null 2>&1; then git ls-files; else find . -type f ! -path './build*' ! -path './out/*'; fi |
+    sed 's|^\./||' | while IFS= read -r file; do [ ! -f "$file" ] || echo "$file"; done >"$work/files"
+
+# count NAME PATTERN [LIMIT-OF-LINES [LIMIT-OF-CODE]]: files whose path matches the extended regexp. "-": no limit.
+count() {
+    grep -E "$2" "$work/files" | tr '\n' '\0' | xargs -0 cat /dev/null | awk -v name="$1" -v most="${3:--}" \
+        -v most_code="${4:--}" -v files="$(grep -cE "$2" "$work/files")" -v script="$(echo "$2" | grep -c awk)" '
+        function limited(n, limit) {
+            if (limit != "-" && n > limit) { above = above " " name; mark = "  ABOVE" }
+            return limit == "-" ? sprintf("%7d %8s", n, "") : sprintf("%7d of %5d", n, limit)
+        }
         {
             line = $0
             comment = inside
-            while (1) {
+            kept = ""
+            while (1)
                 if (inside) {
                     if (!(at = index(line, "*/"))) { line = ""; break }
                     line = substr(line, at + 2); inside = 0
                 } else {
-                    if (!(at = index(line, "/*"))) break
+                    if (script || !(at = index(line, "/*"))) break
                     comment = inside = 1
-                    before = substr(line, 1, at - 1); line = substr(line, at + 2)
-                    if (before ~ /[^ \t]/) kept = 1
+                    kept = kept substr(line, 1, at - 1); line = substr(line, at + 2)
                 }
-            }
-            if (line ~ /[^ \t]/ || kept) code++; else if (comment) comments++
-            kept = 0
+            if (script && line ~ /^[ \t]*#/) comments++
+            else if (kept line ~ /[^ \t]/) code++
+            else if (comment) comments++
         }
-        /^[a-z].*\)$/ && !/;/ { start = FNR; name = $0; sub(/\(.*/, "", name); sub(/.*[ *]/, "", name) }
-        /^[a-z].*[,(]$/ && !/;/ { start = FNR; name = $0; sub(/\(.*/, "", name); sub(/.*[ *]/, "", name) }
-        /^}$/ && start { length_of[name] = FNR - start + 1; start = 0 }
-        /^};?$|;$/ && /^[a-z]/ { start = 0 }
         END {
-            printf "%-12s %4d files %6d lines of code %3d %% comment  ",
-                room, n_files, code, 100 * comments / (code + comments)
-            for (k = 0; k < 5; k++) {
-                best = ""
-                for (f in length_of) if (best == "" || length_of[f] > length_of[best]) best = f
-                if (best == "") break
-                printf " %s %d", best, length_of[best]
-                delete length_of[best]
-            }
-            print ""
-        }' $files
-done
+            printf "%-30s %5d  %s %s %3d %%%s\n", name, files, limited(NR, most), limited(code, most_code),
+                100 * comments / (code + comments + !NR), mark
+        }'
+}
+
+# words NAME LIMIT: of standard input.
+words() { awk '{ n += NF } END { print n }' | total "$@"; }
+# total NAME LIMIT: a number of standard input.
+total() { awk -v name="$1" -v most="$2" '{ printf "%-37s %7d of %5d%s\n", name, $1, most, ($1 > most ? "  ABOVE" : "") }'; }
+documents() { grep '\.md$' "$work/files" | tr '\n' '\0' | xargs -0 cat; }
+
+{
+    printf '%-30s %5s  %7s %8s %7s %8s %5s\n' part files lines '' code '' comment
+    for room in $(cat src/LAYERS); do
+        count "src/$room" "^src/$room/.*\.[ch]$"
+    done
+    count 'transport, methods' '^src/(transport/|integrators/([^s]|subspaces)).*\.[ch]$' - 1800
+    count 'learning, tables, techniques' '^src/(learning/|tables/|integrators/services).*\.[ch]$' - 1350
+    count 'src' '^src/.*\.[ch]$' 24800 18900
+    count 'laboratory' '^test/lab/.*\.[ch]$' 13300
+    count 'tests' '^test/([^/]*|fuzz/[^/]*)\.[ch]$' 19500
+    count 'scripts' '\.(sh|awk)$' 4200
+    documents | grep -v '^|' | words 'words to be read' 40000
+    documents | words 'words with tables' 50000
+    wc -l <"$work/files" | total files 1500
+} | tee "$work/table"
+[ "${1-}" != check ] || ! grep 'ABOVE$' "$work/table" >/dev/null
