@@ -109,8 +109,8 @@ notes() {
             }' "$file")
         if old "$file" "$name"; then
             was=$(head_of "$file" estimator)
-            echo "$name **Older than the program: estimator $was, now $estimator.** $said"
-            echo "$name+ (estimator $was)"
+            echo "$name **Measured with an older version of the program (estimator $was, now $estimator).** $said"
+            echo "$name+ (older version)"
         else
             echo "$name $said"
         fi

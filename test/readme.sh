@@ -1,6 +1,6 @@
 #!/bin/sh
-# readme.sh PROGRAM [DOCUMENT...]: the commands of the documents (README.md, doc/*.md, doc/tour/*.md,
-# doc/mini/*.md) do what these say.
+# readme.sh PROGRAM [DOCUMENT...]: the commands of the documents (README.md, CONTRIBUTING.md, doc/*.md,
+# doc/cluster/*.md, doc/tour/*.md, doc/mini/*.md) do what these say.
 # Run are all indented lines that begin as commands of this tree do, in order, in a scratch directory where the tree is
 # linked, so that they write nothing into it: each must end without an error. What follows a command in the same listing
 # is quoted from its output: each line but "..." must be there, letter by letter, and if one names the place of an error
@@ -20,7 +20,7 @@ done
 ln -s "$program" "$dir/asbdpt"
 ln -s "$program-lab" "$dir/asbdpt-lab"
 cd "$dir" && mkdir out || exit 1
-[ $all -gt 0 ] || set -- README.md doc/*.md doc/tour/*.md doc/mini/*.md
+[ $all -gt 0 ] || set -- README.md CONTRIBUTING.md doc/*.md doc/cluster/*.md doc/tour/*.md doc/mini/*.md
 
 # why COMMAND: a reason not to run it, or nothing.
 why() {
@@ -30,7 +30,8 @@ why() {
     "make portability" | "make ref" | "make experiments" | "make web" | "make inject" | \
         "make evidence"*) echo "over a minute" ;;
     "make install"* | "make clean") echo "changes the system or the tree" ;;
-    *"equal-time"* | *"tune.sh"* | *"ajar.pbrt -o out/ajar.png "*) echo "over a minute" ;;
+    *resampling*) echo "a method that the page adds" ;;
+    *"equal-time"* | *"-lab family"* | *"tune.sh"* | *"ajar.pbrt -o out/ajar.png "*) echo "over a minute" ;;
     *"verify --images A"*) echo "placeholder" ;;
     *) echo "$1" | grep -Eq '(^|[ /])[A-Z]{2,}([ ./]|$)|\.\.\.' && echo "placeholder" ;;
     esac
