@@ -82,7 +82,7 @@ static void test_where_nothing_else_does(struct test *t)
         if (settle(t, &scene, &f)) {
             CHECK(t, (f.numbers.path_pixels > 0) == (i > 0), "a point light beside %s: %d", materials[i],
                   f.numbers.path_pixels);
-            double delta = f.counts.delta[FIRST_HIT];
+            double delta = f.counts.direct_delta[FIRST_HIT];
             CHECK(t, i == 0 || delta >= 16, "a point light's samples count for %g", delta);
         }
         scene_free(&scene);
@@ -118,7 +118,7 @@ static void test_credit(struct test *t)
         settings_set(&scene.settings, "probe", "off", "test"); /* or paths are traced, which need no credit */
         if (settle(t, &scene, &f)) {
             double credit = f.counts.hit[FIRST_HIT];
-            CHECK(t, (credit > 4) == (i == 0) && f.counts.direct[FIRST_HIT] == f.numbers.lights * credit &&
+            CHECK(t, (credit > 4) == (i == 0) && f.counts.direct[FIRST_HIT] == f.numbers.light_points * credit &&
                          f.counts.hit[LATER_HIT] == 1,
                   "%s: s = 0 counts for %g, s = 1 for %g", scenes[i], credit, f.counts.direct[FIRST_HIT]);
         }
@@ -152,7 +152,7 @@ static void test_pane(struct test *t)
             return;
         settings_set(&scene.settings, "probe", "off", "test");
         if (settle(t, &scene, &f))
-            credit[i] = f.counts.delta[FIRST_HIT];
+            credit[i] = f.counts.direct_delta[FIRST_HIT];
         scene_free(&scene);
     }
     CHECK(t, credit[0] > 4 && credit[1] > 4, "a point light counts for %g, behind glass for %g", credit[0], credit[1]);
@@ -161,12 +161,12 @@ static void test_pane(struct test *t)
 /* counts_of: exact. */
 static void test_counts(struct test *t)
 {
-    const struct numbers n = {.path_pixels = 4, .draws = {3, 1}, .lights = 1, .hits = true};
+    const struct numbers n = {.path_pixels = 4, .draws = {3, 1}, .light_points = 1, .path_tracing = true};
     const struct mis_counts c = counts_of(n, (struct credits){5, 6, 7, 2}, 100);
-    CHECK(t, c.hit[FIRST_HIT] == 5 && c.direct[FIRST_HIT] == 6 && c.delta[FIRST_HIT] == 7, "first hit");
-    CHECK(t, c.hit[LATER_HIT] == 1 && c.direct[LATER_HIT] == 1 && c.delta[LATER_HIT] == 1, "later");
+    CHECK(t, c.hit[FIRST_HIT] == 5 && c.direct[FIRST_HIT] == 6 && c.direct_delta[FIRST_HIT] == 7, "first hit");
+    CHECK(t, c.hit[LATER_HIT] == 1 && c.direct[LATER_HIT] == 1 && c.direct_delta[LATER_HIT] == 1, "later");
     CHECK(t, c.connect[FIRST_HIT] == 6 && c.connect[LATER_HIT] == 2 && c.splat == 25, "light sub-paths");
-    const struct numbers path_tracer = {.draws = {3, 1}, .lights = 1, .hits = true};
+    const struct numbers path_tracer = {.draws = {3, 1}, .light_points = 1, .path_tracing = true};
     const struct mis_counts pt = counts_of(path_tracer, NO_CREDITS, 100);
     CHECK(t, pt.connect[FIRST_HIT] == 0 && pt.splat == 0 && pt.hit[LATER_HIT] == 1, "a path tracer");
     const struct mis_counts lt = counts_of((struct numbers){.path_pixels = 1}, NO_CREDITS, 100);

@@ -13,7 +13,8 @@ static void render_pixel(const struct tile_pass *pass, const struct frozen *f, i
     arena_reset(&work->arena);
     struct pixel_sample sample = pixel_sample_begin(pass, &f->counts, x, y, iteration);
     /* Light tracing needs of the eye sub-path only the lights seen directly (s = 0, t = 2). */
-    int n_eye = pixel_eye_path(pass, &sample, work->eye, f->numbers.hits ? sample.max_depth + 2 : 2), n_light = 0;
+    int longest = f->numbers.path_tracing ? sample.max_depth + 2 : 2, n_light = 0;
+    int n_eye = pixel_eye_path(pass, &sample, work->eye, longest);
     if (f->numbers.path_pixels > 0)
         n_light = pixel_light_path(pass, &f->counts, x, y, (uint64_t)iteration, &work->arena, work->light);
 
@@ -33,8 +34,8 @@ static void render(const struct preparation *m, const struct tile_pass *pass)
 
 const struct method method_pt = {
     .name = "pt", .help = "path tracing: light found by chance (s = 0) or sampled (s = 1)",
-    .numbers = {.lights = 1, .hits = true}, .state_size = sizeof(struct frozen), .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .render = render};
+    .numbers = {.light_points = 1, .path_tracing = true}, .state_size = sizeof(struct frozen),
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render};
 
 const struct method method_lt = {
     .name = "lt", .help = "light tracing: light sub-paths connected to the lens (t = 1); cannot see mirrors",

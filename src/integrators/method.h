@@ -19,7 +19,7 @@
 #define DEFAULT_RR_THRESHOLD 0.5
 
 /* Each of the two sub-paths once, all connections between them. */
-#define NUMBERS_OF_BDPT {.path_pixels = 1, .draws = {1, 1}, .lights = 1, .hits = true}
+#define NUMBERS_OF_BDPT {.path_pixels = 1, .draws = {1, 1}, .light_points = 1, .path_tracing = true}
 
 struct method;
 

@@ -71,7 +71,7 @@ struct pooled_pixel pooled_begin(const struct preparation *m, const struct tile_
     const struct frozen *f = m->state;
     struct pooled_pixel p = {.eye = pass->work->eye, .number = number};
     p.sample = pixel_sample_begin(pass, &f->counts, x, y, iteration);
-    p.sample.lights = f->numbers.lights;
+    p.sample.light_points = f->numbers.light_points;
     p.n = pixel_eye_path(pass, &p.sample, pass->work->eye, f->max_depth + 2);
     p.draws = pixel_sampler(pass, RNG_SELECT, x, y, iteration);
     int each = f->numbers.path_pixels;

@@ -45,7 +45,7 @@ static void tell(struct preparation *out)
     const struct frozen *f = out->state;
     const struct film_number numbers[] = {
         {"draws_first_hit", f->numbers.draws[FIRST_HIT]}, {"draws_after", f->numbers.draws[LATER_HIT]},
-        {"light_points_first_hit", f->numbers.lights}, {"pixels_per_light_path", f->numbers.path_pixels},
+        {"light_points_first_hit", f->numbers.light_points}, {"pixels_per_light_path", f->numbers.path_pixels},
         {"eye_regions", f->tables.eye.n}, {"light_regions", f->tables.light.n}};
     memcpy(out->number, numbers, sizeof numbers); /* fewer than there is room for: a NULL name stays behind them */
 }
@@ -56,10 +56,10 @@ bool services_trace_paths(const struct render_job *job, struct preparation *out)
     if (light_paths_useful(job))
         return false;
     if (!path_tracer_sees_all(job->scene)) {
-        f->numbers = (struct numbers){.path_pixels = 8, .draws = {1, 1}, .lights = 1, .hits = true};
+        f->numbers = (struct numbers){.path_pixels = 8, .draws = {1, 1}, .light_points = 1, .path_tracing = true};
         return false;
     }
-    f->numbers = (struct numbers){.lights = 1, .hits = true};
+    f->numbers = (struct numbers){.light_points = 1, .path_tracing = true};
     method_count(job, f, NO_CREDITS);
     out->size.tile = DEFAULT_TILE_SIZE; /* pixels share nothing but what is in the cache */
     out->size.spread = 1;

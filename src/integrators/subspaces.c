@@ -140,7 +140,7 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 enum { LIGHT_CELLS = 16 }; /* light regions along the diagonal */
 
 /* Draws of one eye vertex are stratified over the pool. */
-static const struct credits CREDITS = {.hit = 1, .direct = 1, .delta = 1, .draw = 2};
+static const struct credits CREDITS = {.hit = 1, .direct = 1, .direct_delta = 1, .draw = 2};
 
 static void prepare(const struct render_job *job, struct preparation *out)
 {
@@ -174,5 +174,5 @@ const struct method method_subspaces = {
            "to h(e,l) luminance(beta), by the regions of both; scale 1 / (C K P)",
     .parameters = PARAMETERS,
     .state_size = sizeof(struct subspaces_state), .scratch_size = sizeof(struct subspaces),
-    .numbers = {.lights = 2, .hits = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
+    .numbers = {.light_points = 2, .path_tracing = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render, .scratch_free = light_pool_free, .begin = begin, .draw = draw};

@@ -82,7 +82,7 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 
 /* What draws, and the one sample of s = 1, count for: draws are stratified over a table, and the point on the light
  * comes from a low-discrepancy sequence. */
-static const struct credits CREDITS = {.hit = 1, .direct = 2, .delta = 2, .draw = 2};
+static const struct credits CREDITS = {.hit = 1, .direct = 2, .direct_delta = 2, .draw = 2};
 
 /* h(l) = (1 - delta) E(l) / mean + delta, for every eye vertex alike. */
 static struct pairs pairs_from_importance(const struct tables *t, double delta)
@@ -124,5 +124,5 @@ const struct method method_vertices = {
            "sub-paths, q in proportion to luminance(beta) n(x); scale 1 / (C K q)",
     .parameters = PARAMETERS,
     .state_size = sizeof(struct vertices_state), .scratch_size = sizeof(struct vertices),
-    .numbers = {.lights = 1, .hits = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
+    .numbers = {.light_points = 1, .path_tracing = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .draw = draw};

@@ -62,7 +62,7 @@ static double credit_of(const struct pixel_sums *pixel, int64_t n, enum sum i, d
 
 struct credits credit_measure(const struct render_job *job, const struct tables *tables)
 {
-    const struct numbers path_tracer = {.lights = 1, .hits = true};
+    const struct numbers path_tracer = {.light_points = 1, .path_tracing = true};
     struct credit_probe c = {.counts = counts_of(path_tracer, NO_CREDITS, 1)};
     struct probe p = {.job = job, .context = &c, .measure = measure};
     double all = 0;
@@ -74,5 +74,5 @@ struct credits credit_measure(const struct render_job *job, const struct tables 
         all += (c.pixel[k].mean[0][ALL] + c.pixel[k].mean[1][ALL]) / (2 * (double)p.n);
     double direct = credit_of(c.pixel, p.n, DIRECT, all), delta = credit_of(c.pixel, p.n, DELTA, all);
     free(c.pixel);
-    return (struct credits){.hit = direct, .direct = direct, .delta = delta, .draw = 1};
+    return (struct credits){.hit = direct, .direct = direct, .direct_delta = delta, .draw = 1};
 }

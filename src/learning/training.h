@@ -51,7 +51,7 @@ struct pass {
 };
 static inline struct mis_counts any_counts(const struct tables *known)
 {
-    return (struct mis_counts){.direct = {1, 1}, .delta = {1, 1}, .tables = known};
+    return (struct mis_counts){.direct = {1, 1}, .direct_delta = {1, 1}, .tables = known};
 }
 
 /* pass_run: all of it, unless patience ends. */

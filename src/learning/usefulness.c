@@ -83,7 +83,7 @@ static void measure(struct probe *p, int64_t k, int x, int y, int thread)
 
 bool light_paths_useful(const struct render_job *job)
 {
-    const struct numbers bdpt = {.path_pixels = 1, .draws = {1, 1}, .lights = 1, .hits = true};
+    const struct numbers bdpt = {.path_pixels = 1, .draws = {1, 1}, .light_points = 1, .path_tracing = true};
     struct usefulness u = {.counts = counts_of(bdpt, NO_CREDITS, pixel_light_count(job))};
     struct probe p = {.job = job, .context = &u, .measure = measure};
     double all = 0, variance = 0, tail = 0, direct = 0, direct_square = 0, direct_tail = 0;

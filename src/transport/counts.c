@@ -6,10 +6,10 @@ struct mis_counts counts_of(struct numbers n, struct credits c, double pixels)
     struct mis_counts m = {.splat = n.path_pixels > 0 ? pixels / n.path_pixels : 0};
     for (int end = 0; end < EYE_ENDS; end++) {
         struct credits worth = end == FIRST_HIT ? c : NO_CREDITS;
-        int lights = end == FIRST_HIT ? n.lights : n.lights > 0;
-        m.hit[end] = n.hits ? worth.hit : 0;
-        m.direct[end] = lights * worth.direct;
-        m.delta[end] = lights * worth.delta;
+        int points = !n.path_tracing ? 0 : end == FIRST_HIT ? n.light_points : 1;
+        m.hit[end] = n.path_tracing ? worth.hit : 0;
+        m.direct[end] = points * worth.direct;
+        m.direct_delta[end] = points * worth.direct_delta;
         m.connect[end] = n.path_pixels > 0 ? n.draws[end] * c.draw : 0;
     }
     return m;

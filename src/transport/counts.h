@@ -12,16 +12,16 @@
 struct numbers {
     int path_pixels;     /* pixels for each light sub-path; 0: there are no light sub-paths */
     int draws[EYE_ENDS]; /* light vertices that an eye vertex is joined to; BDPT: each of one sub-path once */
-    int lights;          /* light points for each eye vertex that is FIRST_HIT; a later one has 1. 0: none at all */
-    bool hits;           /* s = 0: do eye sub-paths count that find lights after two edges or more? */
+    int light_points;    /* points on lights that an eye vertex is joined to if it is FIRST_HIT; a later one has one */
+    bool path_tracing;   /* are there the strategies of path tracing, s = 0 (t >= 3) and s = 1? */
 };
 
-/* What one sample counts as, in independent samples (see struct mis_counts). */
+/* How many independent samples one sample counts as (see struct mis_counts). */
 struct credits {
-    double hit;    /* s = 0, where the edge before the light begins at a first hit */
-    double direct; /* s = 1 at a first hit, for lights that s = 0 can find */
-    double delta;  /* s = 1 at a first hit, for those that it cannot */
-    double draw;   /* s >= 2, t >= 2 */
+    double hit;          /* s = 0, if the edge before the light begins at a first hit */
+    double direct;       /* s = 1 at a first hit, to lights that s = 0 can find */
+    double direct_delta; /* s = 1 at a first hit, to delta lights, which s = 0 cannot find */
+    double draw;         /* s >= 2, t >= 2 */
 };
 static const struct credits NO_CREDITS = {1, 1, 1, 1};
 
@@ -48,7 +48,7 @@ static inline double n_direct(const struct mis_counts *c, const struct light_set
                               int cell, vec3 w)
 {
     bool delta = cell >= 0 && light_is_delta(&lights->light[lights->light_of_cell[cell]]);
-    double n = (delta ? c->delta : c->direct)[end];
+    double n = (delta ? c->direct_delta : c->direct)[end];
     return n > 0 ? n * guide_density(&counts_tables(c)->guide, lights, e, cell, w) : 0;
 }
 

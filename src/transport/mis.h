@@ -62,7 +62,7 @@ enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
 struct mis_counts {
     double hit[EYE_ENDS];      /* s = 0, t >= 3, by z_{t-2}: the eye walk finds a light. (t = 2: weight 1) */
     double direct[EYE_ENDS];   /* s = 1: connection to fresh points on a light that s = 0 can find */
-    double delta[EYE_ENDS];    /* s = 1: connection to a light that it cannot, without extent or of one direction */
+    double direct_delta[EYE_ENDS]; /* s = 1: connection to a delta light, of one point or one direction */
     double connect[EYE_ENDS];  /* s >= 2, t >= 2: connection to light vertices */
     double most;               /* of connect, whatever the tables say: sub-paths that share a pool; 0: no bound */
     double splat;              /* s >= 2, t = 1: light sub-paths joined to the lens, of the whole film's pixels */

@@ -221,7 +221,7 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
     if (max_vertices < 1 || !(pdf > 0) || rgb_is_black(emitted))
         return 0;
     vertex_light_end(w->scene, w->counts, &at, &path[0]);
-    path[0].beta = light_Le(&w->scene->lights, &at, from.ray.d); /* not a throughput: nothing connects to this y_0 */
+    path[0].beta = light_Le(&w->scene->lights, &at, from.ray.d);
     from.beta = rgb_scale(emitted, 1 / (at.pdf * pdf)); /* alpha_2 of [V97 eq. 10.6] */
     from.ray.tmin = ray_margin(from.ray.o);
     return walk_on(w, from, path, 1, max_vertices, IMPORTANCE);

@@ -37,7 +37,7 @@ struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struc
     const struct render_job *job = pass->job;
     struct pixel_sample sample = {.scene = job->scene, .counts = counts, .tile = pass->tile, .observer = pass->observer,
                                   .max_depth = job->max_depth, .x = x, .y = y, .iteration = iteration,
-                                  .filter_weight = 1, .lights = 1};
+                                  .filter_weight = 1, .light_points = 1};
     sample.sampler = stream(job, job->seed, RNG_CONNECT, x, y, (uint64_t)iteration);
     return sample;
 }
@@ -102,7 +102,7 @@ void pixel_sum_direct(struct pixel_sample *sample, const struct vertex *eye, int
     const struct vertex *z = &eye[t - 1];
     if (z->kind == VERTEX_ESCAPED || t > sample->max_depth + 1)
         return;
-    int n = z->eye_end == FIRST_HIT ? sample->lights : 1;
+    int n = z->eye_end == FIRST_HIT ? sample->light_points : 1;
     const struct choice each = {1, 1.0 / n};
     for (int i = 0; i < n; i++) {
         struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);

@@ -22,7 +22,7 @@ struct pixel_sample {
     int x, y;               /* the pixel */
     long iteration;
     double filter_weight;   /* of its eye sample, see path_eye_pixel */
-    int lights;             /* light points for an eye vertex that is FIRST_HIT */
+    int light_points;       /* of struct numbers */
     struct sampler sampler; /* for light and lens points */
     rgb value;              /* sum of the contributions of paths with t >= 2 so far */
 };

@@ -41,7 +41,6 @@ void vertex_light_end(const struct scene *scene, const struct mis_counts *counts
     out->prim_id = at->prim_id;
     out->medium = l->medium;
     out->wo = at->w;
-    out->beta = rgb_grey(1 / at->pdf);
     out->pdf_fwd = vertex_light_pdf(&scene->lights, at);
     out->mis_c = light_is_delta(l) ? 0 : counts->hit[LATER_HIT];
 }

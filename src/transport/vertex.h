@@ -28,8 +28,8 @@ enum vertex_kind {
  *   prim_id      0            area light: see shape.h; else 0   see shape.h                  0
  *   length       0            0                                 scene units, see below       likewise
  *   wo           0            at infinity: towards the light    towards the previous vertex  inwards
- *   beta         1            radiance or intensity emitted;    throughput on arrival        throughput on arrival
- *                             as a connection's end 1/density
+ *   beta         1            radiance or intensity emitted     throughput on arrival        throughput on arrival
+ *                             towards y_1 (no throughput)
  *   pdf_fwd      1, unused    1/m^2; at infinity 1/sr           1/m^2                        1/sr
  *   pdf_origin   -            -                                 eye walk, on a light: that   1/sr, likewise
  *                                                               of y_0 there, 1/m^2
@@ -71,7 +71,7 @@ struct vertex {
 };
 
 /* vertex_light_pdf: pdf_fwd of y_0 for a point drawn on a light (light.h).
- * vertex_light_end: fill in that y_0; its beta is 1/density. */
+ * vertex_light_end: fill in that y_0, without beta. */
 double vertex_light_pdf(const struct light_set *lights, const struct light_point *at);
 void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,
                       struct vertex *out);

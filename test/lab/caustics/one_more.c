@@ -31,7 +31,7 @@ static void sum_direct(struct pixel_sample *sample, struct arena *arena, const s
                        const struct vertex *eye, int t)
 {
     const struct vertex *z = &eye[t - 1];
-    int n = z->eye_end == FIRST_HIT ? sample->lights : 1;
+    int n = z->eye_end == FIRST_HIT ? sample->light_points : 1;
     const struct choice each = {1, 1.0 / n};
     for (int i = 0; i < n; i++) {
         struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);

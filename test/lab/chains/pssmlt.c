@@ -16,7 +16,7 @@ static void sample(struct chain *c, bool small)
     double px, py;
     primary_begin(&p, c, small);
     struct pixel_sample s = {.scene = job->scene, .counts = &c->all->frozen.counts, .tile = &c->next.heard,
-                             .max_depth = job->max_depth, .filter_weight = 1, .lights = 1,
+                             .max_depth = job->max_depth, .filter_weight = 1, .light_points = 1,
                              .sampler = p.sampler[POINT_NUMBERS]};
     int n_eye = primary_eye(&p, job->max_depth + 2, &px, &py), n_light = primary_light(&p, job->max_depth + 1);
     pixel_sum_eye(&s, work->eye, n_eye);

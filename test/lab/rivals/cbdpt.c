@@ -71,7 +71,7 @@ const struct method method_cbdpt = {
     .why = "M of the tile's K light sub-paths, in random order, all used equally often; scale 1 / M",
     .parameters = PARAMETERS,
     .state_size = sizeof(struct cbdpt_state), .scratch_size = sizeof(struct cbdpt),
-    .numbers = {.lights = 1, .hits = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
+    .numbers = {.light_points = 1, .path_tracing = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render,
     .scratch_free = light_pool_free,
     .begin = begin, .connect = connect};

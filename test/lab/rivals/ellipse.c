@@ -259,6 +259,6 @@ static const struct field PARAMETERS[] = {
 const struct method method_ellipse = {
     .name = "ellipse", .check = surfaces_alone, .parameters = PARAMETERS,
     .help = "ellipsoidal connections [Pediredla 2019]: light between two path lengths; else pt",
-    .state_size = sizeof(struct ellipse_state), .numbers = {.lights = 1, .hits = true},
+    .state_size = sizeof(struct ellipse_state), .numbers = {.light_points = 1, .path_tracing = true},
     .rr_threshold = DEFAULT_RR_THRESHOLD,
     .prepare = prepare, .release = release, .render = render};

@@ -77,7 +77,7 @@ const struct method method_lvc = {
            "likely; scale V / (C K)",
     .parameters = PARAMETERS,
     .state_size = sizeof(struct lvc_state), .scratch_size = sizeof(struct lvc),
-    .numbers = {.lights = 1, .hits = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
+    .numbers = {.light_points = 1, .path_tracing = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
     .render = pooled_render,
     .scratch_free = light_pool_free,
     .begin = begin, .draw = draw};

@@ -259,5 +259,5 @@ const struct method method_pathgraph = {
     .name = "pathgraph", .check = surfaces_alone,
     .help = "path graphs [Deng 2021]: pt whose vertices share what lights them with others; biased",
     .parameters = PARAMETERS, .state_size = sizeof(struct pathgraph_state), .scratch_size = sizeof(struct light_pool),
-    .numbers = {.lights = 1, .hits = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare,
-    .render = render};
+    .numbers = {.light_points = 1, .path_tracing = true}, .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .prepare = reuse_prepare, .render = render};

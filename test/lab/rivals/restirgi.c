@@ -233,5 +233,5 @@ const struct method method_restirgi = {
     .name = "restirgi", .check = surfaces_alone,
     .help = "reservoirs [Ouyang 2021]: second vertices resampled, and shared with pixels nearby",
     .parameters = PARAMETERS, .state_size = sizeof(struct restirgi_state), .scratch_size = sizeof(struct light_pool),
-    .numbers = {.lights = 1, .hits = true},
+    .numbers = {.light_points = 1, .path_tracing = true},
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = render};
