@@ -84,7 +84,7 @@ uninstall: ## remove what install put there
 demo: ## build both programs with all cores, and render the corridor by bdpt and asbdpt in the same time: out/demo.png
 	@$(MAKE) -j$$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) asbdpt asbdpt-lab
 	@mkdir -p out
-	$(LAB) demo scenes/corridor.pbrt --reference ref/demo/corridor.png --spp 16 -o out/demo.png
+	$(LAB) demo scenes/corridor.pbrt --reference ref/demo/corridor.png --spp 48 -o out/demo.png
 
 experiments: asbdpt-lab ## measure all integrators on the five scenes, quickly, into out/experiments/results.html
 	$(LAB) experiment --quick -o out/experiments
