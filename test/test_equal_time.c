@@ -281,15 +281,16 @@ static void check_all_methods(struct test *t)
 
 /* --- carried out --------------------------------------------------------------------------------------- */
 
-/* A plan of the Cornell box, once as one's own and once as published, 8x8 pixels. */
+/* A plan of two scenes, 8x8 pixels. */
 static void small_plan(struct plan *p, const char **scenes, const char *directory, const char *methods)
 {
     struct error err = {.text = ""};
     memset(p, 0, sizeof *p);
-    scenes[0] = scenes[1] = "scenes/cornell-box.pbrt";
+    scenes[0] = "scenes/cornell-box.pbrt";
+    scenes[1] = "scenes/spot.pbrt";
     p->scene = scenes;
     p->n_scenes = 2;
-    p->n_own = p->n_threads = 1;
+    p->n_threads = 1;
     p->n_seeds = 3;
     p->width = p->height = 8;
     p->directory = directory;

@@ -1,6 +1,7 @@
 # results.awk: sections of doc/measured from results.md files of `asbdpt-lab experiment`: of each of the five scenes
-# all tables; ratios: the error of bins over that of bdpt, printed and here, with 32 samples and with most, and what the
-# mean of bins is off by; equal: squared error over that of bdpt after the same CPU time, with most samples.
+# its table; ratios: the error of bins over that of bdpt, printed and here, with 32 samples and with most of which both
+# are known, and what the mean of bins is off by; equal: squared error over that of bdpt after the same CPU time, with
+# most samples.
 function cell(i) { return part[i + 1] }
 /^## / {
     on = $2 ~ /^(cornell-box|cornell-box-modified|veach-ajar|living-room|bathroom)$/
@@ -9,30 +10,30 @@ function cell(i) { return part[i + 1] }
     blank = 1
     next
 }
-!on || /^!\[/ || /^Bars:/ || /\| - \|/ || (/^$/ && blank) { next } # pictures are not stored
+!on || /^!\[/ || /^Bars:/ || (/^$/ && blank) { next } # pictures are not stored
 {
     gsub(/asbdpt:select=/, "")
     blank = /^$/
     print
     split($0, part, / *\| */)
 }
-/^RMSE beside/ { table = "printed" }
-/^Seconds of CPU/ { table = "equal" }
-/^Signed error/ { table = "signed" }
-/^\| [0-9]+ \|/ && table == "printed" {
-    if (cell(1) == 32) first[scene] = cell(7) " | " cell(4)
-    last[scene] = cell(7) " | " cell(4)
-    most = cell(1)
+/^\| [0-9]+ \| bdpt \|/ { before[cell(1)] = cell(5) }
+/^\| [0-9]+ \| bins \|/ {
+    if (cell(5) != "-") {
+        last[scene] = sprintf("%.3f | %s", cell(5) / before[cell(1)], cell(4))
+        if (cell(1) == 32) first[scene] = last[scene]
+        most = cell(1)
+    }
+    off[scene] = cell(8)
 }
-/^\| [0-9]+ \|/ && table == "equal" { equal[scene] = cell(7) " | " cell(8) " | " cell(9) " | " cell(10) }
-/^\| method \|/ && table == "signed" { for (last_spp = 1; cell(last_spp + 1) ~ /spp$/; last_spp++) ; }
-/^\| bins \|/ && table == "signed" { off[scene] = cell(last_spp) }
-/^RMSE on the/ { table = "" }
+/^\| [0-9]+ \| (bins|pool|vertices|subspaces) \|/ { equal[scene, cell(2)] = cell(7) }
 END {
     print "== ratios"
     print "| | printed, 32 samples | here | printed, " most " | here | mean of `bins` off by, per cent |"
     print "|---|---:|---:|---:|---:|---:|"
     for (i = 1; i <= n; i++) print "| " order[i] " | " first[order[i]] " | " last[order[i]] " | " off[order[i]] " |"
     print "== equal\n| | `bins` | `pool` | `vertices` | `subspaces` |\n|---|---:|---:|---:|---:|"
-    for (i = 1; i <= n; i++) print "| " order[i] " | " equal[order[i]] " |"
+    for (i = 1; i <= n; i++)
+        print "| " order[i] " | " equal[order[i], "bins"] " | " equal[order[i], "pool"] " | " \
+            equal[order[i], "vertices"] " | " equal[order[i], "subspaces"] " |"
 }

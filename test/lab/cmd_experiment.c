@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/file.h"
 #include "base/parallel.h"
 #include "lab/commands.h"
 #include "lab/equal.h"
@@ -19,12 +18,6 @@ static const char *const SCENES[] = {
     "scenes/corridor.pbrt",    "scenes/many-lights.pbrt",          "scenes/forest.pbrt"};
 enum { N_SCENES = sizeof SCENES / sizeof SCENES[0], N_PUBLISHED = 5, COMMAND = 4096 };
 
-/* The dissertation's models, measured by `family` where they lie beside the tree. */
-static const char *const PUBLISHED[] = {
-    "../shared/scenes/cornell-box/scene.pbrt", "../shared/scenes/cornell-box-modified/scene.pbrt",
-    "../shared/scenes/veach-ajar/scene.pbrt", "../shared/scenes/bathroom/scene.pbrt",
-    "../shared/scenes/living-room/scene.pbrt"};
-
 /* What the options say; 0 and NULL: what the preset says. */
 struct plan_options {
     struct plan plan;
@@ -34,10 +27,23 @@ struct plan_options {
     int spp, res[2];
 };
 
+/* What a command measures unless the options say otherwise. */
+struct preset {
+    const char *name;
+    int spp, seeds, width; /* width 0: the stored reference's */
+    int reference_spp;     /* 0: as many as the first method has of all seeds */
+};
+
 /* --- options ----------------------------------------------------------------------------------------- */
 
 #define AT(member) offsetof(struct plan_options, member)
 static const struct option SHARED[] = {
+    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes),
+     .help = "scene files (default: eleven of scenes/, of which experiment measures five)"},
+    {"-o", "DIR", OPTION_TEXT, AT(plan.directory), 1,
+     .help = "a directory for its results; started again with the same, it goes on"},
+    {"--seeds", "N", OPTION_INTEGER, AT(plan.n_seeds), 1, PLAN_MAX_SEEDS,
+     .help = "renders per method (default: 3; equal-time, family: 5)"},
     {"--maxdepth", "N", OPTION_INTEGER, AT(plan.max_depth), 1, PATH_MAX_DEPTH,
      .help = "longest path, 1 = direct light"},
     {"--res", "WIDTH[xHEIGHT]", OPTION_WIDTH, AT(res), 1, 8192, .help = "size, or width alone"},
@@ -51,64 +57,59 @@ static const struct option SHARED[] = {
 };
 
 static const struct option EXPERIMENT[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: five of scenes/)"},
-    {"-o", "DIR", OPTION_TEXT, AT(plan.directory), 1,
-     .help = "a directory for its results; started again with the same, it goes on"},
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_EXPERIMENT ")"},
     {"--sweep", "LIST", OPTION_TEXTS, AT(sweeps),
-     .help = "such a list in a table and plot of its own, one seed (default: two, unless there are --methods)"},
+     .help = "such a list in a plot of its own, one seed (default: two, unless there are --methods)"},
     {"--quick", NULL, OPTION_ON, AT(quick), .help = "at the sizes of the references, 8 to 64 spp (default)"},
     {"--full", NULL, OPTION_ON, AT(full), .help = "320 pixels wide, 32 to 512 spp, and longer sweeps"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .help = "most samples per pixel"},
-    {"--seeds", "N", OPTION_INTEGER, AT(plan.n_seeds), 1, PLAN_MAX_SEEDS, .fallback = "3",
-     .help = "renders per method"},
     {.others = SHARED},
 };
 
 static const struct option EQUAL_TIME[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: eleven of scenes/)"},
-    {"-o", "DIR", OPTION_TEXT, AT(plan.directory), 1, .help = "a directory for its results"},
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_DEMO
      "; of eleven scenes more)"},
-    {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "32",
-     .help = "samples per pixel of the first method; the others are given its CPU time"},
+    {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20,
+     .help = "samples per pixel of the first method (default: 32); the others are given its CPU time"},
     {"--seconds", "T", OPTION_NUMBER, AT(plan.seconds), 0.001, 1e6, .help = "instead: the CPU time that all are given"},
-    {"--seeds", "N", OPTION_INTEGER, AT(plan.n_seeds), 1, PLAN_MAX_SEEDS, .fallback = "5",
-     .help = "renders per method"},
     {.others = SHARED},
 };
 
 static const struct option FAMILY[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), .help = "scene files (default: eleven of scenes/, five published)"},
-    {"-o", "DIR", OPTION_TEXT, AT(plan.directory), 1,
-     .help = "a directory for its results; started again with the same, it goes on"},
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: all there are)"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20,
      .help = "samples per pixel of the first method (default: 64; --quick: 16); the others are given its CPU time"},
-    {"--seeds", "N", OPTION_INTEGER, AT(plan.n_seeds), 1, PLAN_MAX_SEEDS,
-     .help = "renders per method (default: 5; --quick: 3)"},
     {"--half", "HALF", OPTION_TEXT, AT(half), .fallback = "both",
      .help = "choice: all services off; services: each method with all it can have; or both"},
-    {"--quick", NULL, OPTION_ON, AT(quick), .help = "at the sizes of stored references, not 160 pixels wide"},
+    {"--quick", NULL, OPTION_ON, AT(quick), .help = "3 seeds, at the sizes of stored references, not 160 pixels wide"},
     {.others = SHARED},
 };
 
 /* --- the plan ---------------------------------------------------------------------------------------- */
 
-/* What all commands have in common. `command` becomes the command that carries the plan out again, after `how`. */
-static bool begin_plan(struct plan_options *o, int n_scenes, const char *how, char command[COMMAND], struct error *err)
+/* What is 0 becomes the preset's. */
+static void choose(int *value, int otherwise) { *value = *value > 0 ? *value : otherwise; }
+
+/* What all commands have in common. `command` becomes the command that carries the plan out again. */
+static bool begin_plan(struct plan_options *o, const struct preset *preset, int n_scenes, char command[COMMAND],
+                       struct error *err)
 {
     struct plan *p = &o->plan;
-    if (o->scenes.n == 0)
-        for (int i = 0; i < n_scenes; i++)
-            texts_add(&o->scenes, SCENES[i]);
+    for (int i = 0; o->scenes.n < n_scenes && (i > 0 || o->scenes.n == 0); i++)
+        texts_add(&o->scenes, SCENES[i]);
+    choose(&o->spp, preset->spp);
+    choose(&p->n_seeds, preset->seeds);
+    choose(&o->res[0], preset->width);
+    choose(&p->reference_spp, preset->reference_spp > 0 ? preset->reference_spp : o->spp * p->n_seeds);
     p->scene = o->scenes.item;
     p->n_scenes = o->scenes.n;
     p->width = o->res[0];
     p->height = o->res[1];
     p->command = command;
-    int n = snprintf(command, COMMAND, "%s --methods %s --seeds %d --reference-spp %d", how, o->methods, p->n_seeds,
-                     p->reference_spp);
+    int n = snprintf(command, COMMAND, p->seconds > 0 ? "%s --seconds %g" : "%s --spp %.0f", preset->name,
+                     p->seconds > 0 ? p->seconds : o->spp);
+    n += snprintf(command + n, COMMAND - (size_t)n, " --methods %s --seeds %d --reference-spp %d", o->methods,
+                  p->n_seeds, p->reference_spp);
     if (p->width > 0)
         n += snprintf(command + n, COMMAND - (size_t)n, p->height > 0 ? " --res %dx%d" : " --res %d", p->width,
                       p->height);
@@ -121,15 +122,12 @@ static bool begin_plan(struct plan_options *o, int n_scenes, const char *how, ch
     return plan_set_methods(p, o->methods, err);
 }
 
-/* What is 0 becomes the preset's. */
-static void preset(int *value, int otherwise) { *value = *value > 0 ? *value : otherwise; }
-
 /* The steps of the samples are doublings of the preset's first, up to --spp. */
 static bool plan_experiment(struct plan_options *o, char command[COMMAND], struct error *err)
 {
+    static const struct preset presets[2] = {{"experiment --quick", 64, 3, 0, 256},
+                                             {"experiment --full", 512, 3, 320, 4096}};
     static const char *const sweeps[2][2] = {{SWEEPS_QUICK}, {SWEEPS_FULL}};
-    char how[64];
-    struct plan *p = &o->plan;
     int first = o->full ? 32 : 8;
     if (o->quick && o->full)
         return error_usage(err, "--quick and --full exclude each other");
@@ -137,52 +135,34 @@ static bool plan_experiment(struct plan_options *o, char command[COMMAND], struc
         texts_add(&o->sweeps, sweeps[o->full][i]);
     if (o->methods == NULL)
         o->methods = METHODS_EXPERIMENT;
-    preset(&o->spp, o->full ? 512 : 64);
-    preset(&p->reference_spp, o->full ? 4096 : 256);
-    preset(&o->res[0], o->full ? 320 : 0);
-    snprintf(how, sizeof how, "experiment --%s --spp %d", o->full ? "full" : "quick", o->spp);
-    bool ok = begin_plan(o, N_PUBLISHED, how, command, err) &&
-              plan_set_spp(p, o->spp < first ? o->spp : first, o->spp, err);
-    p->no_roulette = true;
+    bool ok = begin_plan(o, &presets[o->full], N_PUBLISHED, command, err) &&
+              plan_set_spp(&o->plan, o->spp < first ? o->spp : first, o->spp, err);
+    o->plan.no_roulette = true;
     for (int i = 0; ok && i < o->sweeps.n; i++)
-        ok = plan_add_sweep(p, o->sweeps.item[i], err);
+        ok = plan_add_sweep(&o->plan, o->sweeps.item[i], err);
     return ok;
 }
 
 static bool plan_equal_time(struct plan_options *o, char command[COMMAND], struct error *err)
 {
-    char how[64];
+    static const struct preset preset = {"equal-time", 32, 5, 0, 0};
     if (o->methods == NULL) /* of one's own scene one asks which of the two to use */
         o->methods = o->scenes.n > 0 ? METHODS_DEMO : METHODS_EQUAL_TIME;
-    preset(&o->plan.reference_spp, o->spp * o->plan.n_seeds);
     o->plan.equal = true;
-    snprintf(how, sizeof how, "equal-time --spp %d", o->spp);
-    if (o->plan.seconds > 0)
-        snprintf(how, sizeof how, "equal-time --seconds %g", o->plan.seconds);
-    return begin_plan(o, N_SCENES, how, command, err) && plan_set_spp(&o->plan, o->spp, o->spp, err);
+    return begin_plan(o, &preset, N_SCENES, command, err) && plan_set_spp(&o->plan, o->spp, o->spp, err);
 }
 
 static bool plan_family(struct plan_options *o, char command[COMMAND], struct error *err)
 {
-    char how[64], all[METHODS_TEXT];
+    static const struct preset presets[2] = {{"family", 64, 5, 160, 0}, {"family --quick", 16, 3, 0, 0}};
+    char all[METHODS_TEXT];
     struct plan *p = &o->plan;
-    p->n_own = o->scenes.n > 0 ? 0 : N_SCENES;
     p->equal = true;
-    for (int i = 0; i < p->n_own; i++)
-        texts_add(&o->scenes, SCENES[i]);
-    for (int i = 0; p->n_own > 0 && i < N_PUBLISHED; i++)
-        if (file_exists(PUBLISHED[i]))
-            texts_add(&o->scenes, PUBLISHED[i]);
     methods_all(all);
     strcat(all, METHODS_ALSO);
     o->methods = o->methods != NULL ? o->methods : all;
-    preset(&o->spp, o->quick ? 16 : 64);
-    preset(&p->n_seeds, o->quick ? 3 : 5);
-    preset(&o->res[0], o->quick ? 0 : 160);
-    preset(&p->reference_spp, o->spp * p->n_seeds);
-    snprintf(how, sizeof how, "family%s --spp %d", o->quick ? " --quick" : "", o->spp);
     unsigned halves = o->half[0] == 'c' ? 1 : o->half[0] == 's' ? 2 : 3;
-    bool ok = begin_plan(o, N_SCENES, how, command, err) && plan_set_spp(p, o->spp, o->spp, err) &&
+    bool ok = begin_plan(o, &presets[o->quick], N_SCENES, command, err) && plan_set_spp(p, o->spp, o->spp, err) &&
               methods_add_halves(o->methods, halves, &p->methods, err);
     p->n_compared = p->methods.n;
     return ok;

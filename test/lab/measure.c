@@ -299,7 +299,7 @@ bool measure(const struct plan *plan, struct results *out, struct error *err)
     for (int i = 0; ok && i < plan->n_scenes; i++) {
         out->scene[i].plan = plan;
         out->scene[i].path = plan->scene[i];
-        plan_name(plan, i, out->scene[i].name);
+        plan_scene_name(plan->scene[i], out->scene[i].name, PLAN_NAME);
         ok = measure_scene(&pace, &out->scene[i], err);
     }
     progress_end(&pace.bar);

@@ -23,7 +23,6 @@ struct sweep {
 struct plan {
     const char **scene; /* [n_scenes] paths, borrowed */
     int n_scenes;
-    int n_own; /* so many first ones have their own names, those after them NAME-published; 0: all */
     struct methods methods;
     int n_compared; /* of these; the others are in sweeps alone */
     struct sweep sweep[PLAN_MAX_SWEEPS];

@@ -84,20 +84,13 @@ bool plan_scene_load(const struct plan *p, const char *path, const char *name, s
     return true;
 }
 
-void plan_name(const struct plan *p, int i, char out[PLAN_NAME])
-{
-    plan_scene_name(p->scene[i], out, PLAN_NAME - 16);
-    if (p->n_own > 0 && i >= p->n_own)
-        strcat(out, "-published");
-}
-
 bool plan_names_differ(const struct plan *p, struct error *err)
 {
     char name[PLAN_NAME], other[PLAN_NAME];
     for (int i = 0; i < p->n_scenes; i++) {
-        plan_name(p, i, name);
+        plan_scene_name(p->scene[i], name, PLAN_NAME);
         for (int k = 0; k < i; k++) {
-            plan_name(p, k, other);
+            plan_scene_name(p->scene[k], other, PLAN_NAME);
             if (strcmp(name, other) == 0)
                 return error_set(err, "%s and %s have the same name, %s; experiment with them one at a time",
                                  p->scene[i], p->scene[k], name);

@@ -11,6 +11,7 @@
 
 /* plan_scene_name: the file's name without .pbrt; for .../NAME/scene.pbrt the directory's. At most size - 1
  * bytes. */
+enum { PLAN_NAME = 256 };
 void plan_scene_name(const char *path, char *out, int size);
 
 /* plan_scene_read: read a scene as experiments render it, whole and with a box filter, and prepare it.
@@ -31,10 +32,6 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
  * released. */
 bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,
                      struct reference *stored, struct error *err);
-
-/* plan_name: what the plan calls its scene i. */
-enum { PLAN_NAME = 256 };
-void plan_name(const struct plan *p, int i, char out[PLAN_NAME]);
 
 /* plan_names_differ: no two scenes of the plan have the same name, under which their results are kept. False with a
  * message. */
