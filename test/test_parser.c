@@ -1,4 +1,4 @@
-/* test_parser.c: scene files.
+/* test_parser.c: scene files: every directive and type is read, every error is found at its line and column.
  *
  * test/fixtures/scenes.txt holds scenes, each below a line "== NAME"; a "!" behind the name leaves out the scene's last
  * newline. Every scene says in its first line what must come of it: "# expect: ok", or LINE:COL and a part of the

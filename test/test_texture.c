@@ -1,4 +1,4 @@
-/* test_texture.c: values of textures.
+/* test_texture.c: values of textures against their formulas, and of images between and beyond their texels.
  *
  * Facts: every kind against its formula written out at a point; pictures at texel centres, half-way and beyond the
  * edges for each wrap mode, with and without gamma, as pbrt-v3 looks them up; sharing of pictures; patterns and

@@ -54,6 +54,7 @@ END {
     print "== kinds\n| structure | scenes | mean, rmse8 | worst | mean, 8x8 | worst |\n|---|---:|---:|---:|---:|---:|"
     for (j = 1; j <= kinds; j++) row(order[j])
     row("**all**")
+    print "\n![Squared error of asbdpt over the better of bdpt and pt, in each generated scene](structures.svg)"
     all = exp(logs["**all**", 1] / n["**all**", 1])
     printf "== all\n%.2f of the squared error of the better of `bdpt` and `pt` in the mean, %.2f at worst; ", all,
         most["**all**", 1]
