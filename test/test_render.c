@@ -1,5 +1,4 @@
-/* test_render.c: whole renders: radiance known on paper, agreement of the integrators, reproducibility, crop, filters.
- * */
+/* test_render.c: whole renders: radiance known on paper, tiles, blocks, stopping, crop. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -187,78 +186,6 @@ static const char WALL[] =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-9 -9 0  9 -9 0  9 9 0  -9 9 0]\n"
     "AreaLightSource \"diffuse\" Translate 1 2 2 Shape \"sphere\" WorldEnd\n";
 
-/* --- integrators agree ----------------------------------------------------------------------------------- */
-
-static void agree(struct test *t, const struct scene *scene, const char *name, const struct batches *bdpt,
-                  const char *other)
-{
-    double ratio;
-    struct batches x = render_batches(t, scene, other, 3, 16, 12, 8, 22);
-    double p = batches_p(&x, bdpt, &ratio);
-    TEST_ACCEPT(t, p, "%s: %s against bdpt, ratio of the means %.4f", name, other, ratio);
-    batches_scale(&x, 1.1);
-    TEST_REJECT(t, batches_p(&x, bdpt, &ratio), "%s: %s made 10 %% brighter against bdpt", name, other);
-    batches_free(&x);
-}
-
-/* Everything at once: glass, mirror, rough metal, a lens and five kinds of light. Caustics of delta lights through
- * glass are invisible to pt and, seen on diffuse surfaces, visible to bdpt: glass casts its shadow only on mirrors
- * here. */
-static const char EVERYTHING[] =
-    "LookAt 0 1.5 -4  0 1 0  0 1 0\n"
-    "Camera \"perspective\" \"float fov\" 50 \"float lensradius\" .05 \"float focaldistance\" 4\n"
-    "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24\n"
-    "WorldBegin\n"
-    "%s\n"
-    "Material \"matte\" \"rgb Kd\" [.7 .6 .5]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
-    "Material \"metal\" \"float roughness\" .3\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 2  2 0 2  2 3 2  -2 3 2]\n"
-    "Material \"plastic\" \"rgb Kd\" [.2 .4 .2] \"float roughness\" .2\n"
-    "TransformBegin Translate .8 .6 .5 Shape \"sphere\" \"float radius\" .6 TransformEnd\n"
-    "%s\n"
-    "WorldEnd\n";
-
-static const char AREA[] =
-    "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [6 6 6]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 3 -1  1 3 -1  1 3 1  -1 3 1]\n"
-    "AttributeEnd\n";
-static const char DELTAS[] =
-    "LightSource \"point\" \"rgb I\" [3 3 3] \"point from\" [-1 2.5 0]\n"
-    "LightSource \"spot\" \"rgb I\" [9 9 9] \"point from\" [1 2.5 -1] \"point to\" [0 0 0]\n"
-    "LightSource \"distant\" \"rgb L\" [1 1 1] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n";
-static const char SKY[] = "LightSource \"infinite\" \"rgb L\" [.4 .5 .6]\n";
-static const char SPECULAR[] =
-    "Material \"mirror\"\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  -2 0 2  -2 3 2  -2 3 -2]\n"
-    "Material \"glass\"\n"
-    "TransformBegin Translate -.7 .7 0 Shape \"sphere\" \"float radius\" .5 TransformEnd\n";
-
-static void test_agreement(struct test *t)
-{
-    static const struct {
-        const char *name, *light1, *light2, *light3, *objects;
-        bool light_tracing; /* all paths are within reach of lt */
-    } cases[] = {
-        {"area and sky, mirror and glass", AREA, SKY, "", SPECULAR, false},
-        {"all lights together", AREA, DELTAS, SKY, "", true},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        char lights[2048], text[8192];
-        snprintf(lights, sizeof lights, "%s%s%s", cases[i].light1, cases[i].light2, cases[i].light3);
-        snprintf(text, sizeof text, EVERYTHING, lights, cases[i].objects);
-        struct scene scene;
-        if (!scene_from_text(t, text, &scene))
-            return;
-        struct batches bdpt = render_batches(t, &scene, "bdpt", 3, 8, 12, 8, 21);
-        agree(t, &scene, cases[i].name, &bdpt, "pt");
-        if (cases[i].light_tracing)
-            agree(t, &scene, cases[i].name, &bdpt, "lt");
-        batches_free(&bdpt);
-        scene_free(&scene);
-    }
-}
-
 /* --- blocks ------------------------------------------------------------------------------------------ */
 
 /* The length of blocks says how often a render is at the end of one; it does not change the picture. */
@@ -368,10 +295,8 @@ static void test_roulette_defaults(struct test *t)
                  {"bdpt select=bins", " rrthreshold=0.5", " rrthreshold=0"},
                  {"asbdpt select=vertices", " rrthreshold=0.5", " rrthreshold=0"},
                  {"asbdpt select=bins", " rrthreshold=0", " rrthreshold=0.5"}};
-    char text[8192];
     struct scene scene;
-    snprintf(text, sizeof text, EVERYTHING, AREA, SPECULAR);
-    if (!scene_from_text(t, text, &scene))
+    if (!scene_from_file(t, "scenes/test/mirror-glass.pbrt", 24, 24, &scene))
         return;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const char *settings[3] = {"", cases[i].as, cases[i].other};
@@ -390,15 +315,13 @@ static void test_roulette_defaults(struct test *t)
     scene_free(&scene);
 }
 
-/* --- crop and filter --------------------------------------------------------------------------------- */
+/* --- crop -------------------------------------------------------------------------------------------- */
 
 /* Means of the lower right quarter, once cut out of the full frame, once rendered as a crop window. */
 static void test_crop(struct test *t)
 {
-    char text[8192];
     struct scene scene;
-    snprintf(text, sizeof text, EVERYTHING, AREA, "");
-    if (!scene_from_text(t, text, &scene))
+    if (!scene_from_file(t, "scenes/test/light-kinds.pbrt", 24, 24, &scene))
         return;
     static const char *const methods[] = {"bdpt", "lt"};
     for (int m = 0; m < 2; m++) {
@@ -419,37 +342,6 @@ static void test_crop(struct test *t)
     scene_free(&scene);
 }
 
-/* A flat field (the camera in a furnace of directly seen light is constant) must stay flat up to the frame's edge under
- * every filter, and a scene's mean must not depend on the filter; t = 1 alone, as lt, is the severe case. */
-static void test_filters(struct test *t)
-{
-    static const char flat[] =
-        "LookAt 0 0 3  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 30\n"
-        "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12 PixelFilter \"%s\"\n"
-        "WorldBegin LightSource \"infinite\" \"rgb L\" [1 1 1] Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n"
-        "Shape \"disk\" \"float radius\" 1.5 WorldEnd\n";
-    static const char *const names[] = {"box", "triangle", "gaussian", "mitchell", "sinc"};
-    for (int i = 0; i < 5; i++) {
-        char text[2048];
-        struct scene scene;
-        snprintf(text, sizeof text, flat, names[i]);
-        if (!scene_from_text(t, text, &scene))
-            return;
-        /* A disk of albedo 1/2 under a sky of 1 has radiance 1/2, in every pixel: tiles of one pixel show edges. */
-        struct batches b = render_batches(t, &scene, "lt", 1, 64, 16, 3, 41);
-        struct batches expected = batches_new(1, b.n, true);
-        for (long k = 0; k < b.n; k++)
-            expected.value[k] = 0.5;
-        double ratio, p = batches_p(&b, &expected, &ratio);
-        TEST_ACCEPT(t, p, "flat field by light tracing under the %s filter: ratio %.4f", names[i], ratio);
-        batches_scale(&expected, 1.25);
-        TEST_REJECT(t, batches_p(&b, &expected, &ratio), "the same 20 %% too dark, %s filter", names[i]);
-        batches_free(&b);
-        batches_free(&expected);
-        scene_free(&scene);
-    }
-}
-
 void test_render(struct test *t)
 {
     all_see(t, EMPTY, rgb_make(.25, .5, .75));
@@ -458,11 +350,9 @@ void test_render(struct test *t)
     test_tiles(t);
     test_order(t);
     test_pattern(t);
-    test_agreement(t);
     test_blocks(t);
     test_stop(t);
     test_stop_late(t);
     test_roulette_defaults(t);
     test_crop(t);
-    test_filters(t);
 }

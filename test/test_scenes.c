@@ -348,8 +348,6 @@ static void test_four(struct test *t, const char *name, int spp, double planted)
 static void test_noisy(struct test *t, int spp, int many, size_t step, double planted)
 {
     test_light_pairs(t, spp, step);
-    test_mirrored(t, 2 * spp);
-    test_agreement(t, spp);
     test_four(t, "pass-through", many, 0.05); /* see-through lamps, one of them around a ball */
     test_four(t, "light-slides", many, planted);
 }
@@ -366,9 +364,11 @@ void test_scenes(struct test *t)
     test_noisy(t, 4, 16, 2, 0.1);
 }
 
-/* Other cameras, too, which test_strategies.c has for the quick suite. */
+/* Other cameras, too, which test_strategies.c has for the quick suite, and surfaces that test_random.c has. */
 void test_scenes_long(struct test *t)
 {
+    test_mirrored(t, 400);
+    test_agreement(t, 200);
     test_noisy(t, 200, 400, 1, 0.05);
     test_four(t, "orthographic", 400, 0.05);
     test_four(t, "environment", 400, 0.05);
