@@ -571,7 +571,8 @@ expect 1 '' "$lab" verify --images "$scenes/../ref/bathroom.pfm" "$scenes/../ref
     "$scenes/../ref/bathroom.pfm" "$scenes/../ref/bathroom.pfm"
 check grep -q '^verdict: DIFFER' stdout.txt
 # NaN is a difference, also from itself; test_verify.c has where it may be.
-expect 1 '' "$lab" verify --images nan.pfm "$scenes/../ref/bathroom.error.pfm" nan.pfm "$scenes/../ref/bathroom.error.pfm"
+expect 1 '' "$lab" verify --images nan.pfm "$scenes/../ref/bathroom.error.pfm" \
+    nan.pfm "$scenes/../ref/bathroom.error.pfm"
 check grep -q '^verdict: DIFFER' stdout.txt
 expect 1 'nan.pfm: NaN or infinite values: 2592$' "$lab" compare nan.pfm nan.pfm --max-rmse 1
 expect 0 '' "$lab" compare nan.pfm nan.pfm --json
