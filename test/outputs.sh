@@ -78,12 +78,6 @@ fi
 if [ -e /dev/fd/1 ]; then
     render -o x.png --stats /dev/fd/1 | grep -q '"spp_done": 1' || fault "statistics through /dev/fd"
 fi
-# A terminal is shown no picture.
-if command -v python3 >/dev/null; then
-    expect 1 'a picture is nothing for a terminal' python3 -c 'import os, pty, subprocess, sys
-words = [os.environ["ASBDPT"], "render", "scene.pbrt", "--res", "8x8", "-o", "-"]
-sys.exit(subprocess.run(words, stdout=pty.openpty()[1]).returncode)'
-fi
 
 # ---- directories ----
 # What comes into one is said, all of it is written in spite of one failure, with the reason; and where nothing comes

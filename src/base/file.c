@@ -96,27 +96,8 @@ static void release(struct file_output *out, bool remove_it)
     if (out->temporary != NULL)
         temporary_forget(out->temporary);
     free(out->path);
-    free(out->target);
     free(out->temporary);
     *out = (struct file_output){.stream = NULL};
-}
-
-/* Where a path leads if symbolic links are followed, whether or not there is a file; to be given to free(). Links to
- * devices and pipes stay: those of /dev/fd name nothing. NULL, and errno, if links go in a circle. */
-static char *follow(const char *path)
-{
-    enum { MOST_LINKS = 40, LONGEST = 4096 };
-    char link[LONGEST], *at = mem_copy_text(path);
-    for (int i = 0; i < MOST_LINKS; i++) {
-        if (os_kind_of(at) == OS_OTHER || !os_read_link(at, link, sizeof link))
-            return at; /* no link, and what else may be wrong is found on opening it */
-        char *next = file_beside(at, link);
-        free(at);
-        at = next;
-    }
-    free(at);
-    errno = ELOOP;
-    return NULL;
 }
 
 /* A new file beside the target that nobody else has, with the rights of the one it is to replace. */
@@ -126,9 +107,9 @@ static FILE *open_temporary(struct file_output *out)
     uint64_t hash = hash_combine(os_unique(), (uint64_t)(uintptr_t)out->path);
     snprintf(name, sizeof name, ".asbdpt-%08lx%08lx.tmp", (unsigned long)(hash >> 32),
              (unsigned long)(hash & 0xffffffffu));
-    out->temporary = file_beside(out->target, name);
+    out->temporary = file_beside(out->path, name);
     temporary_add(out->temporary); /* before it is there: memory may run out */
-    return os_create_new(out->temporary, out->target);
+    return os_create_new(out->temporary, out->path);
 }
 
 /* Devices, pipes and standard output are written directly; a file that must not be written is not replaced either. */
@@ -138,16 +119,13 @@ static FILE *open_target(struct file_output *out)
         os_binary(stdout);
         return stdout;
     }
-    out->target = follow(out->path);
-    if (out->target == NULL)
-        return NULL;
     errno = 0;
-    enum os_kind kind = os_kind_of(out->target);
+    enum os_kind kind = os_kind_of(out->path);
     if (kind == OS_NOTHING && errno != ENOENT && errno != 0) /* too long a name, for example */
         return NULL;
     if (kind == OS_DIRECTORY || kind == OS_OTHER)
-        return fopen(out->target, "wb");
-    if (kind == OS_FILE && !os_may_write(out->target))
+        return fopen(out->path, "wb");
+    if (kind == OS_FILE && !os_may_write(out->path))
         return NULL;
     return open_temporary(out);
 }
@@ -179,7 +157,7 @@ bool file_commit(struct file_output *out, struct error *err)
     if (out->stream != stdout)
         ok = fclose(out->stream) == 0 && ok;
     if (ok && out->temporary != NULL)
-        ok = os_rename(out->temporary, out->target);
+        ok = os_rename(out->temporary, out->path);
     reason = reason != 0 ? reason : errno;
     if (!ok)
         error_set(err, "%s: cannot be written: %s", out->path, reason != 0 ? strerror(reason) : "write error");

@@ -2,8 +2,8 @@
  *
  * Reading takes a file into memory at once, so that a format's parser knows the file's length before it believes
  * any size written in it. Writing goes to a temporary file beside the target that takes the target's name only when
- * every byte is on the disk: a full disk or an interrupted run leaves the old file, never half a new one. A target that
- * is a symbolic link stays one: the file it leads to is replaced. The name - is standard input or output.
+ * every byte is on the disk: a full disk or an interrupted run leaves the old file, never half a new one. A symbolic
+ * link to a file is replaced, not followed. The name - is standard input or output.
  * Tests: test_file.c. */
 #ifndef ASBDPT_FILE_H
 #define ASBDPT_FILE_H
@@ -35,7 +35,6 @@ char *file_beside(const char *path, const char *name);
 struct file_output {
     FILE *stream;    /* where to write, binary; write errors stick to it and are found by file_commit */
     char *path;      /* as it was given; owned */
-    char *target;    /* where it leads, links followed; owned, NULL: standard output */
     char *temporary; /* what is really written, or NULL where the target is a device, a pipe or -; owned */
 };
 

@@ -269,12 +269,6 @@ void os_open_standard(void) {} /* its C library opens nothing in their place */
 void os_binary(FILE *f) { _setmode(fileno(f), _O_BINARY); }
 FILE *os_open_input(const char *path) { return fopen(path, "rb"); }
 
-bool os_read_link(const char *path, char *out, size_t size)
-{
-    (void)path, (void)out, (void)size;
-    return false;
-}
-
 bool os_rename(const char *from, const char *to)
 {
     errno = EACCES;
@@ -306,13 +300,6 @@ FILE *os_open_input(const char *path)
         close(fd);
     errno = reason;
     return f;
-}
-
-bool os_read_link(const char *path, char *out, size_t size)
-{
-    ssize_t n = readlink(path, out, size - 1);
-    out[n < 0 ? 0 : n] = '\0';
-    return n >= 0;
 }
 
 bool os_rename(const char *from, const char *to) { return rename(from, to) == 0; }

@@ -28,23 +28,6 @@ static const struct option OPTIONS[] = {
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not say what was written"}, {.name = NULL}};
 
-/* Of a part of a whole only some formats say where it lies. */
-static void warn_of_place(const struct convert_options *o, const struct placement *at, int width, int height)
-{
-    bool part = at->width > 0 && (at->x != 0 || at->y != 0 || at->width != width || at->height != height);
-    for (int i = 0; part && i < o->out.n; i++)
-        if (!image_keeps_place(o->out.item[i]))
-            fprintf(stderr, "asbdpt: warning: %s lies at %d,%d of a picture of %dx%d, as %s does not say\n",
-                    o->in.item[0], at->x, at->y, at->width, at->height, o->out.item[i]);
-}
-
-static void warn_of_channels(const char *path, const struct image *about)
-{
-    if (about->dropped > 0)
-        fprintf(stderr, "asbdpt: warning: %s: %d channel%s beside its colours, alpha or layers, %s not kept\n", path,
-                about->dropped, about->dropped > 1 ? "s" : "", about->dropped > 1 ? "are" : "is");
-}
-
 /* A weight of the list at *text, which moves behind it. */
 static bool next_weight(const char **text, bool last, double *out)
 {
@@ -64,7 +47,6 @@ static bool add_picture(const char *path, double weight, double **sum, int *widt
     float *pixels = image_read_linear(path, &w, &h, &this, err);
     if (pixels == NULL)
         return false;
-    warn_of_channels(path, &this);
     *about = *sum == NULL ? this : *about;
     size_t n = 3 * (size_t)w * (size_t)h;
     bool fits = *sum == NULL || (w == *width && h == *height);
@@ -88,9 +70,8 @@ static float *add_up(const struct convert_options *o, int *width, int *height, s
     bool ok = true;
     for (int i = 0; ok && i < o->in.n; i++)
         ok = (text == NULL || next_weight(&text, i + 1 == o->in.n, &weight) ||
-              error_usage(err, "--weights %s: expected %d number%s from -%g to %g%s", o->weights, o->in.n,
-                          o->in.n == 1 ? "" : "s", NUMBER_MAX, NUMBER_MAX,
-                          o->in.n == 1 ? "" : ", with commas between them")) &&
+              error_usage(err, "--weights %s: expected a number for each image (%d), with commas between them",
+                          o->weights, o->in.n)) &&
              add_picture(o->in.item[i], weight, &sum, width, height, about, err);
     size_t n = ok ? 3 * (size_t)*width * (size_t)*height : 0;
     float *out = ok ? mem_alloc(n, sizeof *out) : NULL;
@@ -114,10 +95,7 @@ static int run(void *options)
                         : add_up(o, &width, &height, &about, &err);
     bool ok = pixels != NULL;
     if (ok) {
-        if (one)
-            warn_of_channels(o->in.item[0], &about);
         out.place = about.place;
-        warn_of_place(o, &about.place, width, height);
         ok = outputs_write(&out, width, height, pixels, o->quiet, &err);
     }
     outputs_abandon(&out); /* unless they are written */

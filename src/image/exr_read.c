@@ -70,9 +70,10 @@ static bool read_channels(struct exr *e, size_t end)
 
 static bool read_compression(struct exr *e, unsigned number)
 {
-    e->compression = number < EXR_READ ? (enum exr_compression)number : EXR_READ;
-    return number < EXR_READ || error_set(e->err, "OpenEXR compression %u (PXR24, B44, DWA or the like) is not read; "
-                                                  "save it with ZIP or PIZ", number);
+    bool known = number < EXR_READ && number != EXR_RLE;
+    e->compression = known ? (enum exr_compression)number : EXR_READ;
+    return known || error_set(e->err, "OpenEXR compression %u (RLE, PXR24, B44, DWA or the like) is not read; save it "
+                                      "with ZIP or PIZ", number);
 }
 
 /* The value of an attribute, n bytes at e->at. */
@@ -148,39 +149,13 @@ static void undo_differences(uint8_t *in, size_t n, uint8_t *out)
         out[i] = in[i / 2 + (i % 2 != 0 ? (n + 1) / 2 : 0)];
 }
 
-/* Runs: a count 0..127 and a byte that occurs once more than that, or 256 minus a count of bytes that follow. */
-static bool undo_runs(const uint8_t *in, size_t n, uint8_t *out, size_t size)
-{
-    size_t at = 0, done = 0;
-    while (at < n) {
-        unsigned head = in[at++];
-        bool same = head < 128;
-        size_t count = same ? head + 1 : 256 - head, stored = same ? 1 : count;
-        if (stored > n - at || count > size - done)
-            return false;
-        if (same)
-            memset(out + done, in[at], count);
-        else
-            memcpy(out + done, in + at, count);
-        at += stored;
-        done += count;
-    }
-    return done == size;
-}
-
 /* The [size] bytes of a compressed block of [n], to out; scratch is as large. False on damage. */
 static bool unpack(const struct exr *e, const uint8_t *in, size_t n, size_t width, size_t height, uint8_t *scratch,
                    uint8_t *out, size_t size)
 {
-    bool ok = false;
-    switch (e->compression) {
-    case EXR_RLE: ok = undo_runs(in, n, scratch, size); break;
-    case EXR_ZIPS:
-    case EXR_ZIP: ok = inflate_zlib(in, n, scratch, size, NULL); break;
-    case EXR_PIZ: return piz_unpack(e, in, n, width, height, out, size);
-    case EXR_NONE:
-    case EXR_READ: break;
-    }
+    if (e->compression == EXR_PIZ)
+        return piz_unpack(e, in, n, width, height, out, size);
+    bool ok = inflate_zlib(in, n, scratch, size, NULL);
     if (ok)
         undo_differences(scratch, size, out);
     return ok;
@@ -278,9 +253,6 @@ static bool read_blocks(const struct exr *e, size_t n_blocks, const struct exr_c
         return false;
     uint8_t *bytes = mem_alloc(pixels, e->pixel_bytes), *scratch = mem_alloc(pixels, e->pixel_bytes);
     picture_alloc_f32(out, e->width, e->height, grey ? 1 : 3);
-    out->dropped = (int)e->n_channels;
-    for (int c = 0; c < COLOURS; c++)
-        out->dropped -= colour[c] != NULL && (c == GREY) == grey;
     for (size_t i = 0; ok && i < n_blocks; i++) {
         struct block b = block_at(e, i);
         ok = read_block(e, i, &b, scratch, bytes) ||

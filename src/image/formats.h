@@ -30,7 +30,7 @@ bool ppm_matches(const uint8_t *data, size_t size);
 bool ppm_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 void ppm_write(FILE *f, const struct raster *r);
 
-/* PNG files [PNG]. Read: every colour type and depth, interlaced or not. Alpha, transparency and colour profiles are
+/* PNG files [PNG]. Read: every colour type and depth, not interlaced. Alpha, transparency and colour profiles are
  * not used; checksums are checked. Written: 8 bits, sRGB encoded; with alpha, if there is, by which colours are
  * divided. */
 bool png_matches(const uint8_t *data, size_t size);
@@ -43,7 +43,7 @@ void png_write(FILE *f, const struct raster *r);
 bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 
 /* OpenEXR files [OpenEXR]. Read: one part, rows or tiles (of tiled files with several levels the first), channels of
- * halfs, floats and integers, uncompressed or by RLE, ZIPS, ZIP or PIZ; as pbrt-v3 does, the data window as the
+ * halfs, floats and integers, uncompressed or by ZIPS, ZIP or PIZ; as pbrt-v3 does, the data window as the
  * picture, of the channels R, G, B (one that is missing is 0), or Y alone as grey. Other compressions, several parts,
  * deep pictures and subsampled channels are refused.
  * Written: R, G, B and all other channels as halfs, where what is finite and beyond 65504 becomes that, or as floats,

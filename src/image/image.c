@@ -7,7 +7,6 @@
 
 #include "base/bits.h"
 #include "base/mem.h"
-#include "base/os.h"
 #include "image/exr.h"
 #include "image/formats.h"
 
@@ -97,12 +96,7 @@ bool image_create(const char *path, struct file_output *out, struct error *err)
 {
     if (!image_writable(path))
         return error_set(err, "%s: pictures are written as " IMAGE_WRITTEN "; end the name in one of these", path);
-    if (!file_create(path, out, err))
-        return false;
-    if (!os_terminal(out->stream))
-        return true;
-    file_abandon(out);
-    return error_set(err, "%s: a picture is nothing for a terminal; send it into a file or another program", path);
+    return file_create(path, out, err);
 }
 
 /* Halfs end at HALF_MAX. */

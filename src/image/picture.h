@@ -40,7 +40,6 @@ const struct channel *raster_alpha(const struct raster *r);
 struct image {
     int width, height;
     int channels;      /* 1 grey or 3 RGB */
-    int dropped;       /* channels that the file has beside these: alpha, layers */
     uint8_t *u8;       /* [height*width*channels], as stored in the file (usually sRGB encoded); owned */
     float *f32;        /* [height*width*channels]; light as stored; 16-bit files as value/65535; owned */
     bool linear;       /* true for PFM, OpenEXR, Radiance: values are linear light already */

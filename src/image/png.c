@@ -49,14 +49,6 @@ static inline uint8_t predict(enum row_filter f, const uint8_t *row, const uint8
 
 /* --- reading ----------------------------------------------------------------------------------------- */
 
-/* A picture, or one of the seven reduced pictures of an interlaced one: the pixels x0 + i dx, y0 + j dy [PNG 8.2]. */
-struct adam7_pass {
-    size_t x0, y0, dx, dy;
-};
-static const struct adam7_pass WHOLE[1] = {{0, 0, 1, 1}};
-static const struct adam7_pass ADAM7[7] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
-                                           {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
-
 struct png {
     const uint8_t *data;
     size_t size, at;
@@ -64,8 +56,6 @@ struct png {
     unsigned depth; /* bits of a sample */
     enum colour colour;
     unsigned samples; /* of a pixel as stored */
-    const struct adam7_pass *pass; /* [passes] */
-    int passes;
     const uint8_t *palette; /* [n_palette][3], or NULL */
     size_t n_palette;
     uint8_t *packed; /* [n_packed] the zlib stream; owned */
@@ -120,9 +110,9 @@ static bool read_header(struct png *p)
     p->samples = samples_of(c.data[9], p->depth);
     if (p->samples == 0 || c.data[10] != 0 || c.data[11] != 0 || c.data[12] > 1)
         return error_set(p->err, "unknown kind of PNG file (colour type %u, %u bits)", (unsigned)c.data[9], p->depth);
+    if (c.data[12] == 1)
+        return error_set(p->err, "interlaced PNG files are not read; save it without interlacing");
     p->colour = (enum colour)c.data[9];
-    p->pass = c.data[12] == 1 ? ADAM7 : WHOLE;
-    p->passes = c.data[12] == 1 ? 7 : 1;
     return picture_size_ok(p->width, p->height, p->err);
 }
 
@@ -148,19 +138,10 @@ static bool read_chunks(struct png *p)
     return false;
 }
 
-/* How many of n pixels a pass has that begins at `start` and takes every `step`-th. */
-static size_t pass_pixels(size_t n, size_t start, size_t step) { return n > start ? (n - start - 1) / step + 1 : 0; }
-
-/* Bytes of a row of a pass, without the filter's number. */
-static size_t row_bytes(const struct png *p, size_t width)
+/* Bytes of a row without the filter's number. */
+static size_t row_bytes(const struct png *p)
 {
-    return (size_t)(((uint64_t)width * p->samples * p->depth + 7) / 8);
-}
-
-static size_t pass_bytes(const struct png *p, const struct adam7_pass *s)
-{
-    size_t width = pass_pixels(p->width, s->x0, s->dx);
-    return width > 0 ? pass_pixels(p->height, s->y0, s->dy) * (1 + row_bytes(p, width)) : 0;
+    return (size_t)(((uint64_t)p->width * p->samples * p->depth + 7) / 8);
 }
 
 /* Sample number `i` of a row. */
@@ -195,14 +176,17 @@ static bool put_pixel(const struct png *p, const uint8_t *row, size_t i, struct 
     return true;
 }
 
-/* Undo the filters of a pass and put its pixels in place. `above`: a row of zeros. */
-static bool read_pass(const struct png *p, const struct adam7_pass *s, const uint8_t *above, uint8_t *bytes,
-                      struct image *out)
+/* Undo the filters and put all unpacked pixels in place. `above`: a row of zeros. */
+static bool place_pixels(const struct png *p, const uint8_t *above, uint8_t *bytes, struct image *out)
 {
-    size_t width = pass_pixels(p->width, s->x0, s->dx), height = pass_pixels(p->height, s->y0, s->dy);
-    size_t n = row_bytes(p, width);
-    size_t step = p->samples * p->depth < 8 ? 1 : p->samples * p->depth / 8;
-    for (size_t y = 0; y < height; y++) {
+    int channels = p->colour == GREY || p->colour == GREY_ALPHA ? 1 : 3;
+    size_t n = row_bytes(p), step = p->samples * p->depth < 8 ? 1 : p->samples * p->depth / 8;
+    if (p->depth == 16)
+        picture_alloc_f32(out, p->width, p->height, channels);
+    else
+        picture_alloc_u8(out, p->width, p->height, channels);
+    out->linear = false;
+    for (size_t y = 0; y < p->height; y++) {
         uint8_t *row = bytes + y * (n + 1);
         if (row[0] >= FILTERS)
             return damaged(p);
@@ -210,46 +194,27 @@ static bool read_pass(const struct png *p, const struct adam7_pass *s, const uin
         for (size_t i = 0; i < n; i++)
             row[i] = (uint8_t)(row[i] + predict(f, row, above, i, step));
         above = row;
-        for (size_t x = 0; x < width; x++)
-            if (!put_pixel(p, row, x, out, (s->y0 + y * s->dy) * p->width + s->x0 + x * s->dx))
+        for (size_t x = 0; x < p->width; x++)
+            if (!put_pixel(p, row, x, out, y * p->width + x))
                 return false;
-    }
-    return true;
-}
-
-/* Put all unpacked pixels in place. */
-static bool place_pixels(const struct png *p, const uint8_t *zeros, uint8_t *bytes, struct image *out)
-{
-    int channels = p->colour == GREY || p->colour == GREY_ALPHA ? 1 : 3;
-    if (p->depth == 16)
-        picture_alloc_f32(out, p->width, p->height, channels);
-    else
-        picture_alloc_u8(out, p->width, p->height, channels);
-    out->linear = false;
-    out->dropped = p->colour == GREY_ALPHA || p->colour == RGB_ALPHA;
-    for (int i = 0; i < p->passes; i++) {
-        size_t n = pass_bytes(p, &p->pass[i]);
-        if (n > 0 && !read_pass(p, &p->pass[i], zeros, bytes, out)) {
-            image_free(out);
-            return false;
-        }
-        bytes += n;
     }
     return true;
 }
 
 static bool read_pixels(const struct png *p, struct image *out)
 {
-    size_t total = 0;
-    for (int i = 0; i < p->passes; i++)
-        total += pass_bytes(p, &p->pass[i]);
+    size_t total = p->height * (1 + row_bytes(p));
     if (total / INFLATE_MAX_RATIO > p->n_packed)
         return picture_truncated(p->width, p->height, p->err);
     uint64_t samples = (uint64_t)p->width * p->height * 3;
     if (!picture_memory_ok(total + samples * (p->depth == 16 ? sizeof *out->f32 : 1), p->size, p->err))
         return false;
-    uint8_t *bytes = mem_alloc(total, 1), *zeros = mem_alloc(row_bytes(p, p->width), 1);
-    bool ok = inflate_zlib(p->packed, p->n_packed, bytes, total, p->err) && place_pixels(p, zeros, bytes, out);
+    uint8_t *bytes = mem_alloc(total, 1), *zeros = mem_alloc(row_bytes(p), 1);
+    bool ok = inflate_zlib(p->packed, p->n_packed, bytes, total, p->err);
+    if (ok && !place_pixels(p, zeros, bytes, out)) {
+        image_free(out);
+        ok = false;
+    }
     free(zeros);
     free(bytes);
     return ok;

@@ -113,7 +113,6 @@ bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error 
     if (!picture_memory_ok((uint64_t)t.width * t.height * 3, size, err))
         return false;
     picture_alloc_u8(out, t.width, t.height, t.kind == TGA_GREY ? 1 : 3);
-    out->dropped = t.depth == 4 || (t.kind == TGA_MAPPED && t.map_depth == 4);
     if (read_pixels(&t, out))
         return true;
     image_free(out);

@@ -167,8 +167,7 @@ static bool integrator(struct parser *p)
                  item->position.column);
         if (item->n > 0 && !item->is_text)
             snprintf(number, sizeof number, "%.15g", item->number[0]); /* what was written, if it had no more digits */
-        settings_declare(&s->settings, item->name, item->is_text ? item->text[0] : number, origin,
-                         params_type_name(item->type), item->n);
+        settings_set(&s->settings, item->name, item->n > 0 && item->is_text ? item->text[0] : number, origin);
     }
     return true;
 }

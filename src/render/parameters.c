@@ -30,15 +30,13 @@ static const struct field COMMON[] = {
 
 const struct field *parameters_common(void) { return COMMON; }
 
-/* The first of these methods that has such a parameter, or NULL; *out, unless NULL, is the parameter. */
-static const struct method *owner(const struct method *const *m, const char *name, const struct field **out)
+/* The first of these methods that has such a parameter, or NULL. */
+static const struct method *owner(const struct method *const *m, const char *name)
 {
-    const struct field *found = field_find(COMMON, name);
-    for (; found == NULL && *m != NULL; m += found == NULL)
-        found = method_has(*m, name);
-    if (out != NULL)
-        *out = found;
-    return found != NULL ? *m : NULL;
+    bool common = field_find(COMMON, name) != NULL;
+    while (*m != NULL && !common && method_has(*m, name) == NULL)
+        m++;
+    return *m;
 }
 
 /* --- adapting ---------------------------------------------------------------------------------------- */
@@ -51,7 +49,7 @@ static void warn(const struct message_sink *sink, const struct setting *item, co
         sink->warn(sink->context, line.text);
 }
 
-/* Say so, and let another value count. */
+/* Say that another value counts, and let it. */
 static void replace(struct settings *s, const struct setting *item, const char *value, const struct message_sink *sink,
                     const char *text)
 {
@@ -62,30 +60,18 @@ static void replace(struct settings *s, const struct setting *item, const char *
     free(origin);
 }
 
-/* Lights picked uniformly give the same picture with more noise, so "uniform" becomes "power"; of what it does not know
- * pbrt-v3 makes "spatial". */
-static void adapt_strategy(struct settings *s, const struct setting *item, const struct message_sink *sink)
+/* Lights chosen uniformly give the same image with more noise, so "uniform" becomes "power". pbrt-v3 has no longest
+ * path. */
+static void adapt(struct settings *s, const struct setting *item, const struct message_sink *sink)
 {
-    int which;
-    bool known = settings_choice(s, item->name, 0, STRATEGIES, &which, NULL);
-    if (known && which == 2)
+    char text[96], most[32];
+    if (strcmp(item->name, "lightsamplestrategy") == 0 && strcmp(item->value, "uniform") == 0)
         replace(s, item, "power", sink, "is \"power\" instead of \"uniform\", which only has more noise");
-    else if (!known && setting_is_of_file(item))
-        replace(s, item, "spatial", sink, "is \"spatial\": its value is unknown");
-}
-
-/* pbrt-v3 cuts what is no integer, and has no longest path; what no parameter's range reaches stays as it is. */
-static void adapt_integer(struct settings *s, const struct setting *item, const struct message_sink *sink)
-{
-    char text[96], value[32];
-    double number = strtod(item->value, NULL), used = trunc(number);
-    if (strcmp(item->name, "maxdepth") == 0)
-        used = fmin(used, PATH_MAX_DEPTH);
-    if (!setting_is_of_file(item) || used == number || !(fabs(used) <= 1e15))
+    if (strcmp(item->name, "maxdepth") != 0 || !setting_is_of_file(item) || !(strtod(item->value, NULL) > PATH_MAX_DEPTH))
         return;
-    snprintf(text, sizeof text, "is %.12g, which counts as %.12g", number, used);
-    snprintf(value, sizeof value, "%.0f", used + 0.0);
-    replace(s, item, value, sink, text);
+    snprintf(most, sizeof most, "%d", PATH_MAX_DEPTH);
+    snprintf(text, sizeof text, "is %.20s, which counts as %s", item->value, most);
+    replace(s, item, most, sink, text);
 }
 
 /* Is it one of the integrator that the file names? There it is right: --integrator may have replaced that, or -P its
@@ -98,26 +84,16 @@ static bool belongs_to_file(const struct scene *scene, const struct setting *ite
     return false;
 }
 
-/* Of a parameter in a file that nobody reads, or, as of all parameters there, with the wrong type or number of values,
- * the default counts. True, with a warning, if it is to be taken out. */
+/* Is it a parameter in a file that none of the readers has? Then a warning says so. */
 static bool passed_over(const struct scene *scene, const struct setting *item, const struct method *const *readers,
                         const struct message_sink *sink)
 {
-    const struct field *found;
-    const struct method *has = owner(method_rows, item->name, &found);
-    char text[128];
-    if (!setting_is_of_file(item))
+    const struct method *has = owner(method_rows, item->name);
+    char text[128] = "is not used: no integrator here has such a parameter";
+    if (!setting_is_of_file(item) || owner(readers, item->name) != NULL || belongs_to_file(scene, item))
         return false;
-    if (has == NULL)
-        snprintf(text, sizeof text, "is not used: no integrator here has such a parameter");
-    else if (item->type != NULL && strcmp(item->type, field_type(found)) != 0)
-        snprintf(text, sizeof text, "cannot be of type \"%s\", so it is not used", item->type);
-    else if (item->type != NULL && item->n_values != 1)
-        snprintf(text, sizeof text, "wants 1 value, not %d; it is passed over", item->n_values);
-    else if (owner(readers, item->name, NULL) == NULL && !belongs_to_file(scene, item))
+    if (has != NULL)
         snprintf(text, sizeof text, "is not used: it is a parameter of %s", has->name);
-    else
-        return false;
     warn(sink, item, text);
     return true;
 }
@@ -125,19 +101,11 @@ static bool passed_over(const struct scene *scene, const struct setting *item, c
 void parameters_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink)
 {
     struct settings *all = &scene->settings;
-    for (int i = 0; i < all->n;) {
-        const struct field *found;
-        if (passed_over(scene, &all->item[i], readers, sink)) {
+    for (int i = 0; i < all->n;)
+        if (passed_over(scene, &all->item[i], readers, sink))
             settings_remove(all, i);
-            continue;
-        }
-        owner(method_rows, all->item[i].name, &found);
-        if (found != NULL && found->kind == FIELD_INTEGER)
-            adapt_integer(all, &all->item[i], sink);
-        if (strcmp(all->item[i].name, "lightsamplestrategy") == 0)
-            adapt_strategy(all, &all->item[i], sink);
-        i++;
-    }
+        else
+            adapt(all, &all->item[i++], sink);
 }
 
 /* --- reading ----------------------------------------------------------------------------------------- */
@@ -162,9 +130,9 @@ bool parameters_belong(const struct scene *scene, const struct method *const *re
 {
     for (int i = 0; i < scene->settings.n; i++) {
         const struct setting *item = &scene->settings.item[i];
-        const struct method *has = owner(method_rows, item->name, NULL);
+        const struct method *has = owner(method_rows, item->name);
         char whose[64], here[64];
-        if (setting_is_of_file(item) || owner(readers, item->name, NULL) != NULL)
+        if (setting_is_of_file(item) || owner(readers, item->name) != NULL)
             continue;
         if (has == NULL)
             return error_usage(err, "%s: no integrator has a parameter \"%s\"; asbdpt help integrators lists them",

@@ -29,44 +29,17 @@ void settings_remove(struct settings *s, int i)
     memmove(&s->item[i], &s->item[i + 1], (size_t)(--s->n - i) * sizeof *s->item);
 }
 
-/* One more, with its texts copied. */
-static struct setting *append(struct settings *s, const char *name, const char *value, const char *origin)
-{
-    s->item = mem_append(s->item, (size_t)s->n, sizeof *s->item);
-    struct setting *item = &s->item[s->n++];
-    memset(item, 0, sizeof *item);
-    item->name = mem_copy_text(name);
-    item->value = mem_copy_text(value);
-    item->origin = mem_copy_text(origin);
-    return item;
-}
-
 void settings_set(struct settings *s, const char *name, const char *value, const char *origin)
 {
+    const struct setting new = {mem_copy_text(name), mem_copy_text(value), mem_copy_text(origin)};
     struct setting *item = find(s, name);
-    if (item == NULL) {
-        append(s, name, value, origin);
-        return;
+    if (item != NULL) {
+        free_setting(item);
+    } else {
+        s->item = mem_append(s->item, (size_t)s->n, sizeof *s->item);
+        item = &s->item[s->n++];
     }
-    free(item->value);
-    free(item->origin);
-    item->value = mem_copy_text(value);
-    item->origin = mem_copy_text(origin);
-    item->type = NULL;
-    for (int i = s->n - 1; &s->item[i] > item; i--)
-        if (strcmp(s->item[i].name, name) == 0)
-            settings_remove(s, i);
-}
-
-void settings_declare(struct settings *s, const char *name, const char *value, const char *origin, const char *type,
-                      int n_values)
-{
-    for (int i = s->n - 1; i >= 0; i--)
-        if (strcmp(s->item[i].name, name) == 0 && s->item[i].type != NULL && strcmp(s->item[i].type, type) == 0)
-            settings_remove(s, i);
-    struct setting *item = append(s, name, value, origin);
-    item->type = type;
-    item->n_values = n_values;
+    *item = new;
 }
 
 void settings_clear(struct settings *s)

@@ -17,8 +17,6 @@
 struct setting {
     char *name, *value; /* owned */
     char *origin;       /* "FILE:LINE:COL" or "-P", for messages; owned */
-    const char *type;   /* that a scene file declares, like "integer"; NULL: none does */
-    int n_values;       /* of such a declaration */
 };
 
 /* setting_is_of_file: or of -P? */
@@ -29,17 +27,11 @@ struct settings {
     int n;
 };
 
-/* settings_set: add, or replace all of that name; the texts are copied. settings_remove: forget number i.
+/* settings_set: add, or replace the one of that name; the texts are copied. settings_remove: forget number i.
  * settings_clear: forget and free everything. */
 void settings_set(struct settings *s, const char *name, const char *value, const char *origin);
 void settings_remove(struct settings *s, int i);
 void settings_clear(struct settings *s);
-
-/* settings_declare: add what a scene file declares, beside declarations of another type.
- *   type      borrowed: a constant
- *   n_values  how many values it has, of which `value` is the first */
-void settings_declare(struct settings *s, const char *name, const char *value, const char *origin, const char *type,
-                      int n_values);
 
 /* settings_text: the value, or `fallback` when the name is not set. */
 const char *settings_text(const struct settings *s, const char *name, const char *fallback);

@@ -163,8 +163,6 @@ static bool print_picture(const struct info_options *o, struct error *err)
         printf("format        %s, %s\nsize          %dx%d\nchannels      %s", extension(o->job.scene_path),
                about.linear ? "linear" : "sRGB, here made linear", width, height,
                about.channels == 1 ? "1, grey" : "3, RGB");
-        if (about.dropped > 0)
-            printf("; %d more (alpha, layers), not read", about.dropped);
         printf("\n");
         for (int c = 0; c < 3; c++)
             print_channel(value, c, (long)width * height);
