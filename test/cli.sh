@@ -440,7 +440,7 @@ expect 0 '' "$lab" compare sum.pfm a.pfm --max-rmse 1e-6
 expect 0 '' "$program" convert a.pfm sum.pfm a.pfm --weights 2,0,-1 -o b.pfm
 check cmp -s a.pfm b.pfm
 check [ "$(od -An -tu1 -j25 -N1 a.png | tr -d ' ')" = 6 ] # RGB and alpha
-expect 2 'weights 1,2: expected a number for each image .3.' "$program" convert a.pfm sum.pfm a.pfm --weights 1,2 -o b.pfm
+expect 2 'weights 1,2: expected a number for each image' "$program" convert a.pfm sum.pfm a.pfm --weights 1,2 -o b.pfm
 expect 2 'weights 1,nan: expected a number for each' "$program" convert a.pfm sum.pfm --weights 1,nan -o b.pfm
 expect 2 'weights nan: expected a number for each' "$program" convert a.pfm --weights nan -o b.pfm
 # Halfs end at 65504, which is said.

@@ -11,13 +11,6 @@ const struct field *field_find(const struct field *table, const char *name)
     return table->name != NULL ? table : NULL;
 }
 
-const char *field_type(const struct field *f)
-{
-    static const char *const types[] = {
-        [FIELD_INTEGER] = "integer", [FIELD_NUMBER] = "float", [FIELD_WORD] = "string"};
-    return types[f->kind];
-}
-
 void field_fallback(const struct field *f, char *text, size_t size)
 {
     if (f->kind == FIELD_WORD)

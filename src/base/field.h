@@ -43,11 +43,9 @@ struct field_list {
 #define FIELD_KEPT ((double)NAN) /* the fallback is what stands there already; of numbers, points and textures; */
 #define FIELD_NONE INFINITY       /* or is what no number can be */
 
-/* field_find: the one of that name in a table, which ends with one without, or NULL. Of the three kinds that methods
- * have: field_type: as pbrt's scene files call it, "integer", "float" or "string"; field_fallback: the default as text
- * [size]. */
+/* field_find: the one of that name in a table, which ends with one without, or NULL. field_fallback: of the three kinds
+ * that methods have: the default as text [size]. */
 const struct field *field_find(const struct field *table, const char *name);
-const char *field_type(const struct field *f);
 void field_fallback(const struct field *f, char *text, size_t size);
 
 #endif

@@ -67,7 +67,8 @@ static void adapt(struct settings *s, const struct setting *item, const struct m
     char text[96], most[32];
     if (strcmp(item->name, "lightsamplestrategy") == 0 && strcmp(item->value, "uniform") == 0)
         replace(s, item, "power", sink, "is \"power\" instead of \"uniform\", which only has more noise");
-    if (strcmp(item->name, "maxdepth") != 0 || !setting_is_of_file(item) || !(strtod(item->value, NULL) > PATH_MAX_DEPTH))
+    bool depth = strcmp(item->name, "maxdepth") == 0 && setting_is_of_file(item);
+    if (!depth || !(strtod(item->value, NULL) > PATH_MAX_DEPTH))
         return;
     snprintf(most, sizeof most, "%d", PATH_MAX_DEPTH);
     snprintf(text, sizeof text, "is %.20s, which counts as %s", item->value, most);
