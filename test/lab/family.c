@@ -192,7 +192,7 @@ static void services_table(FILE *f, const struct results *e)
 static void write_half(FILE *f, const struct results *e, enum half half, const char *figure)
 {
     summary_table(f, e, half);
-    fprintf(f, "![Squared error over that of %s, methods in rows, scenes in columns, with intervals](%s)\n\n",
+    fprintf(f, "![Squared error over that of %s, a row for each method: mean, interval and scenes](%s)\n\n",
             label(e, 0), figure);
     for (int k = 0; k < N_SQUARES; k++)
         ratio_table(f, e, half, (enum square)k);
@@ -215,45 +215,82 @@ void family_tables(FILE *f, const struct results *e)
 
 /* --- the figure -------------------------------------------------------------------------------------- */
 
-enum { LEFT = 264, TOP = 132, ROW = 20, COLUMN = 72, PANEL = 64, LEAST_WIDTH = 680, BELOW = 60 };
-static const double LEAST = 0.05, MOST = 20; /* ratios outside are drawn at the edge */
+enum { LEFT = 264, WIDTH = 520, TOP = 40, ROW = 20, BELOW = 130 };
+static const double LEAST = 0.02, MOST = 50; /* ratios outside are drawn at the edge */
 
-/* Method number `row` of a view, in a scene: its ratio with its interval, and a hollow diamond for means over 8x8
- * pixels. */
-static void draw_ratio(struct plot *p, const struct scene_results *s, int row, int method)
+/* Markers of plot.h. */
+enum { DOT = 0, RING = 4, TRIANGLE = 6, DIAMOND = 7 };
+
+static struct interval mean_of(const struct results *e, int method, enum square which)
 {
-    struct interval r = equal_ratio(s, method, 0, SQUARE_RELMSE);
-    char said[64];
-    const char *class =
-        s->mark[method] != MARK_NONE ? "marked" : r.high < 1 ? "gain" : r.low > 1 ? "loss" : "open";
-    snprintf(said, sizeof said, "%.3g %s", r.value, MARKS[s->mark[method]]);
-    plot_point(p, class, 0, r.value, -row, r.low, r.high, true, said);
-    plot_point(p, "c3", 7, equal_ratio(s, method, 0, SQUARE_BLOCKS).value, -row, NAN, NAN, true, "8x8");
+    int n;
+    return equal_mean(e, method, 0, which, AT_EQUAL_TIME, NULL, &n);
+}
+
+/* By the mean of relmse, the lowest first; a method without one comes last. The first stays. */
+static void sort_by_mean(const struct results *e, struct view *view)
+{
+    double mean[METHODS_MAX];
+    for (int v = 1; v < view->n; v++) {
+        int method = view->method[v], at = v;
+        double value = mean_of(e, method, SQUARE_RELMSE).value;
+        for (value = isfinite(value) ? value : HUGE_VAL; at > 1 && mean[at - 1] > value; at--) {
+            mean[at] = mean[at - 1];
+            view->method[at] = view->method[at - 1];
+        }
+        mean[at] = value;
+        view->method[at] = method;
+    }
+}
+
+/* A method in its row: a ring for each scene, or a triangle where it is marked; over them the means of all scenes. */
+static void draw_method(struct plot *p, const struct results *e, int row, int method)
+{
+    for (const struct scene_results *s = e->scene; s < e->scene + e->plan->n_scenes; s++) {
+        double ratio = equal_ratio(s, method, 0, SQUARE_RELMSE).value;
+        bool marked = s->mark[method] != MARK_NONE;
+        char said[128];
+        snprintf(said, sizeof said, "%.60s: %.3g %s", s->name, ratio, MARKS[s->mark[method]]);
+        plot_point(p, marked ? "marked" : "scene", marked ? TRIANGLE : RING, ratio, -row, NAN, NAN, true, said);
+    }
+    struct interval r = mean_of(e, method, SQUARE_RELMSE);
+    plot_point(p, "c3", DIAMOND, mean_of(e, method, SQUARE_BLOCKS).value, -row, NAN, NAN, true, "mean, 8x8");
+    plot_point(p, r.high < 1 ? "gain" : r.low > 1 ? "loss" : "open", DOT, r.value, -row, r.low, r.high, true, "mean");
+}
+
+/* A marker, with a bar or without, and what it means, in row number k below the panel. */
+static void draw_key(struct plot *p, int top, int k, const char *class, int marker, double bar, const char *text)
+{
+    struct plot sample = {.f = p->f, .left = LEFT, .top = top + 44 + 16 * k, .width = 28, .height = 8};
+    sample.x = sample.y = axis_make(false, 0, 1);
+    plot_point(&sample, class, marker, 0.5, 0.5, 0.5 - bar, 0.5 + bar, true, text);
+    plot_text(p, LEFT + 36, top + 52 + 16 * k, "start", 0, text);
 }
 
 static void write_figure(FILE *f, const struct results *e, enum half half)
 {
     struct view view = view_of(e, half);
-    int height = ROW * (view.n - 1), width = LEFT + 56 + COLUMN * e->plan->n_scenes;
-    char title[300];
-    snprintf(title, sizeof title, "Squared error over that of %s after the same CPU time: left of the line is a gain.",
-             label(e, 0));
-    struct plot p = plot_begin(f, width < LEAST_WIDTH ? LEAST_WIDTH : width, TOP + height + BELOW, title);
+    int height = ROW * (view.n - 1), bottom = TOP + height;
+    char title[200], axis[200];
+    sort_by_mean(e, &view);
+    snprintf(title, sizeof title, "Squared error after the same CPU time, over %d scenes", e->plan->n_scenes);
+    snprintf(axis, sizeof axis, "relmse, relative to %.60s = 1; lower is better", label(e, 0));
+    struct plot p = plot_begin(f, LEFT + WIDTH + 24, bottom + BELOW, title);
     p.x = axis_make(true, LEAST, MOST);
     p.y = axis_make(false, 0.5 - view.n, -0.5);
     p.y.n_ticks = 0;
-    for (int v = 1; v < view.n; v++)
+    plot_text(&p, LEFT, TOP - 16, "start", 0, title);
+    plot_panel(&p, LEFT, TOP, WIDTH, height, axis, "");
+    for (int v = 1; v < view.n; v++) {
         plot_text(&p, LEFT - 8, TOP + (int)(height * (1 - axis_position(&p.y, -v))) + 4, "end", 0,
                   label(e, view.method[v]));
-    for (int c = 0; c < e->plan->n_scenes; c++) {
-        plot_panel(&p, LEFT + c * COLUMN, TOP, PANEL, height, "", "");
-        plot_text(&p, LEFT + c * COLUMN + PANEL / 2, TOP - 8, "start", -40, e->scene[c].name);
-        for (int v = 1; v < view.n; v++)
-            draw_ratio(&p, &e->scene[c], v, view.method[v]);
+        draw_method(&p, e, v, view.method[v]);
     }
-    plot_text(&p, 8, TOP + height + 34, "start", 0, title);
-    plot_text(&p, 8, TOP + height + 50, "start", 0, "Dot and bar: relmse, its 95 % interval; diamond: means over 8x8 "
-              "pixels; hollow: misses light or biased.");
+    draw_key(&p, bottom, 0, "gain", DOT, 0.5, "geometric mean over scenes with its 95 % interval, below 1");
+    draw_key(&p, bottom, 1, "loss", DOT, 0.5, "the same, above 1 (grey: undecided)");
+    draw_key(&p, bottom, 2, "c3", DIAMOND, NAN, "geometric mean of the error of means over 8x8 pixels");
+    draw_key(&p, bottom, 3, "scene", RING, NAN, "one scene");
+    draw_key(&p, bottom, 4, "marked", TRIANGLE, NAN, "one scene, in which the method misses light or is biased");
     plot_end(&p);
 }
 

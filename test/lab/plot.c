@@ -83,7 +83,8 @@ struct plot plot_begin(FILE *f, int width, int height, const char *title)
 {
     static const char *const colours[][2] = {
         {"c0", "#3d444d"}, {"c1", "#b3400a"}, {"c2", "#0b62a8"}, {"c3", "#12733a"}, {"c4", "#8b00e0"},
-        {"c5", "#8a6a00"}, {"gain", "#0b62a8"}, {"loss", "#b3400a"}, {"open", "#3d444d"}, {"marked", "#b3400a"}};
+        {"c5", "#8a6a00"}, {"gain", "#0b62a8"}, {"loss", "#b3400a"}, {"open", "#3d444d"}, {"marked", "#b3400a"},
+        {"scene", "#a8b0ba"}};
     struct plot p = {.f = f};
     xml_print(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" "
               "role=\"img\" aria-labelledby=\"t\" font-family=\"system-ui,sans-serif\" font-size=\"12\">\n<title "
