@@ -11,12 +11,13 @@
 #include "lab/compare.h"
 #include "lab/sheet.h"
 
-enum { GAP = 4, LEFT = 64, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };
+enum { GAP = 4, LEFT = 88, TOP = 40, SHEET_WIDTH = 1024, CELL_MIN = 48, CELL_MAX = 192 };
 static const double PERCENTILE = 90; /* of a row's lit values that stay below white */
 
 /* How strategies are laid out: pictures of one size, shrunk or enlarged by whole factors. */
 struct layout {
-    int depth, columns;
+    int first, depth; /* the rows: from the first that holds light */
+    int columns;
     int shrink, enlarge;
     int width, height; /* of a cell */
     double scale;      /* of the images' values */
@@ -37,8 +38,8 @@ static struct layout lay_out(const struct strategy_images *images, double scale)
     return l;
 }
 
-/* The power of two, at least 1, that brings most of all weighted shares of this length up to white. */
-static double row_exposure(const struct layout *l, const struct strategy_images *images, int depth)
+/* The value that most of the sum of a row's weighted shares is below, where there is light; 0 without light. */
+static double row_brightness(const struct layout *l, const struct strategy_images *images, int depth)
 {
     size_t n = rect_pixels(images->rect) * 3;
     float *total = mem_alloc(n, sizeof *total);
@@ -54,6 +55,13 @@ static double row_exposure(const struct layout *l, const struct strategy_images 
             total[lit++] = total[i];
     double bright = picture_percentile(total, lit, PERCENTILE);
     free(total);
+    return bright > 0 ? bright : 0;
+}
+
+/* The power of two, at least 1, that raises most of a row up to white. */
+static double row_exposure(const struct layout *l, const struct strategy_images *images, int depth)
+{
+    double bright = row_brightness(l, images, depth);
     return bright > 0 && bright < 1 ? ldexp(1, int_within(floor(-m_log2(bright)), 0, 16)) : 1;
 }
 
@@ -62,18 +70,19 @@ static void draw_pyramid(struct sheet *sheet, const struct layout *l, const stru
                          bool weighted)
 {
     char text[100];
-    sheet_text(sheet, GAP, y + GAP, 2, SHEET_INK, weighted ? "weighted" : "unweighted");
+    sheet_text(sheet, GAP, y + GAP, 2, SHEET_INK, weighted ? "weighted: what each strategy adds"
+                                                                    : "each strategy alone");
     for (int s = 0; s < l->columns; s++) {
         snprintf(text, sizeof text, "s=%d", s);
         sheet_text(sheet, LEFT + s * (l->width + GAP), y + TOP - FONT_HEIGHT - GAP, 1, SHEET_INK, text);
     }
-    for (int depth = 0; depth <= l->depth; depth++) {
+    for (int depth = l->first; depth <= l->depth; depth++) {
         double exposure = row_exposure(l, images, depth);
-        int top = y + TOP + depth * (l->height + GAP);
-        snprintf(text, sizeof text, "depth %d", depth);
+        int top = y + TOP + (depth - l->first) * (l->height + GAP);
+        snprintf(text, sizeof text, "%d bounce%s", depth, depth == 1 ? "" : "s");
         sheet_text(sheet, GAP, top, 1, SHEET_INK, text);
-        snprintf(text, sizeof text, "x%.0f", exposure);
-        sheet_text(sheet, GAP, top + FONT_HEIGHT + GAP, 1, SHEET_INK, text);
+        snprintf(text, sizeof text, "%.0fx brighter", exposure);
+        sheet_text(sheet, GAP, top + FONT_HEIGHT + GAP, 1, SHEET_INK, exposure > 1 ? text : "");
         for (int s = 0; s <= depth + 1; s++) {
             float *whole = strategies_picture(images, l->scale, s, depth + 2 - s, weighted);
             sheet_cell(sheet, LEFT + s * (l->width + GAP), top, whole, rect_width(images->rect),
@@ -87,7 +96,9 @@ bool pyramid_write(const char *directory, const struct strategy_images *images, 
 {
     struct layout l = lay_out(images, scale);
     struct sheet sheet;
-    int half = TOP + (l.depth + 1) * (l.height + GAP);
+    while (l.first < l.depth && row_brightness(&l, images, l.first) <= 0)
+        l.first++;
+    int half = TOP + (l.depth + 1 - l.first) * (l.height + GAP);
     sheet_init(&sheet, LEFT + l.columns * (l.width + GAP), 2 * half, SHEET_PAPER);
     draw_pyramid(&sheet, &l, images, 0, false);
     draw_pyramid(&sheet, &l, images, half, true);

@@ -1,7 +1,9 @@
-/* pyramid.h: all strategies of a picture on one sheet: a row per path length, a column per s, above each strategy's
- * whole estimate, below its weighted share. The sum of the lower pictures is the picture [V97 10.2.3].
+/* pyramid.h: all strategies of an image on one sheet: a row per number of bounces, a column per s. The upper half has
+ * each strategy's whole estimate, the lower half its weighted share. The sum of the lower images is the image [V97
+ * 10.2.3].
  *
- * Longer paths carry less light, so every row is brightened by the power of two that its label names.
+ * Longer paths carry less light, so every row is multiplied by the power of two that its label names. The first rows
+ * are left out if they have no light.
  *
  * Tests: test_pictures.c.
  */

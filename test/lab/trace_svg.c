@@ -6,12 +6,20 @@
  * lies below it.
  */
 #include <stdlib.h>
+#include <string.h>
 
 #include "lab/markup.h"
 #include "lab/trace_report.h"
 
 enum { WIDTH = 560, MARGIN = 20, TOP = 64, CELLS = 320, PIECES = 48 };
 static const char BLUE[] = "#1d5fbf", ORANGE[] = "#d97a00", GREEN[] = "#1a8f4c", GREY[] = "#8a8a8a";
+
+/* Names of vertices that are drawn already, as boxes: left, top, right, bottom. */
+enum { MAX_LABELS = 64 };
+struct labels {
+    double box[MAX_LABELS][4];
+    int n;
+};
 
 /* A picture of the scene: raster points, `cells` of them along x, and where points of the scene come to lie. */
 struct view {
@@ -20,6 +28,7 @@ struct view {
     double scale;          /* SVG units per cell */
     bool plan;             /* from above */
     vec3 origin, x, y, up; /* plan: the corner, cells to the right and downwards; unit */
+    struct labels *labels; /* that are in it */
 };
 
 /* --- where things are -------------------------------------------------------------------------------- */
@@ -214,13 +223,47 @@ static void draw_line(FILE *f, const struct view *v, vec3 a, vec3 b, const char 
     xml_print(f, "\"><title>%s</title></path>\n", title);
 }
 
+static bool is_free(const struct view *v, const double box[4])
+{
+    if (box[0] < 0 || box[1] < 0 || box[2] > WIDTH || box[3] > v->scale * v->ny)
+        return false;
+    for (int i = 0; i < v->labels->n; i++) {
+        const double *other = v->labels->box[i];
+        if (box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3])
+            return false;
+    }
+    return true;
+}
+
+/* The name of a vertex at (x,y): beside it where no other name is, or to the upper right if there is no such place. */
+static void draw_name(FILE *f, const struct view *v, double x, double y, const char *colour, const char *name)
+{
+    enum { HEIGHT = 16, AROUND = 12 };
+    double width = 10.0 * (double)strlen(name), at[4] = {0};
+    for (int i = 0; i < 3 * AROUND; i++) { /* three rings of places, clockwise from the upper right */
+        double angle = -PI / 4 + 2 * PI * (i % AROUND) / AROUND, far = 9 + 12 * (i / AROUND);
+        double left = x + m_cos(angle) * (far + width / 2) - width / 2;
+        double top = y + m_sin(angle) * (far + HEIGHT / 2) - HEIGHT / 2;
+        const double box[4] = {left, top, left + width, top + HEIGHT};
+        bool fits = is_free(v, box);
+        if (fits || i == 0)
+            memcpy(at, box, sizeof at);
+        if (fits)
+            break;
+    }
+    if (v->labels->n < MAX_LABELS)
+        memcpy(v->labels->box[v->labels->n++], at, sizeof at);
+    xml_print(f, "<text x=\"%.1f\" y=\"%.1f\" fill=\"%s\">%s</text>\n", at[0], at[3] - 2, colour, name);
+}
+
 static void draw_vertex(FILE *f, const struct view *v, vec3 p, const char *colour, const char *name)
 {
     double x, y;
     if (!project(v, p, &x, &y))
         return;
     xml_print(f, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"/>", x, y, colour);
-    xml_print(f, "<text x=\"%.1f\" y=\"%.1f\" fill=\"%s\">%s</text>\n", x + 5, y - 5, colour, name);
+    if (name[0] != '\0')
+        draw_name(f, v, x, y, colour, name);
 }
 
 /* Where vertex i is drawn: what is infinitely far, a little way in its direction. */
@@ -285,9 +328,11 @@ static void draw_connection(FILE *f, const struct view *v, const struct trace *t
         draw_vertex(f, v, y, GREEN, "");
 }
 
-static void draw_view(FILE *f, const struct view *v, const struct trace *t, double left, const char *title)
+static void draw_view(FILE *f, struct view *v, const struct trace *t, double left, const char *title)
 {
+    struct labels labels = {.n = 0};
     double most = 1e-300;
+    v->labels = &labels;
     for (int i = 0; i < t->n_connections; i++)
         most = fmax(most, t->connection[i].t > 1 ? rgb_luminance(t->connection[i].added) : 0);
     xml_print(f, "<text class=\"title\" x=\"%.0f\" y=\"%d\">%s</text>\n", left, TOP - 10, title);
@@ -302,6 +347,7 @@ static void draw_view(FILE *f, const struct view *v, const struct trace *t, doub
     for (int i = 0; i < t->n_lights; i++)
         draw_path(f, v, t, i);
     draw_path(f, v, t, -1);
+    v->labels = NULL;
     xml_print(f, "</svg>\n");
 }
 
@@ -313,8 +359,8 @@ static void draw_legend(FILE *f, const struct trace_story *s, int height)
         const char *colour, *dashes, *text;
         int x;
     } entries[] = {{BLUE, "", "eye sub-path z", 0}, {ORANGE, "", "light sub-path y", 195},
-                   {GREEN, "", "connection, the wider the more it adds", 405},
-                   {GREY, "4 3", "connection that brings nothing", 800}};
+                   {GREEN, "", "connection, wider if it adds more", 405},
+                   {GREY, "4 3", "connection that adds nothing", 790}};
     xml_print(f, "<text class=\"title\" x=\"%d\" y=\"26\">%s, pixel %d,%d, sample %ld, %s</text>\n", MARGIN,
               s->scene_path, s->trace->x, s->trace->y, s->trace->iteration, s->integrator->name);
     for (int i = 0; i < 4; i++) {
