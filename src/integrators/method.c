@@ -30,13 +30,6 @@ bool method_check(const struct method *m, const struct scene *scene, struct erro
     return ok;
 }
 
-void method_count(const struct render_job *job, struct frozen *f, struct credits credits)
-{
-    f->counts = counts_of(f->numbers, credits, pixel_light_count(job));
-    f->counts.power = job->power_heuristic;
-    f->counts.tables = &f->tables;
-}
-
 bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err)
 {
     struct preparation standard = {.method = m, .state = mem_alloc(1, m->state_size),
@@ -49,7 +42,7 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
         free(out->state);
         return false;
     }
-    method_count(job, f, NO_CREDITS);
+    frozen_count(job, f, NO_CREDITS);
     if (f->services.tile > 0) {
         out->size.tile = f->services.tile;
         out->size.spread = f->services.spread;

@@ -40,6 +40,14 @@ struct frozen {
     struct tables tables; /* owned */
 };
 
+/* frozen_count: f->counts, from its numbers with these credits, its tables, and the job's heuristic. */
+static inline void frozen_count(const struct render_job *job, struct frozen *f, struct credits credits)
+{
+    f->counts = counts_of(f->numbers, credits, pixel_light_count(job));
+    f->counts.power = job->power_heuristic;
+    f->counts.tables = &f->tables;
+}
+
 /* What `prepare` has settled. */
 struct preparation {
     const struct method *method;
@@ -92,9 +100,6 @@ bool method_check(const struct method *m, const struct scene *scene, struct erro
  * Returns false with a message on a bad parameter. */
 bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err);
 void method_release(struct preparation *p);
-
-/* method_count: f->counts, of its numbers with these credits, its tables, and the job's heuristic. */
-void method_count(const struct render_job *job, struct frozen *f, struct credits credits);
 
 /* method_scratch: the memory of one thread; NULL: none is needed. */
 void *method_scratch(const struct preparation *p);

@@ -60,7 +60,7 @@ bool services_trace_paths(const struct render_job *job, struct preparation *out)
         return false;
     }
     f->numbers = (struct numbers){.light_points = 1, .path_tracing = true};
-    method_count(job, f, NO_CREDITS);
+    frozen_count(job, f, NO_CREDITS);
     out->size.tile = DEFAULT_TILE_SIZE; /* pixels share nothing but what is in the cache */
     out->size.spread = 1;
     tell(out);
@@ -74,6 +74,6 @@ void services_settle(const struct render_job *job, struct preparation *out, stru
     if (f->services.credit)
         credits = credit_measure(job, &f->tables);
     credits.draw = draw;
-    method_count(job, f, credits);
+    frozen_count(job, f, credits);
     tell(out);
 }

@@ -120,21 +120,15 @@ bool connect_light_point(const struct scene *scene, const struct mis_counts *cou
     return connect_light(scene, z, &at, pmf * at.pdf_cell, out);
 }
 
-static bool lit_visible(const struct scene *scene, const struct lit *l)
-{
-    return light_at_infinity(&scene->lights.light[l->at.light])
-               ? scene_lit_from(scene, l->z->p, l->z->prim_id, l->at.w)
-               : scene_lit(scene, l->z->p, l->z->prim_id, l->at.p, l->at.prim_id);
-}
-
 struct connection connect_lit(const struct scene *scene, const struct mis_counts *counts, const struct lit *l)
 {
     const struct light_set *lights = &scene->lights;
     const struct vertex *z = l->z;
     const struct light_point *at = &l->at;
-    if (rgb_is_black(l->value) || !lit_visible(scene, l))
-        return nothing();
     bool parallel = light_at_infinity(&lights->light[at->light]);
+    if (rgb_is_black(l->value) || !(parallel ? scene_lit_from(scene, z->p, z->prim_id, at->w)
+                                             : scene_lit(scene, z->p, z->prim_id, at->p, at->prim_id)))
+        return nothing();
     double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
     /* mis.h (5); the light side has the strategy s = 0 alone */
     double light = mis_side(counts, l->pdf_z * l->at_light, vertex_light_pdf(lights, at), hit, 0, 0);

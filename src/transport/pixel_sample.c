@@ -19,16 +19,12 @@ static void tell_joined(const struct pixel_sample *sample, const struct joined *
 
 /* --- sub-paths --------------------------------------------------------------------------------------- */
 
-static uint64_t pixel_number(const struct scene *scene, int x, int y)
-{
-    return (uint64_t)y * (uint64_t)scene->width + (uint64_t)x;
-}
-
-/* The stream of a pixel, by whatever number of its own. */
+/* The stream of a pixel, for a purpose and by a number of its own. */
 static struct sampler stream(const struct render_job *job, uint64_t seed, enum rng_purpose purpose, int x, int y,
                              uint64_t number)
 {
-    return sampler_start(seed, purpose, pixel_number(job->scene, x, y), number);
+    uint64_t pixel = (uint64_t)y * (uint64_t)job->scene->width + (uint64_t)x;
+    return sampler_start(seed, purpose, pixel, number);
 }
 
 struct pixel_sample pixel_sample_begin(const struct tile_pass *pass, const struct mis_counts *counts, int x, int y,
