@@ -1,7 +1,7 @@
 /* bdpt.c: Veach's bidirectional path tracing, and its two halves, path tracing and light tracing.           [V97 10]
  *
- * One iteration of one pixel: an eye sub-path, a light sub-path, all their connections. All three walk the same
- * sub-paths; they differ in the strategies they use, which is to say in their sample counts (mis.h).
+ * One iteration of one pixel consists of an eye sub-path, a light sub-path and all their connections. All three methods
+ * trace the same sub-paths. They use different strategies, so they differ in their sample counts (mis.h).
  *
  * Tests: test_render.c (they agree with each other and with analytic scenes).
  */
@@ -12,7 +12,7 @@ static void render_pixel(const struct tile_pass *pass, const struct frozen *f, i
     struct workspace *work = pass->work;
     arena_reset(&work->arena);
     struct pixel_sample sample = pixel_sample_begin(pass, &f->counts, x, y, iteration);
-    /* Light tracing needs of the eye sub-path only the lights seen directly (s = 0, t = 2). */
+    /* Light tracing uses the eye sub-path only for lights that the camera sees directly (s = 0, t = 2). */
     int longest = f->numbers.path_tracing ? sample.max_depth + 2 : 2, n_light = 0;
     int n_eye = pixel_eye_path(pass, &sample, work->eye, longest);
     if (f->numbers.path_pixels > 0)

@@ -1,20 +1,21 @@
 /* bins.c: `select = bins`: the dissertation's estimator, kept as it was written.              [S24 Algorithms 1 and 2]
  *
- * Every pixel owns `binpaths` light sub-paths, split into bins of two. In each iteration one bin is chosen and one of
- * its two elements taken with probability
+ * Every pixel owns `binpaths` light sub-paths, divided into bins of two. In each iteration the method chooses one bin,
+ * and takes its first element with probability
  *     p_e0 = beta_0^2 / (beta_0^2 + beta_1^2),                                                        [S24 eq. 3.1]
- * beta being the mean over RGB of the throughput at the sub-path's furthest vertex. It is connected with the pixel's
- * eye sub-path exactly as in BDPT, without any further weight, and replaced by a fresh one. Elements older than
- * `maxage` iterations are replaced unused; after `restart` iterations (a block) all bins are discarded.
+ * otherwise the second. beta is the mean over RGB of the throughput at the last vertex of the sub-path. The method
+ * connects the element to the pixel's eye sub-path exactly as in BDPT, without another weight, and replaces it by a new
+ * sub-path. It also replaces elements older than `maxage` iterations, without using them. After `restart` iterations (a
+ * block) it discards all bins.
  *
- * Where the text leaves a choice: Algorithm 2 prints the comparison of the random number with p_e0 the other way round;
- * the text's reading (take e0 if u < p_e0) is implemented. An empty sub-path has beta 0; two zeros give 1/2. Bins are
- * visited in the order of the van der Corput sequence, started at a random point per pixel and block.
+ * Choices that the text leaves open: Algorithm 2 prints the comparison of the random number with p_e0 the other way
+ * round; we follow the text (take e0 if u < p_e0). An empty sub-path has beta 0, and two zeros give 1/2. The method
+ * visits bins in the order of the van der Corput sequence, from a random start for each pixel and block.
  *
- * This estimator is BIASED. A sub-path that is traced and used counts once, whatever its chance of being used was.
- * Those that age, are discarded at a restart, or are left over at the end are mostly the ones with low beta, so the
- * sub-paths used are not distributed like the sub-paths traced: where high beta means "escaped after one bounce", the
- * image darkens. doc/dissertation.md measures it; select = pool is the smallest repair.
+ * This estimator is BIASED. Every sub-path that is used counts once, whatever its probability of being used was. The
+ * sub-paths that grow too old, are discarded at a restart or are left over at the end mostly have low beta. So the
+ * sub-paths that are used have another distribution than those that are traced. If high beta means "escaped after one
+ * bounce", the image is too dark. doc/dissertation.md measures the bias; select = pool is the smallest repair.
  *
  * Tests: test_asbdpt.c (must be rejected by the test that accepts BDPT).
  */
@@ -34,11 +35,11 @@ struct element {
     struct arena arena;    /* of its vertices and their lobes */
     struct vertex *vertex; /* [max_depth + 1] */
     int length;            /* 0: nothing was emitted */
-    double beta;           /* of [S24 eq. 3.1] */
+    double beta;           /* see [S24 eq. 3.1] */
     long born;             /* iteration in which it was traced */
 };
 
-/* The set of bins of the pixel being rendered; bin b holds elements 2b and 2b+1. */
+/* The bins of one pixel; bin b has the elements 2b and 2b+1. */
 struct bins {
     int n_elements;
     uint64_t traced; /* sub-paths traced for this pixel and block */
@@ -68,9 +69,9 @@ struct pixel {
     int x, y;
 };
 
-/* Put a fresh sub-path into element e. Streams are numbered by block and, within it, by the order of tracing: an
- * iteration traces at most binpaths + 1 <= 2^13 sub-paths, so a block that begins at iteration i stays below the names
- * of the next. */
+/* Trace a new sub-path for element e. The number of its random stream is made of the block's first iteration and of the
+ * order of tracing within the block. An iteration traces at most binpaths + 1 <= 2^13 sub-paths, so the numbers of a
+ * block stay below those of the next. */
 static void replace(struct pixel *p, struct element *e, long iteration)
 {
     uint64_t number = ((uint64_t)p->pass->first << 32) + p->bins->traced++;
@@ -88,7 +89,7 @@ static void replace_aged(struct pixel *p, long iteration)
             replace(p, &p->bins->element[i], iteration);
 }
 
-/* Van der Corput's sequence: the bits of i mirrored about the binary point. [Corput 1935] */
+/* Van der Corput's sequence: the bits of i, mirrored at the binary point. [Corput 1935] */
 static double van_der_corput(uint64_t i)
 {
     double value = 0, digit = 0.5;
@@ -98,14 +99,14 @@ static double van_der_corput(uint64_t i)
     return value;
 }
 
-/* p_e0 of the bin of the elements e[0] and e[1]. [S24 eq. 3.1] */
+/* p_e0 of the bin with the elements e[0] and e[1]. [S24 eq. 3.1] */
 static double first_probability(const struct element *e)
 {
     double b0 = sqr(e[0].beta), b1 = sqr(e[1].beta);
     return b0 + b1 > 0 ? b0 / (b0 + b1) : 0.5;
 }
 
-/* Choose a bin, then an element of it. [S24 Algorithm 2] */
+/* Choose a bin, then one of its elements. [S24 Algorithm 2] */
 static struct element *choose(struct pixel *p, double shift, uint64_t step, double u, double *pmf)
 {
     double position = van_der_corput(step) + shift;
@@ -162,7 +163,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
     const struct bins_state *s = out->state;
     (void)job;
     out->size.block = s->restart > 0 ? s->restart : INT_MAX;
-    out->size.tile = out->size.block > LONGEST_BLOCK ? 1 : DEFAULT_TILE_SIZE; /* pixels share nothing */
+    out->size.tile = out->size.block > LONGEST_BLOCK ? 1 : DEFAULT_TILE_SIZE; /* pixels share no sub-paths */
 }
 
 #define AT(member) offsetof(struct bins_state, member)
@@ -174,8 +175,8 @@ static const struct field PARAMETERS[] = {
      "iterations after which all bins are rebuilt, 0: never", NULL},
     {.name = NULL}};
 
-/* The dissertation has no roulette, and its selection reads the throughput at a sub-path's far end, which roulette
- * would level: it is off unless asked for. */
+/* The dissertation has no Russian roulette. Its selection uses the throughput at the last vertex, and roulette would
+ * make these throughputs alike. So roulette is off by default. */
 const struct method method_bins = {
     .name = "asbdpt", .select = "bins", .help = "the dissertation's bins of two light sub-paths [Silva 2024]; biased",
     .why = "of the pixel's bins of two light sub-paths one is visited, of its two elements one taken with probability "

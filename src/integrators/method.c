@@ -1,4 +1,4 @@
-/* method.c: what is done with a row; see method.h. */
+/* method.c: see method.h. */
 #include "integrators/method.h"
 
 #include <stdlib.h>

@@ -1,14 +1,15 @@
 /* pool.c: `select = pool`: the smallest unbiased repair of the dissertation's estimator.
  *
- * The K light sub-paths of a tile and iteration (as many as BDPT would trace) get importances I_k and probabilities
- *     q_k = (1 - delta) I_k / sum I + delta / K,                                               [Hesterberg 1995]
- * a defensive mixture: nothing that can contribute is out of reach.
- * Vose's alias table [Vose 1991] over q has K bins of at most two sub-paths, the dissertation's bins. Every bin is
- * visited by exactly one pixel, in random order; a threshold picks one of its two, which is connected as in BDPT with
- *     W = 1 / (K q_k)
- * on the strategies s >= 2, t >= 2. Over the draw, given the pool, a pixel's expectation is the pool's mean,
- * sum_k q_k F(k) / (K q_k): unbiased for any I that does not look at the eye sub-path. Sub-paths are splat (t = 1)
- * once each, chosen or not. With I constant every bin holds one sub-path: BDPT with the pixels' sub-paths permuted.
+ * The tile traces K light sub-paths in an iteration, as many as BDPT. They have importances I_k and probabilities
+ *     q_k = (1 - delta) I_k / sum I + delta / K.                                               [Hesterberg 1995]
+ * This is a defensive mixture: every sub-path that can contribute has a chance.
+ * Vose's alias table [Vose 1991] over q has K bins of at most two sub-paths, like the dissertation's bins. Each pixel
+ * visits exactly one bin, in random order, and draws one of its two sub-paths. It connects the sub-path as in BDPT and
+ * multiplies the strategies s >= 2, t >= 2 by
+ *     W = 1 / (K q_k).
+ * For a fixed pool, the expectation of a pixel is sum_k q_k F(k) / (K q_k), the mean over the pool. So the estimate is
+ * unbiased for any I that does not depend on the eye sub-path. Every sub-path is splat (t = 1) once, drawn or not. If I
+ * is constant, every bin has one sub-path, and this is BDPT with the pixels' sub-paths permuted.
  *
  * Tests: test_asbdpt.c.
  */
@@ -28,7 +29,7 @@ struct pool_state {
 struct pool {
     struct light_pool paths; /* the first, see pooled.h */
     double q[MAX_TILE_SIZE * MAX_TILE_SIZE];
-    int order[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* bin visited by each pixel */
+    int order[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* the bin that each pixel visits */
     struct alias_table table;
 };
 
@@ -54,7 +55,7 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
     double sum = 0;
     for (int k = 0; k < K; k++) {
         double q = importance_of(s, light_pool_path(&p->paths, k), p->paths.length[k]);
-        sum += p->q[k] = q >= 0 && isfinite(q) ? q : 0; /* what delta leaves to all is enough to choose it by */
+        sum += p->q[k] = q >= 0 && isfinite(q) ? q : 0; /* the defensive part remains */
     }
     double delta = sum > 0 ? s->delta : 1;
     for (int k = 0; k < K; k++)

@@ -64,7 +64,8 @@ void pooled_fill(const struct preparation *m, const struct tile_pass *pass, long
         m->method->begin(pass->work->scratch, f, pass, iteration);
 }
 
-/* The weights count one sub-path in path_pixels for the whole film; the tile has pool->n, rounded up. */
+/* The weights count one sub-path per path_pixels pixels of the film. The tile has pool->n, which is rounded up: `scale`
+ * makes up for the difference. */
 struct pooled_pixel pooled_begin(const struct preparation *m, const struct tile_pass *pass, int x, int y, int number,
                                  long iteration)
 {

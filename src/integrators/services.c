@@ -11,7 +11,7 @@ const char *const OFF_ON[] = {"off", "on", NULL};
 /* --- tables ------------------------------------------------------------------------------------------ */
 
 enum {
-    MIN_GUIDED_CELLS = 4, /* light cells; with fewer there is nothing for a guide to choose among */
+    MIN_GUIDED_CELLS = 4, /* light cells; a guide does not help with fewer */
     EYE_CELLS = 8         /* eye regions along the diagonal */
 };
 
@@ -28,7 +28,7 @@ void services_learn(const struct render_job *job, struct preparation *out, struc
 
 /* --- numbers ----------------------------------------------------------------------------------------- */
 
-/* Does a path tracer find all light? Not what a delta light sends by way of a delta lobe. */
+/* Does a path tracer find all light? It misses light from a delta light that reaches a surface through a delta lobe. */
 static bool path_tracer_sees_all(const struct scene *scene)
 {
     bool delta_light = false, delta_lobe = false;
@@ -39,7 +39,7 @@ static bool path_tracer_sees_all(const struct scene *scene)
     return !(delta_light && delta_lobe);
 }
 
-/* For --stats. */
+/* Numbers for --stats. */
 static void tell(struct preparation *out)
 {
     const struct frozen *f = out->state;
@@ -47,7 +47,7 @@ static void tell(struct preparation *out)
         {"draws_first_hit", f->numbers.draws[FIRST_HIT]}, {"draws_after", f->numbers.draws[LATER_HIT]},
         {"light_points_first_hit", f->numbers.light_points}, {"pixels_per_light_path", f->numbers.path_pixels},
         {"eye_regions", f->tables.eye.n}, {"light_regions", f->tables.light.n}};
-    memcpy(out->number, numbers, sizeof numbers); /* fewer than there is room for: a NULL name stays behind them */
+    memcpy(out->number, numbers, sizeof numbers); /* there is room for more: a NULL name ends the list */
 }
 
 bool services_trace_paths(const struct render_job *job, struct preparation *out)
@@ -61,7 +61,7 @@ bool services_trace_paths(const struct render_job *job, struct preparation *out)
     }
     f->numbers = (struct numbers){.light_points = 1, .path_tracing = true};
     frozen_count(job, f, NO_CREDITS);
-    out->size.tile = DEFAULT_TILE_SIZE; /* pixels share nothing but what is in the cache */
+    out->size.tile = DEFAULT_TILE_SIZE; /* pixels share no sub-paths */
     out->size.spread = 1;
     tell(out);
     return true;

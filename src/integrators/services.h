@@ -1,10 +1,10 @@
-/* services.h: what makes any choice of light sub-paths better, whichever it is. Each is a parameter, so that
- * it can be measured what the choice alone brings, and has one implementation that all pooled methods share:
+/* services.h: techniques that improve any choice of light sub-paths. Each has one implementation that all pooled
+ * methods share. Each is a parameter, so that one can measure the choice alone:
  *
- *   guide     s = 1 chooses lights by what a region sees (guide.h)
- *   emission  light sub-paths leave lights where the camera can use them (emission.h)
- *   credit    direct light at the first hit counts in the weights as many samples as it is worth (probe.h)
- *   tile, spread  how many pixels share a pool, and how far apart they lie (tile_pass.h)
+ *   guide         s = 1 chooses lights by their contribution to a region (guide.h)
+ *   emission      light sub-paths start in directions that the camera can use (emission.h)
+ *   credit        measure how many samples direct light at the first hit counts as in the weights (probe.h)
+ *   tile, spread  number of pixels that share a pool, and how far apart they are (tile_pass.h)
  *
  * Tests: test_asbdpt.c, test_probe.c.
  */
@@ -16,8 +16,8 @@
 #include "integrators/method.h"
 #include "learning/learn.h"
 
-/* SERVICES: their rows in a method's table of parameters, with these defaults; and single ones, for methods that have
- * no use for the others. */
+/* SERVICES: rows of a method's table of parameters, with these defaults; and single rows, for methods that use only
+ * some of the services. */
 #define SERVICES(GUIDE, EMISSION, CREDIT, TILE, SPREAD) \
     SERVICE_GUIDE(GUIDE), SERVICE_EMISSION(EMISSION), SERVICE_CREDIT(CREDIT), SERVICE_TILES(TILE, SPREAD)
 #define SERVICE_GUIDE(DEFAULT) \
@@ -36,17 +36,17 @@
      "tiles that are interleaved along each axis", NULL}
 extern const char *const OFF_ON[];
 
-/* services_learn: fill the tables with what services need and what the method itself wants, if that is anything; counts
- * go by them from then on.
- *   own  without guide and emission; eye_cells 0: the usual ones, on `levels` levels */
+/* services_learn: fill the tables that the services and the method itself need. From then on counts depend on them.
+ *   own  tables that the method needs; this function sets guide, emission and eye_cells */
 void services_learn(const struct render_job *job, struct preparation *out, struct learn_options own);
 
-/* services_settle: the counts, all else being known. The credit of direct light is measured if the user wants that;
- * otherwise, and for draws, `credits` hold. */
+/* services_settle: compute the counts after everything else is fixed. If the parameter `credit` is on, the credits of
+ * direct light are measured. Otherwise, and for draws, the counts have `credits`. */
 void services_settle(const struct render_job *job, struct preparation *out, struct credits credits);
 
-/* services_trace_paths: is this a scene for a path tracer (probe.h)? If so, *out is settled as one, with nothing
- * learnt. Where a path tracer would miss light a few light sub-paths remain, and false is returned. */
+/* services_trace_paths: are light sub-paths not worth their cost in this scene (probe.h)? Then prepare *out as a path
+ * tracer, without learning, and return true. If a path tracer would miss light, keep a few light sub-paths and return
+ * false. */
 bool services_trace_paths(const struct render_job *job, struct preparation *out);
 
 #endif

@@ -1,18 +1,19 @@
-/* subspaces.c: `select = subspaces`: every eye vertex draws light vertices that are worth something where it is.
+/* subspaces.c: `select = subspaces`: every eye vertex draws light vertices by their expected contribution to its
+ * region.
  *
- * As in vertices.c a light vertex stands for the sub-path that leads to it, and an eye vertex draws C of those that the
- * K sub-paths of a tile and iteration have. But the probability looks at both: with h(e,l) the worth of a light vertex
- * in region l to an eye vertex in region e (pairs.h), and L_v the luminance of beta_v,
+ * As in vertices.c a light vertex represents the sub-path that ends there, and an eye vertex draws C of the light
+ * vertices that the K sub-paths of a tile and iteration have. Here the probability depends on both ends. Let h(e,l) be
+ * the worth of a light vertex in region l to an eye vertex in region e (pairs.h), and L_v the luminance of beta_v. Then
  *     P(v|z) = h(e(z), l(v)) L_v / sum over the pool,
- * and a draw is weighted with 1 / (C K P). Given the pool, the expectation is the mean over its sub-paths whatever P
- * is, so this is unbiased for every table. It is drawn in two steps, region and then vertex, both by bisection of
- * cumulative sums, so that the C strata of one eye vertex lie over space. (One alias table for each region e that is
- * met would have to list all vertices; the sums of a region e list only the regions that hold any.)
+ * and a draw has the factor 1 / (C K P). For a fixed pool the expectation is the mean over its sub-paths, whatever P
+ * is, so the estimate is unbiased for every table. A draw has two steps, first the region and then the vertex, each by
+ * bisection of cumulative sums. So the C strata of one eye vertex are distributed over space. (An alias table for each
+ * region e would need all vertices. The sums of a region e need only the regions that have any.)
  *
- * The MIS weights know it: the strategies count as 2 C h(e(z), l(y)) samples, a function of the two surface points at
- * the ends of the edge; 2 is the credit of a draw (struct credits).
- * [Su 2022] has subspaces of both kinds and a matrix of probabilities between them; here the regions are cells of
- * grids, and the table is learnt from trial connections.
+ * The MIS weights take this into account: the strategies count as 2 C h(e(z), l(y)) samples, a function of the two
+ * surface points at the ends of the edge. 2 is the credit of a draw (struct credits).
+ * [Su 2022] has subspaces of eye and light sub-paths and a matrix of probabilities between them. Here the regions are
+ * cells of grids, and the table is learnt from trial connections.
  *
  * Tests: test_asbdpt.c.
  */
@@ -29,25 +30,26 @@ struct subspaces_state {
     int probe;
 };
 
-/* The candidates that lie in one region. */
+/* The candidates in one region. */
 struct group {
     int region, first, n;
-    double L; /* sum over them */
+    double L; /* sum of their L */
 };
 
-/* All but the pool itself lasts an iteration, and is the pool's. */
+/* Everything but the pool is made in each iteration, and is in the pool's arena. */
 struct subspaces {
     struct light_pool pool;      /* the first, see pooled.h */
     struct candidate *candidate; /* [n], sorted by region */
-    double *before;              /* [n], sum of L before it in its group */
+    double *before;              /* [n], sum of L of the candidates before it in its group */
     struct group *group;         /* [n_groups], in the order of their regions */
     int n_groups;
-    double **row; /* [eye regions][n_groups + 1] sums of h(e,.) L of the groups before, and of all; NULL: not met */
+    double **row; /* [eye regions][n_groups + 1] cumulative sums of h(e,.) L over the groups; NULL: not made yet */
 };
 
 /* --- the pool's vertices by region ------------------------------------------------------------------- */
 
-/* The groups, without members yet, but with room for them in turn; group_of: [n_regions] out, where there is any. */
+/* Make the groups: they have places for their members, but no members yet.
+ *   group_of  out, [n_regions], number of the region's group, if it has one */
 static void make_groups(struct subspaces *v, const struct candidates *found, int *group_of, int n_regions)
 {
     memset(group_of, 0, (size_t)n_regions * sizeof *group_of);
@@ -80,7 +82,7 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
     for (int i = 0; i < found.n; i++) {
         struct candidate c = found.item[i];
         if (!(c.L > 0))
-            continue; /* it carries nothing */
+            continue;
         struct group *g = &v->group[group_of[c.y->light_region]];
         v->candidate[g->first + g->n] = c;
         v->before[g->first + g->n++] = g->L;
@@ -93,7 +95,7 @@ static void begin(void *scratch, const void *state, const struct tile_pass *pass
 
 /* --- drawing ----------------------------------------------------------------------------------------- */
 
-/* The cumulative sums of an eye region, made when it is first met. */
+/* The cumulative sums of an eye region, made at the first draw from it. */
 static const double *row_of_region(struct subspaces *v, const struct tables *tables, int e)
 {
     if (v->row[e] != NULL)
@@ -106,7 +108,7 @@ static const double *row_of_region(struct subspaces *v, const struct tables *tab
     return row;
 }
 
-/* Region, then vertex, with the number u. */
+/* Draw a region, then a vertex, with the number u. */
 static const struct candidate *find(const struct subspaces *v, const double *row, double u, double *pmf)
 {
     double total = row[v->n_groups], target = u * total;
@@ -118,7 +120,7 @@ static const struct candidate *find(const struct subspaces *v, const double *row
     return &v->candidate[i];
 }
 
-/* C draws for one eye vertex, stratified. */
+/* C stratified draws for one eye vertex. */
 static void draw(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t)
 {
     struct subspaces *v = scratch;
@@ -137,9 +139,9 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 
 /* --- preparing --------------------------------------------------------------------------------------- */
 
-enum { LIGHT_CELLS = 16 }; /* light regions along the diagonal */
+enum { LIGHT_CELLS = 16 }; /* number of light regions along the diagonal */
 
-/* Draws of one eye vertex are stratified over the pool. */
+/* Stratified draws have less variance than independent ones. */
 static const struct credits CREDITS = {.hit = 1, .direct = 1, .direct_delta = 1, .draw = 2};
 
 static void prepare(const struct render_job *job, struct preparation *out)

@@ -1,19 +1,19 @@
 /* vertices.c: `select = vertices`: every eye vertex draws light vertices from one table over a tile's pool.
  *
- * A light vertex y_{s-1} *is* the sub-path y_0 ... y_{s-1} that leads to it: a pool of vertices to draw from, as the
- * light vertex cache [Davidovic 2014], which draws uniformly. All connectible ones of the K sub-paths of a tile and
- * iteration, one for every `path_pixels` pixels, go into one alias table with
- *     q_v = L_v n(x_v) / sum,      L_v = luminance(beta_v),      n(x) = 2 C ((1 - delta) E(x) / mean + delta),
- * E being the importance of the place (importance.h), defensively mixed [Hesterberg 1995], and `mean` its expectation
- * over a light sub-path, and each eye vertex (t >= 2) draws C of them. The sum over all vertices of all K sub-paths,
- * divided by K, is what BDPT estimates with one sub-path; drawing v with probability q_v and weighting with 1/q_v
- * estimates the same sum, so
+ * A light vertex y_{s-1} represents the sub-path y_0 ... y_{s-1} that ends there. So a pool of sub-paths is a pool of
+ * vertices, as in the light vertex cache [Davidovic 2014], which draws uniformly. A tile traces K sub-paths in an
+ * iteration, one for every `path_pixels` pixels. One alias table has all their connectible vertices, with
+ *     q_v = L_v n(x_v) / sum,      L_v = luminance(beta_v),      n(x) = 2 C ((1 - delta) E(x) / mean + delta).
+ * E is the importance of the place (importance.h), and `mean` its expectation over a light sub-path. The mixture is
+ * defensive [Hesterberg 1995]. Each eye vertex (t >= 2) draws C vertices. BDPT estimates, with one sub-path, the sum
+ * over all vertices of all K sub-paths divided by K. A draw of v with probability q_v and factor 1/q_v estimates the
+ * same sum, so
  *     (1/C) sum over draws of F(v) / (K q_v)
- * has BDPT's expectation. s = 0, s = 1 and t = 1 stay as they are, every pooled sub-path being splat once.
+ * has BDPT's expectation. s = 0, s = 1 and t = 1 are as in BDPT; every sub-path of the pool is splat once.
  *
- * The MIS weights know about it: strategies s >= 2, t >= 2 ending at light position x take about n(x) samples per
- * pixel, a function of the surface point alone, so all strategies of a path agree on it (mis.h). The 2 is a credit,
- * which s = 1 has too (CREDITS says why); any frozen count is unbiased.
+ * The MIS weights take this into account: strategies s >= 2, t >= 2 with their light end at x take about n(x) samples
+ * per pixel. n is a function of the surface point alone, so all strategies of a path compute the same n (mis.h). The
+ * factor 2 is a credit, which s = 1 has, too (see CREDITS). Any count that does not change is unbiased.
  *
  * Tests: test_asbdpt.c.
  */
@@ -46,7 +46,7 @@ static void free_scratch(void *scratch)
 
 /* --- drawing ----------------------------------------------------------------------------------------- */
 
-/* One that carries no usable amount of light is never drawn. */
+/* A vertex without a usable weight is never drawn. */
 static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
 {
     struct vertices *v = scratch;
@@ -80,11 +80,11 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 
 /* --- preparing --------------------------------------------------------------------------------------- */
 
-/* What draws, and the one sample of s = 1, count for: draws are stratified over a table, and the point on the light
- * comes from a low-discrepancy sequence. */
+/* Draws are stratified over a table, and the point on the light of s = 1 comes from a low-discrepancy sequence. Both
+ * count as two independent samples. */
 static const struct credits CREDITS = {.hit = 1, .direct = 2, .direct_delta = 2, .draw = 2};
 
-/* h(l) = (1 - delta) E(l) / mean + delta, for every eye vertex alike. */
+/* h(l) = (1 - delta) E(l) / mean + delta, the same for all eye vertices. */
 static struct pairs pairs_from_importance(const struct tables *t, double delta)
 {
     double *row = mem_alloc((size_t)t->light.n, sizeof *row);

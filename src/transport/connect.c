@@ -6,7 +6,7 @@
 
 static struct connection nothing(void) { return (struct connection){.light = -1, .cell = -1}; }
 
-/* A surface vertex scattering towards wi: throughput factor and both densities (1/sr). */
+/* Scattering at a surface vertex towards wi: factor of the throughput, and both densities (1/sr). */
 struct scatter {
     rgb factor; /* f times scatter_cosine */
     double pdf, pdf_rev;
@@ -21,8 +21,9 @@ static struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum tran
     return s;
 }
 
-/* What media do between vertex a and a point on primitive `to`, in direction w so far away: they take a share of c's
- * value, and the densities of both ends, and with them the sums (5) of mis.h, have the passage's as factors. */
+/* Media between vertex a and a point on primitive `to`, at a distance in direction w. Their transmittance is a factor
+ * of c's value. The densities of the passage are factors of the densities of both ends, and so of the sums (5) of
+ * mis.h. */
 static inline void pass_media(const struct scene *scene, const struct mis_counts *counts, const struct vertex *a,
                               vec3 w, double distance, uint32_t to, struct connection *c, double *side_a,
                               double *side_b)
@@ -41,7 +42,7 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
 {
     const struct light_set *lights = &scene->lights;
     struct light_point at = {.light = -1};
-    vec3 start = prev->p; /* where the light sub-path's ray would begin, or pass */
+    vec3 start = prev->p; /* a point on the light sub-path's first ray */
     rgb Le;
     if (z->lamp != NULL)
         z = z->lamp;
@@ -65,10 +66,10 @@ struct connection connect_hit(const struct scene *scene, const struct mis_counts
         c.weight = 1;
         return c;
     }
-    double c_e = 0; /* of s = 1, the strategy one shorter on the eye side; z->mis_c is that of z as a light end */
+    double c_e = 0; /* n of s = 1, which connects prev to z; z->mis_c is n of s >= 2 */
     if (!z->prev_delta)
         c_e = n_direct(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
-    /* density of the light sub-path's direction (or origin, at infinity) from here */
+    /* density of the direction of the light sub-path's first ray; at infinity, of its origin */
     double pdf_emit = emit_pdf(&counts_tables(counts)->emission, lights, &at, start, z->wo);
     double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, c_e, pdf_emit, z->mis); /* mis.h (5) */
     c.weight = mis_weight(counts, counts->hit[prev->eye_end], 0, eye_side); /* mis.h (7), A_light being 0 */
@@ -93,7 +94,7 @@ bool connect_light(const struct scene *scene, const struct vertex *z, const stru
         return false;
     struct scatter at_z = scatter_towards(z, w, RADIANCE);
     double spread = parallel ? 1 : 1 / d2;
-    /* area or solid angle at y_0 per steradian at z */
+    /* area (at infinity: solid angle) at y_0 per steradian at z */
     double at_light = light->kind == LIGHT_AREA ? abs_dot(at->n, w) * spread : spread;
     /* C* = (Le / pdf) c alpha_t, c = G f: the cosine at z is in the factor [V97 10.2] */
     rgb value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / pdf));
@@ -229,8 +230,8 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, density));
     if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->prim_id))
         return nothing();
-    /* The light walk took y for a later hit, but next to the lens it is the first: c_e is of another count than
-     * y->mis_c, and so is, if s = 2, the count of s = 0 in y->mis. */
+    /* The light walk counted y as a later hit. Next to the lens it is the first hit, so c_e differs from y->mis_c. If
+     * s = 2, the count of s = 0 in y->mis differs, too. */
     double c_e = c_light(counts, &scene->lights, &light[s - 2], y, FIRST_HIT);
     double mis = y->mis, eye_side = 0;
     if (s == 2 && mis > 0)

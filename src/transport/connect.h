@@ -5,8 +5,9 @@
  *   s >= 2, t >= 2  two surface vertices joined                                connect_pair
  *   s >= 2, t = 1   joined to a fresh point on the lens                        connect_lens
  *
- * A connection's value is the unweighted contribution C* of [V97 10.2]: throughputs, both BSDFs, geometry factor
- * and visibility, for *one* sample of its strategy [PBRT3 16.3.3]; the weight is its share in the heuristic (mis.h).
+ * A connection's value is the unweighted contribution C* of [V97 10.2]: the product of throughputs, both BSDFs,
+ * geometry factor and visibility, for *one* sample of its strategy [PBRT3 16.3.3]. Its weight is that of the heuristic
+ * (mis.h).
  *
  * Tests: test_mis.c.
  */
@@ -21,37 +22,38 @@ struct connection {
     rgb value;       /* W/(sr m^2), a pixel's radiance; black if the vertices cannot see each other */
     double weight;   /* [0,1]; meaningless when value is black */
     double length;   /* of the path, see vertex.h */
-    double px, py;   /* connect_lens: a raster point it arrives at, see camera_images */
-    vec3 end;        /* connect_direct: the point on the light, at infinity its direction; connect_lens: on the lens */
-    int light, cell; /* connect_direct: which, and the light cell of the point; connect_hit: one of its group */
-    double pdf;      /* connect_direct: of the point, see light.h */
+    double px, py;   /* connect_lens: a raster point where it arrives, see camera_images */
+    vec3 end;        /* connect_direct: the point on the light; at infinity, its direction; connect_lens: on the lens */
+    int light, cell; /* connect_direct: the light and its light cell; connect_hit: a light of the same group */
+    double pdf;      /* connect_direct: density of the point, see light.h */
 };
 
-/* connect_hit: z, the last of t >= 2 eye vertices, is on a light, or its walk met a see-through lamp on the way there,
- * which then takes its place; prev is z_{t-2}. A light seen directly (t = 2) has weight 1: no other strategy is used
- * for paths of two vertices. */
+/* connect_hit: z is the last of t >= 2 eye vertices, and prev is z_{t-2}. If the last edge passes a see-through lamp,
+ * the lamp takes the place of z. A light that the camera sees directly (t = 2) has weight 1, since no other strategy
+ * makes paths of two vertices. */
 struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *prev,
                               const struct vertex *z, int t);
 
-/* connect_direct: z is an eye vertex, t >= 2; the light point is drawn from `sampler`, as the i-th of n that share the
- * lights evenly. */
+/* connect_direct: z is an eye vertex, t >= 2. The light point is drawn with `sampler`, as number i of n stratified
+ * points. */
 struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
                                  struct sampler *sampler, int i, int n);
 
-/* The same in two steps, for methods that compare many light points: value is C* as if the point were seen. */
+/* The same in two steps, for methods that compare many light points. `value` is C* without visibility. */
 struct lit {
     const struct vertex *z;
     struct light_point at;
-    double pdf; /* of the point */
+    double pdf; /* density of the point */
     rgb value;
-    double pdf_z, pdf_rev_z; /* 1/sr, at z: of the direction to the light, of going on to the vertex before */
-    double at_light; /* what turns that of the direction into a density of the point */
+    double pdf_z, pdf_rev_z; /* 1/sr, at z: of the direction to the light; of the reverse move to the vertex before z */
+    double at_light; /* factor that turns the density of the direction into that of the point */
     vec3 w;          /* unit, from z to the point */
-    double distance, spread; /* of the point, and 1/distance^2; at infinity infinite, and 1 */
+    double distance, spread; /* distance of the point and 1/distance^2; at infinity: infinite and 1 */
 };
 
-/* connect_light: false if nothing can arrive from that point, found with that density; out->value is black then.
- * connect_light_point: of a point drawn from `sampler`, as connect_direct draws it. connect_lit: visibility, weight. */
+/* connect_light: to a point that was drawn with density `pdf`. False if no light can arrive; out->value is black then.
+ * connect_light_point: to a point drawn with `sampler`, as in connect_direct.
+ * connect_lit: the second step: visibility and weight. */
 bool connect_light(const struct scene *scene, const struct vertex *z, const struct light_point *at, double pdf,
                    struct lit *out);
 bool connect_light_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
@@ -62,27 +64,27 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
 struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
                                const struct vertex *z);
 
-/* The same in two steps, for methods that compare many such pairs and look along the edge of few: value is C* as if y
- * and z saw each other. */
+/* The same in two steps, for methods that compare many pairs and trace few shadow rays. `value` is C* without
+ * visibility. */
 struct joint {
     const struct vertex *y, *z;
     rgb value;
     double pdf_y, pdf_z;         /* 1/sr, at y and at z, of the direction to the other */
-    double pdf_rev_y, pdf_rev_z; /* 1/sr, of going on from there to the vertex before */
+    double pdf_rev_y, pdf_rev_z; /* 1/sr, of the reverse move from there to the vertex before */
     double length;               /* of the edge */
     vec3 w;                      /* its direction, unit, from z to y */
-    double area_y, area_z;       /* what turns a density per steradian at the other end into one per area here */
+    double area_y, area_z;       /* factor that turns a density per steradian at the other end into one per area */
 };
 
-/* connect_join: false if nothing can arrive; out->value is black then. */
+/* connect_join: the first step. False if no light can arrive; out->value is black then. */
 bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *out);
 
-/* connect_joint: visibility and weight. */
+/* connect_joint: the second step: visibility and weight. */
 struct connection connect_joint(const struct scene *scene, const struct mis_counts *counts, const struct joint *j);
 
-/* connect_lens: the last of s >= 2 vertices of a light sub-path, light[s-1]; the lens point is drawn from `sampler`.
- * The value is for the whole frame: tile_add_splat gives each pixel its part, and the caller divides by
- * counts->splat. */
+/* connect_lens: connects light[s-1], the last of s >= 2 vertices of a light sub-path, to a lens point that is drawn
+ * with `sampler`. The value is for the whole film: tile_add_splat distributes it over pixels, and the caller divides it
+ * by counts->splat. */
 struct connection connect_lens(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light,
                                int s, struct sampler *sampler);
 

@@ -1,8 +1,8 @@
-/* observer.h: who wants to know of the paths that are made.
+/* observer.h: functions that are called with every path that a method makes.
  *
- * All that a renderer makes is weighted paths. pixel_sample.c tells of each in the one place where it is added, so what
- * an observer hears is no second computation that might differ: added up in their order, the contributions with t >= 2
- * are the value that the film receives, to the last bit. Where nobody looks that costs the comparison of a pointer.
+ * A render is a sum of weighted paths. pixel_sample.c calls the observers in the one place where it adds a path, so
+ * they get the same numbers as the film. Added up in their order, the contributions with t >= 2 are the value that the
+ * film receives, to the last bit. Without an observer this costs the comparison of a pointer.
  *
  * Tests: test_trace.c.
  */
@@ -16,28 +16,28 @@ struct pixel_sample;
 /* One strategy (s,t) that was tried: a path, or nothing if the value is black. */
 struct joined {
     int s, t;
-    const struct vertex *y, *z;  /* its ends y_{s-1} and z_{t-1}, each the last of so many in a row; y: NULL if s <= 1,
-                                  * z: NULL if t = 1, or if it is no vertex of the sample's own */
+    const struct vertex *y, *z;  /* its ends y_{s-1} and z_{t-1}; the vertices before each are in front of it in memory.
+                                  * y: NULL if s <= 1; z: NULL if t = 1, or if it is not the sample's own vertex */
     const struct connection *c;  /* value C*, weight, length, light, point on light or lens */
     double pmf;                  /* probability with which it was chosen; 1: there was no choice */
-    double scale;                /* what else C* is multiplied by: 1/number of samples, 1/pmf, filter */
+    double scale;                /* other factors of C*: 1/number of samples, 1/pmf, filter */
     rgb added;                   /* C* times scale times weight; t = 1: at raster point (c->px, c->py) */
 };
 
 /* joined_light: number of the light that a path begins on. */
 static inline int joined_light(const struct joined *j) { return j->s > 1 ? j->y[1 - j->s].light : j->c->light; }
 
-/* Each function may be NULL. What is handed over does not outlive the call. */
+/* Each function may be NULL. Its arguments are valid only during the call. */
 struct observer {
-    void *context; /* handed to all */
-    /* A sub-path that the sample takes part of, once or more often; RADIANCE: its eye sub-path. */
+    void *context; /* passed to all functions */
+    /* A sub-path that the sample uses, possibly more than once; RADIANCE: its eye sub-path. */
     void (*walked)(void *context, const struct pixel_sample *sample, enum transport mode, const struct vertex *path,
                    int n);
     /* A path is about to be added to the sample's sums (t >= 2), or to the tile's splats. */
     void (*joined)(void *context, const struct pixel_sample *sample, const struct joined *path);
-    /* All of the sample has been told. */
+    /* The sample is complete. */
     void (*ended)(void *context, const struct pixel_sample *sample);
-    const struct observer *next; /* another; NULL: there is none */
+    const struct observer *next; /* the next observer, or NULL */
 };
 
 #endif

@@ -6,8 +6,8 @@
 #include "tables/emit.h"
 #include "transport/counts.h"
 
-/* Density per area, F_e of mis.h, by the cosine over distance^2 that turns it from one per steradian [PBRT3 5.5.3]; and
- * equation (6) there. */
+/* The density per area is F_e of mis.h: the density per steradian times the cosine over distance^2 [PBRT3 5.5.3]. The
+ * vertex's `mis` is equation (6) there. */
 void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                   double d2)
 {
@@ -18,7 +18,7 @@ void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *p
     v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
 }
 
-/* The same of one that media may have kept the walk from. */
+/* The same with the factors of media on the edge. */
 static void measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                     double d2)
 {
@@ -30,8 +30,8 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
     }
 }
 
-/* The ray met no surface: if there are infinite lights, or a see-through lamp, the eye sub-path ends on them. Density
- * of the direction, and, to go on from there, parallel light through the scene's disk. [PBRT3 16.3.5] */
+/* The ray met no surface. If there are infinite lights, or if it passed a see-through lamp, the eye sub-path ends on
+ * them. Its density is that of the direction. [PBRT3 16.3.5] */
 static bool escape(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                    const struct vertex *lamp)
 {
@@ -50,7 +50,7 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
     return true;
 }
 
-/* Where the ray met a surface: all of the vertex but how it scatters. False if the surface is met edge-on. */
+/* Make the vertex where the ray met a surface, except its scattering. False if the surface is edge-on. */
 static bool meet(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                  const struct surface *at, enum transport mode)
 {
@@ -72,7 +72,8 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     return true;
 }
 
-/* The see-through lamp that the ray meets before the surface *end (NULL: none), as a vertex; NULL if there is none. */
+/* The first see-through lamp on the ray before the surface *end (NULL: no surface), as a vertex; NULL if there is
+ * none. */
 static const struct vertex *meet_lamp(const struct walk *w, const struct vertex *prev, const struct departure *from,
                                       const struct surface *end)
 {
@@ -84,7 +85,7 @@ static const struct vertex *meet_lamp(const struct walk *w, const struct vertex 
     return meet(w, v, prev, from, &at, RADIANCE) ? v : NULL;
 }
 
-/* Make the vertex where the ray met a surface. False if it is met edge-on. */
+/* Make the whole vertex where the ray met a surface. False if the surface is edge-on. */
 static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                    const struct surface *at, enum transport mode)
 {
@@ -104,7 +105,8 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     return true;
 }
 
-/* Go on as far as media let it: *at becomes where it is scattered, if that is before. False if it meets nothing. */
+/* Walk through media as far as the next scattering. If that is before the surface, *at becomes the scattering point.
+ * False if the walk meets nothing. */
 static bool fly(const struct walk *w, const struct vertex *prev, struct departure *from, bool meets,
                 struct surface *at)
 {
@@ -114,7 +116,7 @@ static bool fly(const struct walk *w, const struct vertex *prev, struct departur
     return meets;
 }
 
-/* Russian roulette: `left` is the fraction of the walk's first throughput that is left. False if the walk ends.
+/* Russian roulette: `left` is the fraction of its first throughput that the walk has kept. False if the walk ends.
  *                                                                                    [Arvo & Kirk 1990], see path.h */
 static bool survives(const struct walk *w, double left, rgb *beta)
 {
@@ -137,7 +139,7 @@ bool walk_leave(const struct walk *w, const struct vertex *v, enum transport mod
     out->beta = rgb_mul(v->beta, rgb_scale(s.f, scatter_cosine(v, s.wi, mode) / s.pdf));
     if (rgb_is_black(out->beta) || !rgb_is_finite(out->beta))
         return false;
-    double tmin = v->kind == VERTEX_MEDIUM ? 0 : ray_margin(v->p); /* what lies on no surface may lie close to one */
+    double tmin = v->kind == VERTEX_MEDIUM ? 0 : ray_margin(v->p); /* no margin: the point may be close to a surface */
     out->ray = (struct ray){v->p, s.wi, tmin, INFINITY, v->prim_id, 0};
     out->pdf = s.pdf;
     out->pdf_rev = s.pdf_rev;

@@ -76,7 +76,7 @@ void pixel_add(struct pixel_sample *sample, const struct connection *c, int s, i
     bool black = rgb_is_black(c->value);
     double scale = choice.scale * sample->filter_weight;
     rgb added = black ? rgb_black() : rgb_scale(rgb_scale(c->value, scale), c->weight);
-    if (!black && !rgb_is_finite(added)) { /* which would take the rest of the sample with it */
+    if (!black && !rgb_is_finite(added)) { /* the whole sample would be lost */
         sample->tile->nonfinite++;
         return;
     }

@@ -1,6 +1,6 @@
 /* tile_pass.h: the unit of work of a render: one tile of pixels, a block of consecutive iterations.
  *
- * A tile pass depends on nothing but what stands here, so passes may run on any thread, in any order.
+ * A tile pass depends only on the fields below, so passes may run on any thread, in any order.
  */
 #ifndef ASBDPT_TRANSPORT_TILE_PASS_H
 #define ASBDPT_TRANSPORT_TILE_PASS_H
@@ -10,38 +10,38 @@
 
 struct observer;
 
-/* What does not change during a render. */
+/* The parameters of a render, which do not change while it runs. */
 struct render_job {
     const struct scene *scene;
     struct pixel_rect film_rect; /* the crop in pixels */
     uint64_t seed;
-    uint64_t eye_seed; /* of eye sub-paths alone; else the same */
+    uint64_t eye_seed; /* of eye sub-paths; equal to `seed` except in measurements */
     int max_depth;
     int n_threads;
     bool power_heuristic;
     double rr_threshold; /* of Russian roulette, see path.h */
-    bool spatial_lights; /* pbrt's lightsamplestrategy asks for lights by what is seen; else they are picked by power */
-    /* Called now and then, one call at a time, while a method prepares itself: how many sub-paths it has traced for
-     * that. False: it is to come to an end, with what it has. NULL: nobody watches. */
+    bool spatial_lights; /* pbrt's lightsamplestrategy "spatial": lights are chosen by region; else by power */
+    /* A method calls this from time to time while it prepares, one call at a time, with the number of sub-paths that it
+     * has traced. If it returns false, the method stops preparing and uses the result so far. May be NULL. */
     bool (*watch)(void *context, double traced);
     void *watch_context;
-    bool (*enough)(void *context); /* see pass_enough; NULL: all of every pass is wanted */
+    bool (*enough)(void *context); /* see pass_enough; NULL: never */
     void *enough_context;
 };
 
-/* How a method wants its work cut. */
+/* How a method divides its work into tile passes. */
 struct pass_size {
     int block;  /* iterations; 0: any number */
     int tile;   /* pixels along the side, at most MAX_TILE_SIZE */
-    int spread; /* on each axis up to so many tiles are interleaved: what their pixels share forms no squares */
+    int spread; /* tiles that are interleaved on each axis, so that errors that pixels share form no squares */
 };
 enum { LONGEST_BLOCK = 32, DEFAULT_TILE_SIZE = 16, MAX_TILE_SIZE = 32, POOL_SPREAD = 4 };
 
-/* Memory of one thread, made once and reused by all its tile passes. */
+/* Memory of one thread, which all its tile passes use. */
 struct workspace {
     struct arena arena;
     struct vertex *eye, *light; /* [max_depth + 2] each; owned */
-    void *scratch;              /* the method's; may be NULL */
+    void *scratch;              /* of the method; may be NULL */
 };
 
 /* workspaces_new: arenas and sub-paths for n threads; `scratch` is left NULL. */
@@ -54,12 +54,12 @@ struct tile_pass {
     long first, end;
     struct tile *tile; /* started; receives the result */
     struct workspace *work;
-    const struct observer *observer; /* who looks on (observer.h); NULL: nobody */
+    const struct observer *observer; /* observer.h; NULL: none */
 };
 
-/* pass_enough: is the rest of a tile pass not wanted? Every method asks before each of its samples. After the first yes
- * the answer stays yes, and nobody looks at what the tile holds.
- * pass_pixel: pixels_get of the tile; false, too, if the first are enough. */
+/* pass_enough: should the tile pass stop early? Every method asks before each of its samples. After the first yes the
+ * answer stays yes, and the tile is discarded.
+ * pass_pixel: pixels_get of the tile; false also if the pass should stop, except for pixel 0. */
 static inline bool pass_enough(const struct render_job *job)
 {
     return job->enough != NULL && job->enough(job->enough_context);

@@ -1,5 +1,5 @@
-/* vertex.h: a vertex of a sub-path: what a connection that ends there needs to know. Read-only once walked (path.h), so
- * any number of connections may share it.
+/* vertex.h: a vertex of a sub-path, with all that a connection to it needs. After the walk (path.h) nobody changes it,
+ * so any number of connections may share it.
  */
 #ifndef ASBDPT_VERTEX_H
 #define ASBDPT_VERTEX_H
@@ -14,41 +14,42 @@ enum vertex_kind {
     VERTEX_LIGHT,   /* y_0 */
     VERTEX_SURFACE, /* a scattering point, possibly on an area light */
     /* without a normal: */
-    VERTEX_MEDIUM,  /* one within a medium */
-    VERTEX_ESCAPED  /* end of an eye sub-path that left the scene: a direction, where infinite lights are or a `lamp` */
+    VERTEX_MEDIUM,  /* a scattering point within a medium */
+    VERTEX_ESCAPED  /* a direction: the end of an eye sub-path that left the scene, for infinite lights or a `lamp` */
 };
 
-/* What the fields mean depends on the kind; a dash: not used. Densities are those of the vertex in its own walk, per
- * area unless it is a direction: where light comes from infinity, per solid angle.
+/* The meaning of the fields depends on the kind. A dash: not used. Densities are those of the vertex in its own walk.
+ * They are per area, or per solid angle for directions towards infinity.
  *
  *                LENS         LIGHT (y_0)                       SURFACE                      ESCAPED
  *   light, cell  -1           its light and light cell          of the area light, or -1     -1
  *   p            on the lens  on the light; at infinity -       the point                    -
  *   ng           0            area light: its normal; else 0    geometric normal             0
  *   prim_id      0            area light: see shape.h; else 0   see shape.h                  0
- *   length       0            0                                 scene units, see below       likewise
+ *   length       0            0                                 scene units, see below       scene units
  *   wo           0            at infinity: towards the light    towards the previous vertex  inwards
  *   beta         1            radiance or intensity emitted     throughput on arrival        throughput on arrival
  *                             towards y_1 (no throughput)
  *   pdf_fwd      1, unused    1/m^2; at infinity 1/sr           1/m^2                        1/sr
- *   pdf_origin   -            -                                 eye walk, on a light: that   1/sr, likewise
- *                                                               of y_0 there, 1/m^2
- *   pdf_rev      -            -                                 1/sr, the other walk's, of   -
- *                                                               going on from here to the
- *                                                               vertex before; 0 at the end
+ *   pdf_origin   -            -                                 eye walk, on a light:        1/sr, of y_0 in this
+ *                                                               density of y_0 here, 1/m^2   direction
+ *   pdf_rev      -            -                                 1/sr, of the other walk      -
+ *                                                               continuing to the previous
+ *                                                               vertex; 0 at the last vertex
  *   regions      -            -                                 by tables.h                  -
  *   bsdf         -            -                                 its scattering               -
- *   lamp         -            -                                 eye walk: see below              likewise
+ *   lamp         -            -                                 eye walk: see below          see below
  *
- * The length of a sub-path is that of its edges together, as far as this vertex; light from infinity begins where
- * light_distance (light.h) says. Glass does not make it longer.
+ * `length` is the sum of the lengths of all edges up to this vertex. An edge to infinity begins where light_distance
+ * (light.h) says. The refractive index does not change a length.
  *
- * A vertex within a medium (scene/medium.h) is as one on a surface, with ng 0, prim_id WITHIN_MEDIUM and pdf_fwd per
- * volume, 1/m^3.
+ * A vertex within a medium (scene/medium.h) has the fields of a SURFACE, with ng 0, prim_id WITHIN_MEDIUM and pdf_fwd
+ * per volume, 1/m^3.
  *
- * Walks may start on see-through lamps (scene.h), and pass them without a vertex. The first that an eye walk passes on
- * an edge is the `lamp` of the vertex at the edge's end: the last vertex of a path of its own, and of no sub-path. Its
- * kind is SURFACE, it has what connect_hit needs, and no scattering.
+ * A see-through lamp is an area light without a material (scene.h). Walks may start on it, and pass it without a
+ * vertex. The first such lamp that an eye walk passes on an edge is the `lamp` of the vertex at the edge's end. It is
+ * the last vertex of a path of its own, and no vertex of the sub-path. Its kind is SURFACE. It has only the fields that
+ * connect_hit needs.
  */
 struct vertex {
     enum vertex_kind kind;
@@ -62,12 +63,12 @@ struct vertex {
     rgb beta;
     double pdf_fwd, pdf_origin, pdf_rev;
     int material; /* of the surface, index into scene->material */
-    int medium;   /* what it was reached through; LENS, LIGHT: what they stand in */
+    int medium;   /* of the edge that ends here; LENS, LIGHT: of the place */
     double mis;   /* mis_e of mis.h */
-    double mis_c; /* c_e of mis.h, supposing this vertex is not left by a delta lobe */
+    double mis_c; /* c_e of mis.h, if this vertex is not left by a delta lobe */
     int eye_region, light_region;
     struct bsdf bsdf;
-    const struct vertex *lamp; /* above; NULL: none */
+    const struct vertex *lamp; /* see above; NULL: none */
 };
 
 /* vertex_light_pdf: pdf_fwd of y_0 for a point drawn on a light (light.h).
@@ -85,30 +86,32 @@ static inline bool vertex_at_infinity(const struct scene *scene, const struct ve
     return v->kind == VERTEX_LIGHT && light_at_infinity(&scene->lights.light[v->light]);
 }
 
-/* vertex_connectible: can a connection end at this vertex? */
+/* vertex_connectible: may a connection end at this vertex? */
 static inline bool vertex_connectible(const struct vertex *v)
 {
     return v->kind == VERTEX_SURFACE ? v->bsdf.n_smooth > 0 : v->kind != VERTEX_ESCAPED;
 }
 
-/* vertex_cosine: what turns a density across direction w, unit, into one at the vertex: |cos(w, ng)|; 1 without ng. */
+/* vertex_cosine: the factor that turns a density per area perpendicular to the unit vector w into one per area of the
+ * vertex' surface: |cos(w, ng)|; 1 without ng. */
 static inline double vertex_cosine(const struct vertex *v, vec3 w)
 {
     return v->kind >= VERTEX_MEDIUM ? 1 : abs_dot(v->ng, w);
 }
 
-/* vertex_side: the normal by which a surface point is sorted into regions: ng, turned to where its walk came
- * from. The other walk through the same points comes from the other neighbour, and must find the same region, lest the
- * weights count differently. It does where no lobe transmits, for then both neighbours lie on one side of ng (bsdf.h).
- * Elsewhere ng stays as it is: it is 0 within a medium. (Delta lobes may transmit: nothing is connected there.) */
+/* vertex_side: the normal that decides the region of a surface point: ng, on the side where its walk came from. The
+ * other walk through the same points comes from the other neighbour. It must find the same region, or the two would
+ * count differently in the weights. If no lobe transmits, both neighbours lie on the same side of ng (bsdf.h), so both
+ * walks find the same. Otherwise ng stays as it is. It is 0 within a medium. (Delta lobes may transmit, since nothing
+ * is connected there.) */
 static inline vec3 vertex_side(const struct vertex *v)
 {
     return v->bsdf.transmits || dot(v->ng, v->wo) >= 0 ? v->ng : neg(v->ng);
 }
 
-/* scatter_cosine: the factor that turns a BSDF's f into throughput for leaving v in direction wi. Walking from the eye
- * it is |cos(wi, ns)|; from a light the adjoint BSDF of shading normals makes it
- * |cos(wo, ns)| |cos(wi, ng)| / |cos(wo, ng)|                                                          [V97 5.3] */
+/* scatter_cosine: the factor by which a BSDF's f is multiplied when a walk leaves v in direction wi. For a walk from
+ * the eye it is |cos(wi, ns)|. For a walk from a light, the adjoint BSDF of shading normals makes it
+ * |cos(wo, ns)| |cos(wi, ng)| / |cos(wo, ng)|.                                                         [V97 5.3] */
 double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode);
 
 #endif
