@@ -1,6 +1,7 @@
 /* hostile.c: see hostile.h. */
 #include "hostile.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -8,6 +9,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "parser/parse.h"
 
 enum { MOST_TEXT = 4 << 20, MOST_REPEATED = 4096 };
 
@@ -69,163 +71,183 @@ static void numbers(struct writer *w, unsigned n)
 
 /* --- objects -------------------------------------------------------------------------------------------- */
 
-/* Parameters are "type name" with bars between, ! before those without which the object would be refused. Behind the
- * name may stand, after *, how many numbers it wants, and after a colon what it may be, the first mostly. */
-struct object {
-    const char *directive, *type, *parameters;
-};
+/* The parser's own tables say which types of object there are, and which parameters each has. What they leave to the
+ * code is here: the type of a parameter, and what it may be, the first mostly; NULL: numbers. */
+static const struct open {
+    const char *name, *type, *values;
+} OPEN[] = {
+    {"I", "rgb", NULL}, {"L", "rgb", NULL}, {"scale", "rgb", NULL}, {"eta", "rgb", NULL}, {"k", "spectrum", NULL},
+    {"v1", "vector", NULL}, {"v2", "vector", NULL}, {"xsamples", "integer", NULL}, {"ysamples", "integer", NULL},
+    {"dimension", "integer", NULL}, {"group", "string", "a,b,c/d"}, {"visible", "bool", "true,false"},
+    {"gamma", "bool", "true,false"}, {"wrap", "string", "repeat,black,clamp"},
+    {"mapping", "string", "uv,planar,spherical,cylindrical"},
+    {"mapname", "string", "parts/map.pfm,parts/grey.tga,parts/bad.pfm,missing.exr"},
+    {"filename", "string", "parts/grey.tga,parts/map.pfm,missing.png,."},
+    {"screenwindow", "float", "-1 1 -1 1,0 1e-30 0 1,1 0 0 1,-1e30 1e30 0 1"},
+    {"cropwindow", "float", "0 1 0 1,0.4 0.6 0 1,0.9 0.1 0 1,0 1e-30 0 1"},
+    {"uknots", "float", "0 0 1 1,0 1 2 3,0 1e-30 1e30 1e30"}, {"vknots", "float", "0 0 1 1,0 1e-30 1e30 1e30"},
+    {NULL, "float", NULL}};
 
-#define REFLECT "rgb Kd|texture Kd|rgb Ks|rgb Kr|rgb Kt|texture Ks|float sigma|texture sigma|"
-#define ROUGH "float roughness|float uroughness|float vroughness|texture roughness|bool remaproughness:true,false|"
-#define BUMP "texture bumpmap|"
-#define GLASS "float index|float eta|rgb opacity|"
-#define LIT "rgb L|rgb scale|blackbody L|spectrum L|integer samples|"
-#define MAP "string mapname:parts/map.pfm,parts/grey.tga,parts/bad.pfm,missing.exr"
-#define CUT "float phimax|float zmin|float zmax|float radius|"
-#define MAPPED "string mapping:uv,planar,spherical,cylindrical|vector v1|vector v2|float udelta|float vdelta|" \
-               "float uscale|float vscale|"
-#define PAIR "float tex1|float tex2|texture tex1|texture tex2|rgb tex1|rgb tex2|float amount|texture amount|"
-#define PICTURE \
-    "!string filename:parts/grey.tga,parts/map.pfm,missing.png,.|string wrap:repeat,black,clamp|float scale|"
+/* What a kind of field is in a scene file, and how many numbers it takes: four points, so that lists fit together. */
+static const struct open OF_KIND[] = {
+    [FIELD_INTEGER] = {NULL, "integer", NULL}, [FIELD_NUMBER] = {NULL, "float", NULL},
+    [FIELD_WORD] = {NULL, "string", NULL}, [FIELD_IGNORED] = {NULL, "float", NULL},
+    [FIELD_SWITCH] = {NULL, "bool", "true,false"}, [FIELD_POINT] = {NULL, "point", NULL},
+    [FIELD_FLOAT_TEXTURE] = {NULL, "float", NULL}, [FIELD_RGB_TEXTURE] = {NULL, "rgb", NULL},
+    [FIELD_OPERAND] = {NULL, "rgb", NULL}, [FIELD_VALUE] = {NULL, "rgb", NULL},
+    [FIELD_MATERIAL] = {NULL, "string", "m1,m0"},
+    [FIELD_FOURIER_TABLE] = {NULL, "string", "../../scenes/features/layered.bsdf,parts/broken.ply"},
+    [FIELD_FILE] = {NULL, "string", "parts/triangle.ply,parts/broken.ply"}, [FIELD_FLOATS] = {NULL, "float", NULL},
+    [FIELD_INDICES] = {NULL, "integer", "0 1 2 0 2 3,0 1 2,0 1 2 3,0 -1 2 0 2 4"},
+    [FIELD_POINTS] = {NULL, "point", NULL}, [FIELD_VECTORS] = {NULL, "vector", NULL},
+    [FIELD_NORMALS] = {NULL, "normal", NULL}, [FIELD_PAIRS] = {NULL, "float", NULL}};
 
-static const struct object OPTIONS[] = {
-    {"Camera", "perspective",
-     "float fov|float lensradius|float focaldistance|float frameaspectratio|"
-     "float screenwindow:-1 1 -1 1,0 1e-30 0 1,1 0 0 1,-1e30 1e30 0 1"},
-    {"Film", "image",
-     "integer xresolution|integer yresolution|float scale|"
-     "float cropwindow:0 1 0 1,0.4 0.6 0 1,0.9 0.1 0 1,0 1e-30 0 1|string filename:x.png,/"},
-    {"PixelFilter", "box", "float xwidth|float ywidth"},
-    {"PixelFilter", "gaussian", "float xwidth|float ywidth|float alpha"},
-    {"PixelFilter", "mitchell", "float xwidth|float ywidth|float B|float C"},
-    {"PixelFilter", "sinc", "float xwidth|float ywidth|float tau"},
-    {"PixelFilter", "triangle", "float xwidth|float ywidth"},
-    {"Sampler", "halton", "integer pixelsamples"},
-    {"Integrator", "asbdpt", "integer maxdepth|float delta|integer connections|float rr_threshold|float rrthreshold|"
-                             "string select:bins,pool,vertices,subspaces|integer binpaths|integer restart"},
-    {"Integrator", "bdpt", "integer maxdepth|float rrthreshold|string lightsamplestrategy:power,spatial,uniform"}};
-
-static const struct object WORLD[] = {
-    {"Shape", "sphere", CUT "float alpha"},
-    {"Shape", "disk", "float height|float radius|float innerradius|float phimax"},
-    {"Shape", "cylinder", CUT},
-    {"Shape", "cone", "float radius|float height|float phimax"},
-    {"Shape", "paraboloid", CUT},
-    {"Shape", "hyperboloid", "point p1|point p2|float phimax"},
-    {"Shape", "trianglemesh", "!integer indices*3|!point P*9|normal N*9|float uv*6|float alpha|texture shadowalpha"},
-    {"Shape", "trianglemesh", "!integer indices*6|!point P*12|float uv*8|texture alpha"},
-    {"Shape", "loopsubdiv", "integer levels|!integer indices*6|!point P*12"},
-    {"Shape", "heightfield", "!integer nu:2,1|!integer nv:2|!float Pz*4"},
-    {"Shape", "curve", "!point P*12|normal N*6|float width0|integer degree|string type:flat,ribbon,cylinder|"
-                       "string basis:bspline"},
-    {"Shape", "nurbs", "!integer nu:2|!integer nv:2|!integer uorder:2|!integer vorder:2,1|"
-                       "!float uknots:0 0 1 1,0 1 2 3,0 1e-30 1e30 1e30|!float vknots:0 0 1 1,0 1e-30 1e30 1e30|"
-                       "!float Pw*16|float u0|float v1"},
-    {"Shape", "plymesh", "!string filename:parts/triangle.ply,parts/broken.ply|texture alpha"},
-    {"Material", "matte", REFLECT BUMP},
-    {"Material", "mirror", "rgb Kr|" BUMP},
-    {"Material", "glass", "rgb Kr|rgb Kt|" ROUGH GLASS BUMP},
-    {"Material", "metal", "rgb eta|rgb k|" ROUGH BUMP},
-    {"Material", "plastic", REFLECT ROUGH},
-    {"Material", "substrate", REFLECT ROUGH},
-    {"Material", "uber", REFLECT ROUGH GLASS},
-    {"Material", "translucent", REFLECT ROUGH "rgb reflect|rgb transmit"},
-    {"Material", "subsurface", "rgb Kr|rgb Kt|" ROUGH "float eta|" BUMP},
-    {"Material", "disney", "rgb color|float roughness|float eta|float metallic|float speculartint|float anisotropic|"
-                           "float sheen|float sheentint|float clearcoat|float clearcoatgloss|float spectrans|"
-                           "rgb scatterdistance|bool thin:true,false|float flatness|float difftrans|" BUMP},
-    {"Material", "fourier", "!string bsdffile:../../scenes/features/layered.bsdf,parts/broken.ply|" BUMP},
-    {"Material", "none", ""},
-    {"Material", "", ""},
-    {"AreaLightSource", "diffuse", LIT "bool twosided:true,false"},
-    {"LightSource", "point", LIT "rgb I|point from"},
-    {"LightSource", "spot", LIT "rgb I|point from|point to|float coneangle|float conedeltaangle"},
-    {"LightSource", "distant", LIT "point from|point to"},
-    {"LightSource", "infinite", LIT MAP},
-    {"LightSource", "goniometric", LIT "rgb I|" MAP},
-    {"LightSource", "projection", LIT "rgb I|float fov|" MAP},
-    {"NamedMaterial", "m0", NULL},
-    {"NamedMaterial", "m1", NULL},
-    {"ObjectBegin", "o0", NULL},
-    {"ObjectInstance", "o0", NULL},
-    {"CoordinateSystem", "c0", NULL},
-    {"CoordSysTransform", "c0", NULL},
-    {"Include", "parts/box.pbrt", NULL}};
-
-static const struct object NAMED[] = {
-    {"MakeNamedMaterial \"m0\" \"string type\"", "mix",
-     "!string namedmaterial1:m1,m0|!string namedmaterial2:m1,m0|float amount|rgb amount"},
-    {"MakeNamedMaterial \"m1\" \"string type\"", "matte", REFLECT BUMP},
-    {"MakeNamedMaterial \"m1\" \"string type\"", "mix",
-     "!string namedmaterial1:m1,m0|!string namedmaterial2:m1,m0|texture amount"},
-    {"Texture \"t0\" \"spectrum\"", "scale", PAIR},
-    {"Texture \"t0\" \"float\"", "mix", PAIR},
-    {"Texture \"t1\" \"spectrum\"", "checkerboard", PAIR MAPPED "integer dimension|string aamode:none"},
-    {"Texture \"t1\" \"float\"", "imagemap", PICTURE MAPPED "bool gamma:true"},
-    {"Texture \"t0\" \"spectrum\"", "imagemap", PICTURE MAPPED},
-    {"Texture \"t1\" \"spectrum\"", "bilerp", "float v00|rgb v01|float v10|rgb v11|" MAPPED},
-    {"Texture \"t0\" \"float\"", "fbm", "integer octaves|float roughness"},
-    {"Texture \"t1\" \"float\"", "wrinkled", "integer octaves|float roughness"},
-    {"Texture \"t0\" \"spectrum\"", "marble", "integer octaves|float roughness|float scale|float variation"},
-    {"Texture \"t1\" \"spectrum\"", "dots", "texture inside|texture outside|rgb inside|" MAPPED},
-    {"Texture \"t0\" \"float\"", "windy", ""},
-    {"Texture \"t1\" \"spectrum\"", "uv", MAPPED}};
-
-enum { N_OPTIONS = sizeof OPTIONS / sizeof OPTIONS[0], N_WORLD = sizeof WORLD / sizeof WORLD[0],
-       N_NAMED = sizeof NAMED / sizeof NAMED[0] };
-
-/* One of the values behind the colon. */
-static void word(struct writer *w, const char *values, size_t n, bool quoted)
+/* One of the values between commas. */
+static void word(struct writer *w, const char *values, bool quoted)
 {
-    const char *at = values, *end = values + n;
+    const char *at = values;
     for (unsigned k = rarely(w, 4) ? choose(w, 4) : 0; k > 0; k--) {
-        const char *comma = memchr(at, ',', (size_t)(end - at));
+        const char *comma = strchr(at, ',');
         at = comma != NULL ? comma + 1 : values;
     }
-    const char *comma = memchr(at, ',', (size_t)(end - at));
-    put(w, quoted ? "\"%.*s\" " : "%.*s ", (int)((comma != NULL ? comma : end) - at), at);
+    put(w, quoted ? "\"%.*s\" " : "%.*s ", (int)strcspn(at, ","), at);
 }
 
-/* How many numbers a parameter wants. */
-static unsigned count(const char *p, const char *star)
+/* Mostly within the field's bounds, else its fallback. */
+static void number_of(struct writer *w, const struct field *f)
 {
-    bool three = strncmp(p, "rgb", 3) == 0 || strncmp(p, "point", 5) == 0 || strncmp(p, "vector", 6) == 0;
-    bool two = strncmp(p, "blackbody", 9) == 0 || strncmp(p, "spectrum", 8) == 0;
-    return star != NULL ? (unsigned)strtoul(star + 1, NULL, 10) : three ? 3 : two ? 2 : 1;
+    size_t from = w->used;
+    number(w);
+    bool bounded = f->low < f->high && !rarely(w, 16);
+    double x = strtod(w->text + from, NULL), back = fmin(fmax(f->fallback, f->low), f->high);
+    if (bounded && !(x >= f->low && x <= f->high)) {
+        w->used = from;
+        put(w, "%.9g ", f->kind == FIELD_INTEGER ? ceil(back) : back);
+    }
 }
 
-static void parameter(struct writer *w, const char *p, size_t n)
+static bool is_list(enum field_kind kind) { return kind >= FIELD_FLOATS && kind <= FIELD_PAIRS; }
+
+static unsigned count(const struct field *f, const char *type)
 {
-    static const int QUAD[6] = {0, 1, 2, 0, 2, 3};
-    const char *colon = memchr(p, ':', n), *star = memchr(p, '*', n);
-    size_t name = star != NULL ? (size_t)(star - p) : colon != NULL ? (size_t)(colon - p) : n;
-    put(w, "\"%.*s\" [ ", (int)name, p);
-    unsigned wanted = count(p, star);
+    bool three = strcmp(type, "rgb") == 0 || strcmp(type, "point") == 0 || strcmp(type, "vector") == 0 ||
+                 strcmp(type, "normal") == 0;
+    unsigned one = three ? 3 : strcmp(type, "spectrum") == 0 || f->kind == FIELD_PAIRS ? 2 : 1;
+    return !is_list(f->kind) ? one : f->kind == FIELD_FLOATS && f->low > 1 ? 4 * (unsigned)f->low : 4 * one;
+}
+
+static void parameter(struct writer *w, const struct field *f)
+{
+    const struct open *o = OPEN, *kind = &OF_KIND[f->kind];
+    while (o->name != NULL && strcmp(o->name, f->name) != 0)
+        o++;
+    if (f->kind != FIELD_OTHER && !(f->kind == FIELD_FLOATS && o->values != NULL))
+        o = kind;
+    bool textured = f->kind == FIELD_FLOAT_TEXTURE || f->kind == FIELD_RGB_TEXTURE || f->kind == FIELD_OPERAND;
+    unsigned wanted = count(f, o->type);
     if (rarely(w, 64))
         wanted = choose(w, 3);
-    if (strncmp(p, "texture", 7) == 0)
-        put(w, "\"t%u\" ", choose(w, 3));
-    else if (colon != NULL)
-        word(w, colon + 1, n - name - 1, strncmp(p, "string", 6) == 0 || strncmp(p, "bool", 4) == 0);
-    else if (strncmp(p, "integer indices", 15) == 0)
-        for (unsigned i = 0; i < wanted; i++)
-            put(w, "%d ", rarely(w, 32) ? (int)choose(w, 5) - 1 : QUAD[i % 6]);
-    else
-        numbers(w, wanted);
+    if (textured && choose(w, 3) == 1)
+        put(w, "\"texture %s\" [ \"t%u\" ", f->name, choose(w, 3));
+    else if (f->kind == FIELD_WORD)
+        put(w, "\"string %s\" [ \"%s\" ", f->name, f->words[f->words[1] != NULL ? choose(w, 2) : 0]);
+    else {
+        put(w, "\"%s %s\" [ ", o->type, f->name);
+        if (o->values != NULL)
+            word(w, o->values, o->type[0] == 's' || o->type[0] == 'b');
+        else if (f->kind == FIELD_INTEGER && !rarely(w, 16))
+            put(w, "2 ");
+        else
+            for (; wanted > 0; wanted--)
+                number_of(w, f);
+    }
     put(w, "] ");
 }
 
-static void object(struct writer *w, const struct object *o)
+/* Lists, files, and counts that are 0 unless they are given, are mostly there: without them there is no object. */
+static bool needed(struct writer *w, const struct field *f)
 {
-    put(w, "%s \"%s\" ", o->directive, o->type);
-    for (const char *p = o->parameters; p != NULL && *p != '\0';) {
-        size_t n = strcspn(p, "|");
-        bool needed = *p == '!';
-        if (needed || choose(w, 3) == 1)
-            parameter(w, p + needed, n - needed);
-        p += n + (p[n] == '|');
-    }
+    bool count_of_list = f->kind == FIELD_INTEGER && f->fallback == 0;
+    bool essential = is_list(f->kind) || f->kind == FIELD_FILE || f->kind == FIELD_FOURIER_TABLE || count_of_list ||
+                     strcmp(f->name, "filename") == 0;
+    return essential ? !rarely(w, 64) : choose(w, 3) == 1;
+}
+
+static void object(struct writer *w, const struct object_type *types)
+{
+    unsigned n = 0;
+    while (types[n].name != NULL)
+        n++;
+    const struct object_type *type = &types[choose(w, n)];
+    put(w, "\"%s\" ", type->name);
+    for (const struct field *f = type->fields; f->name != NULL; f++)
+        if (needed(w, f))
+            parameter(w, f);
     put(w, "\n");
+}
+
+/* A directive of the table that has types of its own. */
+static void directive(struct writer *w, const struct directive *table)
+{
+    unsigned n = 0;
+    while (table[n].name != NULL)
+        n++;
+    const struct directive *d = &table[choose(w, n)];
+    if (d->types == NULL)
+        return;
+    put(w, "%s ", d->name);
+    object(w, d->types);
+}
+
+static void method(struct writer *w)
+{
+    static const char *const SELECT[] = {"bins", "pool", "vertices", "subspaces"};
+    put(w, "Integrator \"%s\" \"string select\" \"%s\" \"integer maxdepth\" [ ", choose(w, 2) ? "asbdpt" : "bdpt",
+        SELECT[choose(w, 4)]);
+    number(w);
+    put(w, "] \"float rrthreshold\" [ ");
+    number(w);
+    put(w, "]\n");
+}
+
+static void medium(struct writer *w)
+{
+    static const char *const NAMES[] = {"rgb sigma_a", "rgb sigma_s", "float g"};
+    put(w, "MakeNamedMedium \"d0\" \"string type\" \"homogeneous\" ");
+    for (unsigned i = 0; i < 3; i++) {
+        put(w, "\"%s\" [ ", NAMES[i]);
+        if (rarely(w, 8))
+            numbers(w, i < 2 ? 3 : 1);
+        else
+            put(w, i < 2 ? "0.1 0.2 0.3 " : "0.3 ");
+        put(w, "] ");
+    }
+    put(w, "\nMediumInterface \"%s\" \"%s\"\n", choose(w, 2) ? "d0" : "", rarely(w, 4) ? "d0" : "");
+}
+
+/* A shape, a material, a texture, or what only has a name. */
+static void thing(struct writer *w, unsigned kind)
+{
+    static const char *const NAMED[] = {"NamedMaterial \"m0\"", "NamedMaterial \"m1\"", "Material \"none\"",
+                                        "ObjectBegin \"o0\"", "ObjectInstance \"o0\"", "CoordinateSystem \"c0\"",
+                                        "CoordSysTransform \"c0\"", "Include \"parts/box.pbrt\""};
+    struct object_type types[MOST_TYPES];
+    if (kind < 4) {
+        parse_shape_types(types);
+        put(w, "Shape ");
+        object(w, types);
+    } else if (kind < 7) {
+        static const char *const BEFORE[] = {"Material", "MakeNamedMaterial \"m0\" \"string type\"",
+                                             "MakeNamedMaterial \"m1\" \"string type\""};
+        parse_material_types(types);
+        put(w, "%s ", BEFORE[kind - 4]);
+        object(w, types);
+    } else if (kind < 9) {
+        put(w, "Texture \"t%u\" \"%s\" ", choose(w, 2), kind == 7 ? "spectrum" : "float");
+        object(w, TEXTURE_TYPES);
+    } else {
+        put(w, "%s\n", NAMED[choose(w, sizeof NAMED / sizeof NAMED[0])]);
+    }
 }
 
 static void transform(struct writer *w)
@@ -264,16 +286,20 @@ char *hostile_scene(const uint8_t *bytes, size_t n, size_t *length)
 {
     struct writer w = {.bytes = bytes, .n = n};
     for (unsigned i = choose(&w, 4); i > 0; i--)
-        object(&w, &OPTIONS[choose(&w, N_OPTIONS)]);
+        directive(&w, OPTION_DIRECTIVES);
+    if (choose(&w, 2))
+        method(&w);
     put(&w, "WorldBegin\nMakeNamedMaterial \"m1\" \"string type\" \"matte\"\nTranslate 0 0 3\n");
     while (w.at < w.n) {
         size_t from = w.used;
         unsigned kind = choose(&w, 16);
-        if (kind < 9)
-            object(&w, &WORLD[choose(&w, N_WORLD)]);
+        if (kind < 10)
+            thing(&w, kind);
         else if (kind < 12)
-            object(&w, &NAMED[choose(&w, N_NAMED)]);
-        else if (kind < 14)
+            directive(&w, LIGHT_DIRECTIVES);
+        else if (kind < 13)
+            medium(&w);
+        else if (kind < 15)
             transform(&w);
         else
             block(&w);

@@ -1,6 +1,7 @@
-/* hostile.h: scenes that are well formed and mean harm: numbers that are 0, negative, minute, immense or none at all;
- * surfaces without area, lights without light, names that refer to each other in circles, blocks that cross, thousands
- * of the same. Bytes choose: a generator of random numbers makes as many as are wanted, and a fuzzer finds its way. */
+/* hostile.h: scenes that are well formed and mean harm: of every type of object and every parameter that the parser's
+ * tables have, with numbers that are 0, negative, minute, immense or none at all; surfaces without area, lights without
+ * light, names that refer to each other in circles, blocks that cross, thousands of the same. Bytes choose: a generator
+ * of random numbers makes as many as are wanted, and a fuzzer finds its way. */
 #ifndef ASBDPT_FUZZ_HOSTILE_H
 #define ASBDPT_FUZZ_HOSTILE_H
 
