@@ -151,12 +151,30 @@ static void mark(struct sheet *s, int left, int x, int y, int scale)
                 sheet_paste(s, left + (x + i) * scale, LABEL + (y + j) * scale, white, 1, 1, scale);
 }
 
+/* The colours of shares from 1 / WORTH_RANGE to 1 of the largest value, from left to right below the last two. */
+static void draw_key(struct sheet *s, int left, int top, int width)
+{
+    char least[32];
+    snprintf(least, sizeof least, "1/%d", WORTH_RANGE);
+    const char *const most = "1 = largest";
+    int from = left + sheet_text_width(least, 1) + GAP, to = left + width - sheet_text_width(most, 1) - GAP;
+    for (int x = from; x < to; x++) {
+        float colour_here[3];
+        viridis((double)(x - from) / (to - from), colour_here);
+        for (int y = 0; y < FONT_HEIGHT; y++)
+            sheet_paste(s, x, top + y, colour_here, 1, 1, 1);
+    }
+    sheet_text(s, left, top, 1, SHEET_INK, least);
+    sheet_text(s, to + GAP, top, 1, SHEET_INK, most);
+}
+
 static void draw_sheet(struct sheet *s, const struct scene *scene, const float *const picture[3], int x, int y,
                        int scale)
 {
     static const char *const labels[3] = {"scene", "worth", "draws"};
     int width = scene->width * scale;
-    sheet_init(s, 3 * width + 2 * GAP, LABEL + scene->height * scale, SHEET_PAPER);
+    sheet_init(s, 3 * width + 2 * GAP, LABEL + scene->height * scale + 2 * GAP + FONT_HEIGHT, SHEET_PAPER);
+    draw_key(s, width + GAP, LABEL + scene->height * scale + GAP, 2 * width);
     for (int i = 0; i < 3; i++) {
         int left = i * (width + GAP);
         sheet_text(s, left + GAP, (LABEL - TEXT * FONT_HEIGHT) / 2, TEXT, SHEET_INK, labels[i]);
