@@ -32,8 +32,8 @@ END {
     split("#f4a582 #92c5de #b8e186 #fddbc7 #d1b3e6 #ffe08a #c7c7c7 #80cdc1", palette, " ")
     for (i = 0; i < n; i++) { sum += w[i + 1]; colour[i] = palette[i % 8 + 1] }
     steps = n + 1
-    printf "<svg xmlns='http://www.w3.org/2000/svg' width='%d' height='%d' viewBox='0 0 %d %d' ", 44 * n + 190,
-        190 * steps, 44 * n + 190, 190 * steps
+    printf "<svg xmlns='http://www.w3.org/2000/svg' width='%d' height='%d' viewBox='0 0 %d %d' ", 44 * n + 300,
+        190 * steps, 44 * n + 300, 190 * steps
     print "font-family='sans-serif' font-size='13'><rect width='100%' height='100%' fill='white'/>"
     for (i = 0; i < n; i++) {
         threshold[i] = w[i + 1] * n / sum
@@ -48,10 +48,10 @@ END {
         done[s] = 1
         threshold[l] += threshold[s] - 1
         if (threshold[l] < 1) { n_large--; small[n_small++] = l }
-        step("bin " s ": " s " does not fill it; " l " gives the rest and keeps " sprintf("%.2f", threshold[l]))
+        step("bin " s ": " s " is too small; " l " fills it up and keeps " sprintf("%.2f", threshold[l]))
     }
     while (n_small > 0) { s = small[--n_small]; threshold[s] = 1; done[s] = 1 }
     while (n_large > 0) { l = large[--n_large]; threshold[l] = 1; done[l] = 1 }
-    step("what is left weighs 1, but for rounding: its threshold is 1")
+    step("the remaining item weighs 1, except for rounding: threshold 1")
     print "</svg>"
 }

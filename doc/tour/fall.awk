@@ -1,6 +1,6 @@
 # fall.awk: errors over numbers of samples as SVG, both axes logarithmic, beside lines that fall as 1/sqrt(N). Reads lines
 # "NAME N ERROR", those of a name together; -v title=.
-function X(n) { return 60 + 420 * log(n / first) / log(last / first) }
+function X(n) { return 70 + 420 * log(n / first) / log(last / first) }
 function Y(e) { return 300 - 250 * log(e / least) / log(most / least) }
 # Where a name stands: below the one before, if that is too near.
 function label(y) { return below = below > 0 && y < below + 14 && y > below - 14 ? below + 14 : y }
@@ -15,11 +15,12 @@ END {
     printf "<text x='10' y='20' font-weight='bold'>%s</text>\n", title
     for (k = first; k <= last; k *= 4)
         printf "<path d='M%g 40V300' stroke='#ddd'/><text x='%g' y='318' text-anchor='middle'>%d</text>\n", X(k), X(k), k
-    print "<text x='270' y='340' text-anchor='middle'>samples per pixel</text>"
+    print "<text x='280' y='340' text-anchor='middle'>samples per pixel</text>"
+    print "<text x='14' y='175' text-anchor='middle' transform='rotate(-90 14 175)'>rmse of 8-bit values; lower is better</text>"
     for (p = -3; p < 4; p++)
         for (m = 1; m <= 5; m += m == 1 ? 1 : 3)
             if ((v = m * exp(p * log(10))) >= least && v <= most)
-                printf "<path d='M60 %gH480' stroke='#ddd'/><text x='54' y='%g' text-anchor='end'>%.3g</text>\n", Y(v), Y(v) + 4, v
+                printf "<path d='M70 %gH490' stroke='#ddd'/><text x='64' y='%g' text-anchor='end'>%.3g</text>\n", Y(v), Y(v) + 4, v
     for (i = 1; i <= NR; i++)
         if (name[i] != name[i - 1]) {
             c = colour[++series]
@@ -32,7 +33,7 @@ END {
                 d = d (j > i ? "L" : "M") sprintf("%.1f %.1f", X(n[j]), Y(e[j]))
                 printf "<circle cx='%.1f' cy='%.1f' r='3.5' fill='%s'/>\n", X(n[j]), Y(e[j]), c
             }
-            printf "<path d='%s' fill='none' stroke='%s' stroke-width='2'/><text x='490' y='%.1f' fill='%s'>%s</text>\n", d, c, label(Y(e[j - 1]) + 4), c, name[i]
+            printf "<path d='%s' fill='none' stroke='%s' stroke-width='2'/><text x='500' y='%.1f' fill='%s'>%s</text>\n", d, c, label(Y(e[j - 1]) + 4), c, name[i]
         }
     print "</svg>"
 }

@@ -1,4 +1,4 @@
-# family.awk: draws what each method joins an eye sub-path to, and by which choice, as SVG.
+# family.awk: draws what each method connects an eye sub-path to, and by which choice, as SVG.
 #   awk -f indices.awk -f family.awk </dev/null >family.svg
 function source(key, text, note, stroke) {
     name[++sources] = key; words[key] = text; under[key] = note; colour[key] = stroke
@@ -7,16 +7,16 @@ function method(from, text, choice) {
     of[++methods] = from; label[methods] = text; how[methods] = choice; n[from]++; last[from] = methods
 }
 END {
-    source("lamp", "points on lamps", "s = 1", "#8a6a00")
+    source("light", "points on lights", "s = 1", "#8a6a00")
     source("own", "a light sub-path of its own", "y_0 y_1 ... y_(s-1)", "#3d444d")
     source("paths", "K light sub-paths", "a tile shares them", "#0b62a8")
-    source("vertices", "their V vertices", "each stands for its sub-path", "#12733a")
+    source("vertices", "their V vertices", "each with the sub-path before it", "#12733a")
     source("eye", "vertices of its neighbours", "eye sub-paths of the tile", "#6a3d9a")
-    source("state", "the sample before", "a Markov chain", "#b3400a")
-    method("lamp", "pt", "one point, the lamp by its power")
-    method("lamp", "restir", "one of M, shared by N + 1 pixels: f W / sum")
-    method("own", "lt", "its vertices, joined to the lens: t = 1")
-    method("own", "bdpt", "nothing: it is a new one each time")
+    source("state", "the previous sample", "a Markov chain", "#b3400a")
+    method("light", "pt", "one point; the light by its power")
+    method("light", "restir", "one of M, shared by N + 1 pixels: f W / sum")
+    method("own", "lt", "its vertices, connected to the lens: t = 1")
+    method("own", "bdpt", "no choice: a new one each time")
     method("own", "bins", "one of two kept ones, by beta^2: biased")
     method("paths", "pool", "q_k, by importance: weight 1 / (K q_k)")
     method("paths", "cbdpt", "M of them, in all pairs: 1 / M")
@@ -25,17 +25,17 @@ END {
     method("vertices", "vertices", "L_v h(x_v): worth of a place")
     method("vertices", "subspaces", "L_v h(e,l): worth of a place to a place")
     method("vertices", "pcbdpt", "mean of three records' PMF and 1 / V")
-    method("vertices", "ris", "one record's PMF; weights that know Q / h")
+    method("vertices", "ris", "one record's PMF; weights use Q / h")
     method("vertices", "ris2", "M2 by power, then as ris")
     method("eye", "restirgi", "one second vertex of N + 1 pixels: f W / sum")
     method("eye", "pathgraph", "all M of a cluster: 1 / sum of p_m; biased")
-    method("state", "pssmlt", "all its numbers, moved a little: I' / I")
+    method("state", "pssmlt", "all its numbers, changed a little: I' / I")
     method("state", "mmlt", "one strategy's numbers: I' / I")
     method("state", "mlt", "a path, part of its vertices kept: R' / R")
     print "<svg xmlns='http://www.w3.org/2000/svg' width='740' height='574' viewBox='0 0 740 574' " \
         "font-family='sans-serif' font-size='13'><rect width='100%' height='100%' fill='white'/>"
-    print "<text x='12' y='22' font-weight='bold'>an eye sub-path is joined to</text>" \
-        "<text x='300' y='22' font-weight='bold'>by</text><text x='392' y='22' font-weight='bold'>which chooses</text>"
+    print "<text x='12' y='22' font-weight='bold'>an eye sub-path is connected to</text>" \
+        "<text x='300' y='22' font-weight='bold'>method</text><text x='392' y='22' font-weight='bold'>choice</text>"
     for (i = 1; i <= methods; i++) { # a gap of 10 between sources
         if (of[i] != of[i - 1]) gap += 10
         y[i] = 26 * i + gap + 8

@@ -44,7 +44,7 @@ for method in pt bdpt asbdpt; do
         "$lab" compare x.pfm truth.pfm | awk -v method=$method -v spp=$spp '$1 == "rmse8" { print method, spp, $2 }'
     done
 done >table.txt
-awk -v title="Error over samples; dashed: falling as 1/sqrt(N)" -f "$tour/fall.awk" table.txt >"$out/fall.svg"
+awk -v title="Error over samples; dashed: proportional to 1/sqrt(N)" -f "$tour/fall.awk" table.txt >"$out/fall.svg"
 
 # How far off the mean of bins is, for several numbers of iterations between restarts: eight seeds, two standard errors.
 for restart in 0 4 8 16 32; do
