@@ -5,8 +5,8 @@
  *   worth   of every surface seen: h(e,l), what a light vertex there is worth to the point
  *   draws   where the light vertices are that the point would draw: light sub-paths projected onto the film, each
  *           vertex with its probability h L, as far as the camera sees it
- * The last two are coloured by their logarithm, over a factor of WORTH_RANGE below their largest value; a bar below them
- * shows the colours.
+ * The last two are coloured by their logarithm, over a factor of WORTH_RANGE below their largest value. A bar below
+ * them shows the colours.
  *
  * Tests: test_pictures.c.
  */
