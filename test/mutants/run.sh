@@ -4,7 +4,8 @@
 # A fault is caught when a test fails, or crashes, which the table says then; one that keeps a test running for TIMEOUT
 # seconds is reported as an error. What is doubtful fails at once, as in one suite of three hundred something does
 # without a fault. With WHOLE=no only the named tests are run. With SOUND=no the tests are known to pass without any
-# fault.
+# fault. With UNTIL=SECONDS, since 1970, no mutant is begun after that time; those that are left out are said, and do
+# not count.
 #   sh test/mutants/run.sh choose COUNT WORD    prints the names of so many, chosen by the word
 # Exit status 0 only if all faults are caught.
 set -u
@@ -100,7 +101,12 @@ worker() {
     tree=$work/tree$1
     n=0
     for name in $(names); do
-        [ $((n % workers)) -eq "$1" ] && one "$name" "$tree"
+        if [ $((n % workers)) -ne "$1" ]; then :
+        elif [ -n "${UNTIL-}" ] && [ "$(date +%s)" -ge "$UNTIL" ]; then
+            printf '%-18s %s\n' "$name" "LEFT OUT"
+        else
+            one "$name" "$tree"
+        fi
         n=$((n + 1))
     done >"$work/part$1.txt"
 }
@@ -127,6 +133,7 @@ done >$work/table.txt
 cat $work/table.txt
 awk -v wanted="$(names | wc -l)" '
     $2 == "SURVIVED" || $2 == "ERROR" { bad++ }
+    $2 == "LEFT" { out++ }
     $NF == "crash" { crashed++ }
-    END { printf "%d mutants, %d caught, of these %d by a crash\n", wanted, NR - bad, crashed
+    END { printf "%d mutants, %d caught, of these %d by a crash, %d left out\n", wanted, NR - bad - out, crashed, out
           exit (bad > 0 || NR != wanted || NR == 0) }' $work/table.txt
