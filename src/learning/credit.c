@@ -5,11 +5,11 @@
 #include "learning/probe.h"
 
 enum { SEQUENCE = 16, MOST_PIXELS = 1024 };
-enum sum { DIRECT, DELTA, ALL, N_SUMS }; /* direct light that s = 0 can find; that it cannot; everything */
+enum sum { DIRECT, DELTA, ALL, N_SUMS }; /* direct light that s = 0 can find; that of delta lights; all light */
 static const double SAMPLES_PER_PIXEL = 0.64;
 static const double MOST_CREDIT = 64;
 
-/* Of one pixel, its two sequences together. */
+/* Sums of one pixel over its two sequences. */
 struct pixel_sums {
     double mean[2][N_SUMS], square[N_SUMS]; /* square: mean over samples */
 };
@@ -19,7 +19,7 @@ struct credit_probe {
     struct pixel_sums *pixel; /* [n] */
 };
 
-/* Into the sums of one sample. The weights are those of a path tracer: 1 where s = 0 cannot find the light. */
+/* Add a path to the sums of its sample. The weights are those of a path tracer: 1 if s = 0 cannot find the light. */
 static void add_path(void *context, const struct pixel_sample *sample, const struct joined *path)
 {
     double *x = context, added = rgb_luminance(path->added);
@@ -48,7 +48,7 @@ static void measure(struct probe *p, int64_t k, int x, int y, int thread)
     }
 }
 
-/* From moments that are means over pixels, relative to their brightness. */
+/* The credit, from means over pixels of moments relative to the pixel's brightness. */
 static double credit_of(const struct pixel_sums *pixel, int64_t n, enum sum i, double all)
 {
     double square = 0, sequence = 0;

@@ -1,10 +1,10 @@
-/* extent.c: the pass that looks where eye vertices are; see training.h. */
+/* extent.c: the pass that finds the box of the eye vertices; see training.h. */
 #include <stdlib.h>
 
 #include "learning/training.h"
 
 enum { EXTENT_PATHS = 1024 };
-static const double OUTSIDE = 0.01; /* share of vertices beyond either side of the extent, along each axis */
+static const double OUTSIDE = 0.01; /* share of vertices outside the box, on each side of each axis */
 
 struct extent {
     double *along[3]; /* [n] coordinates of vertices, owned */
@@ -40,7 +40,7 @@ static int by_size(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
-/* Between which coordinates on one axis most vertices are; as they were if there are none. */
+/* The box on one axis; *low and *high stay as they are if there is no vertex. */
 static void find_ends(double *x, size_t n, double *low, double *high)
 {
     size_t outside = (size_t)(OUTSIDE * (double)n);

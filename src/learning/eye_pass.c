@@ -1,14 +1,14 @@
-/* eye_pass.c: the pass that looks where the camera can use light (importance.h), and which lights are seen from there
- * (guide.h); see training.h. */
+/* eye_pass.c: the pass that learns how much light the camera can use from a place (importance.h), and which lights the
+ * place sees (guide.h); see training.h. */
 #include "learning/training.h"
 #include "transport/connect.h"
 
-enum { LIGHTS_PER_VERTEX = 2 };        /* light points tried from each eye vertex for the guide */
+enum { LIGHTS_PER_VERTEX = 2 };        /* number of light points that each eye vertex tries, for the guide */
 static const double GUIDE_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
 
 struct eye_pass {
-    struct tables tables; /* so far */
-    struct guide_sums lights; /* NULL sums: no guide is wanted */
+    struct tables tables; /* learnt so far */
+    struct guide_sums lights; /* its sums are NULL if there is to be no guide */
 };
 
 static void trace(const struct pass *p, int thread, long i, struct findings *out)

@@ -4,8 +4,8 @@
 #include "base/number.h"
 #include "learning/training.h"
 
-/* The budget: eye sub-paths for each pixel, and between which numbers; how many light sub-paths at most, and where
- * nothing but the mean number of their vertices is asked for. */
+/* The budget: the least and the largest number of eye sub-paths, and their number per pixel; the largest number of
+ * light sub-paths, and their number if only the mean number of their vertices is needed. */
 enum { LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LIGHT_MOST = 16 * 1024, LIGHT_COUNTED = 4 * 1024 };
 static const double LEARN_PER_PIXEL = 4;
 

@@ -1,13 +1,13 @@
-/* learn.h: look at a scene before it is rendered, and keep what was found (tables.h).
+/* learn.h: learn tables about a scene before it is rendered (tables.h).
  *
- * The contract. A fixed number of sub-paths is traced, LEARN_PER_PIXEL for each pixel of the picture between
- * LEARN_LEAST and LEARN_MOST eye sub-paths and at most as many light sub-paths, whatever number of samples is asked
- * for: a picture that is continued, or made in parts, is made by one and the same estimator. Memory is bounded: 1024
- * eye regions and 2048 light regions, 64 MiB while learning and a quarter of that after it. job->watch sees it go on
- * and may end it: then there is what was found so far, which is a valid, if poor, thing to have learnt. Tables are not
- * stored: every render learns them anew.
+ * Learning traces a fixed number of eye sub-paths: LEARN_PER_PIXEL for each pixel of the image, but at least
+ * LEARN_LEAST and at most LEARN_MOST. It traces at most as many light sub-paths. The number does not depend on the
+ * number of samples, so an image that is continued or rendered in parts has one estimator. Memory is bounded: 1024 eye
+ * regions and 2048 light regions, 64 MiB while learning and a quarter of that afterwards. job->watch may end learning
+ * early. Then the tables have fewer sub-paths, which is valid but noisier. Tables are not stored: every render learns
+ * them again.
  *
- * Passes, each over sub-paths of its own, are in training.h.
+ * The passes are in training.h. Each has its own sub-paths.
  *
  * Tests: test_asbdpt.c (same result for any number of threads, unbiased renders), test_learning.c.
  */
@@ -17,13 +17,13 @@
 #include "tables/tables.h"
 #include "transport/tile_pass.h"
 
-/* What is to be learnt. Light vertices are counted in any case. */
+/* What to learn. Light vertices are always counted. */
 struct learn_options {
     bool importance, guide, pairs;
-    double emission; /* delta of emission, which needs importance; 1: it is not to be learnt */
-    int eye_cells, light_cells; /* regions along the diagonal of where vertices are */
+    double emission; /* delta of emission, which needs importance; 1: do not learn it */
+    int eye_cells, light_cells; /* number of regions along the diagonal of the box of vertices */
     int levels;                 /* of regions */
-    double delta;               /* of the pairs, and of what guides their trials */
+    double delta;               /* of the pairs, and of the choice of their trials */
 };
 
 /* learn: the tables; tables_free releases them. */

@@ -1,13 +1,13 @@
-/* light_pass.c: the pass that looks which light sub-paths are of use to the camera (emission.h), and the one that looks
- * where vertices lie of sub-paths that leave by that table; see training.h. */
+/* light_pass.c: the pass that learns which light sub-paths the camera can use (emission.h), and the pass that counts
+ * the vertices of sub-paths that start by that table; see training.h. */
 #include "learning/training.h"
 
-static const double FIRST_VERTEX = 0.2; /* what the first vertex of a light sub-path counts for in emission */
+static const double FIRST_VERTEX = 0.2; /* factor of the first vertex of a light sub-path in its worth */
 
 /* --- emission ---------------------------------------------------------------------------------------- */
 
-/* What a light sub-path is worth says how others should begin. Its first vertex counts little: what comes from there is
- * what s = 1 finds as well. */
+/* The worth of a light sub-path is that of its first ray. Its first vertex has a small factor, because s = 1 finds the
+ * same light. */
 static void trace_emission(const struct pass *p, int thread, long i, struct findings *out)
 {
     const struct importance *importance = &p->counts.tables->importance;
@@ -42,7 +42,7 @@ struct tables train_emission(struct training *t, struct tables known, long n, do
 
 /* Sums over the connectible vertices of light sub-paths. */
 struct light_pass {
-    struct tables tables; /* so far */
+    struct tables tables; /* learnt so far */
     double vertices, E;
     long n; /* sub-paths */
 };
@@ -73,7 +73,7 @@ static void take_vertex(void *context, const struct finding *f)
         importance->vertices[region] += 1.0 / (double)l->n;
 }
 
-/* Walks are not to look up regions, which this pass adds: of the tables they have emission alone. */
+/* This pass adds regions, so its walks must not look them up: the only table of the walks is emission. */
 struct tables train_vertices(struct training *t, struct tables known, long first, long n)
 {
     struct light_pass l = {.tables = known, .n = n};

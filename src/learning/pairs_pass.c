@@ -1,7 +1,7 @@
-/* pairs_pass.c: the pass that tries connections between regions (pairs.h); see training.h.
+/* pairs_pass.c: the pass that makes trial connections between regions (pairs.h); see training.h.
  *
- * An eye vertex is connected to a few vertices of a pool of light sub-paths, drawn by how much the camera can use where
- * they are.
+ * An eye vertex is connected to a few vertices of a pool of light sub-paths. They are drawn in proportion to the
+ * importance of their places (importance.h) and luminance(beta).
  */
 #include <stdlib.h>
 
@@ -11,8 +11,8 @@
 #include "transport/connect.h"
 
 enum {
-    POOL = 64, /* light sub-paths of a chunk */
-    TRIALS = 4 /* connections tried from each eye vertex */
+    POOL = 64, /* number of light sub-paths of a chunk */
+    TRIALS = 4 /* number of trial connections of each eye vertex */
 };
 
 /* A light vertex that trials may draw. */
@@ -21,12 +21,12 @@ struct end {
     double L, useful; /* luminance(beta); (1 - delta) E / mean + delta, see importance.h */
 };
 
-/* What the trials of a chunk draw from. */
+/* The light vertices of a chunk, from which its trials draw. */
 struct trial_pool {
     struct arena arena; /* of all that follows */
     struct vertex *vertex;
     struct end *end;
-    double *before; /* [n] sum of L useful of the ends before it */
+    double *before; /* [n], sum of L times `useful` over the ends before it */
     int n;
     double total;
 };
@@ -52,7 +52,7 @@ static void add_end(const struct pass *p, struct trial_pool *pool, const struct 
     pool->total += L * useful;
 }
 
-/* The light sub-paths of the chunk whose first eye sub-path is number `chunk`: a name no other chunk has. */
+/* Trace the light sub-paths of a chunk. `chunk` is the number of its first eye sub-path, which no other chunk has. */
 static void fill_pool(const struct pass *p, struct trial_pool *pool, long chunk)
 {
     size_t most = POOL * ((size_t)p->training->job->max_depth + 1);
@@ -72,8 +72,8 @@ static void fill_pool(const struct pass *p, struct trial_pool *pool, long chunk)
     }
 }
 
-/* Connect z to a few light vertices. The worth of a pair falls as 1/d^2, so that near ones would hide all others: the
- * square of a quarter of a region's width is added to that d^2. */
+/* Connect z to a few light vertices. The worth of a pair falls as 1/d^2, so a mean would consist of the nearest pairs
+ * alone. We therefore add the square of a quarter of a region's width to d^2. */
 static void try_vertex(const struct pass *p, const struct trial_pool *pool, const struct vertex *z,
                        struct sampler *sampler, struct findings *out)
 {

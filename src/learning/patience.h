@@ -1,6 +1,6 @@
-/* patience.h: may learning go on? job->watch says so, one call at a time: whenever a chunk of work is counted, and,
- * since a chunk may take long, before a path of any thread that has not asked for a fiftieth of a second. After the
- * first no it is not asked again. In a scene without light the answer is no from the beginning.
+/* patience.h: may learning continue? Learning asks job->watch, one call at a time, after each chunk of work. Since a
+ * chunk may take long, each thread also asks before a path if it has not asked for a fiftieth of a second. After the
+ * first no, nobody asks again. In a scene without lights the answer is no from the beginning.
  *
  * Tests: test_learning.c.
  */
@@ -13,7 +13,7 @@
 struct patience {
     const struct render_job *job;
     struct os_lock *lock;
-    double traced; /* sub-paths counted so far */
+    double traced; /* number of sub-paths so far */
     bool over;
 };
 
@@ -21,10 +21,10 @@ struct patience patience_begin(const struct render_job *job);
 void patience_end(struct patience *p);
 
 /* patience_lasts: thread-safe.
- *   asked  in-out, of the thread: when it last asked job->watch, by the clock; 0 at first */
+ *   asked  in-out, of the thread: the time at which it last asked job->watch, in seconds; 0 at first */
 bool patience_lasts(struct patience *p, double *asked);
 
-/* patience_count: so many sub-paths more; does it last? Thread-safe. */
+/* patience_count: count `traced` more sub-paths, and ask. Thread-safe. */
 bool patience_count(struct patience *p, double traced);
 
 #endif

@@ -15,7 +15,7 @@ void findings_add(struct findings *list, struct finding f)
     list->item[list->n++] = f;
 }
 
-/* A pass while it runs. */
+/* A running pass. */
 struct run {
     const struct pass *pass;
     struct findings *found; /* [n_slots] */

@@ -1,8 +1,8 @@
-/* training.h: the passes that fill the tables, and what they have in common: sub-paths are traced in chunks on all
- * threads, each chunk lists what it found, and the lists are added up in order (parallel.h): sums and the numbers of
- * regions are the same for any number of threads.
+/* training.h: the passes that fill the tables. All threads trace sub-paths, in chunks. Each chunk makes a list of
+ * findings, and the lists are added up in order (parallel.h). So sums and the numbers of regions are the same for any
+ * number of threads.
  *
- * A pass is a function from tables to tables that know more. Its walks go by tables that do not change meanwhile.
+ * A pass is a function from tables to tables with more in them. The tables that its walks use do not change meanwhile.
  */
 #ifndef ASBDPT_TRAINING_H
 #define ASBDPT_TRAINING_H
@@ -11,13 +11,13 @@
 #include "tables/tables.h"
 #include "transport/tile_pass.h"
 
-/* Something a sub-path found. */
+/* One result of a sub-path. */
 struct finding {
     enum { EYE_VERTEX, LIGHT_SEEN, RAY_LEFT, LIGHT_VERTEX, TRIAL } kind;
     vec3 p;              /* of a vertex */
-    uint64_t eye, light; /* regions_key of its place as an eye vertex, as a light vertex; TRIAL: of either end's */
+    uint64_t eye, light; /* regions_key of the place, for eye and for light regions; TRIAL: of the eye and light end */
     int cell;            /* LIGHT_SEEN, RAY_LEFT: the light cell */
-    double u[2];         /* RAY_LEFT: where in emission's square */
+    double u[2];         /* RAY_LEFT: point of the square of emission.h */
     double x; /* vertices: luminance of beta; LIGHT_SEEN: contribution; RAY_LEFT, TRIAL: worth */
     double w; /* TRIAL: weight */
 };
@@ -27,10 +27,10 @@ struct findings {
     size_t n, capacity;
 };
 
-/* findings_add: unless it is nothing, or of no use for sums. */
+/* findings_add: add a finding, unless its value is zero, not finite or too large for sums. */
 void findings_add(struct findings *list, struct finding f);
 
-enum { CHUNK = 256 }; /* sub-paths per chunk */
+enum { CHUNK = 256 }; /* number of sub-paths of a chunk */
 
 struct training {
     const struct render_job *job;
@@ -41,12 +41,12 @@ struct training {
 /* A pass over sub-paths first .. end-1. */
 struct pass {
     struct training *training;
-    struct mis_counts counts; /* any, for no weights are used; and what walks and connections know, counts.tables */
+    struct mis_counts counts; /* of any values, since no weight is used; and counts.tables for walks and connections */
     long first, end;
-    void *context; /* of the pass, for: */
-    /* list what sub-path number i finds, in the thread's workspace; */
+    void *context; /* of the pass, for `trace` and `take` */
+    /* List the findings of sub-path number i, which is traced in the thread's workspace. */
     void (*trace)(const struct pass *p, int thread, long i, struct findings *out);
-    /* take in a finding. */
+    /* Add a finding to the sums of the pass. */
     void (*take)(void *context, const struct finding *f);
 };
 static inline struct mis_counts any_counts(const struct tables *known)
@@ -54,33 +54,33 @@ static inline struct mis_counts any_counts(const struct tables *known)
     return (struct mis_counts){.direct = {1, 1}, .direct_delta = {1, 1}, .tables = known};
 }
 
-/* pass_run: all of it, unless patience ends. */
+/* pass_run: run the whole pass, unless patience ends. */
 void pass_run(const struct pass *p);
 
-/* pass_eye: eye sub-path number i, through point i of an even sequence over the film, into the thread's workspace;
- * *sampler goes on with its numbers, those of (i, stream). pass_light: light sub-path number i into path
- * [max_depth + 1], its lobes into `arena`. Both return its length. */
+/* pass_eye: trace eye sub-path number i into the thread's workspace, through point i of a low-discrepancy sequence over
+ * the film. *sampler can be used further; its stream is (i, stream).
+ * pass_light: trace light sub-path number i into path [max_depth + 1], its lobes into `arena`.
+ * Both return the number of vertices. */
 enum stream { STREAM_EYE, STREAM_LIGHT, STREAM_POOL, STREAM_EXTENT };
 int pass_eye(const struct pass *p, int thread, long i, enum stream stream, struct sampler *sampler);
 int pass_light(const struct pass *p, struct arena *arena, long i, enum stream stream, struct vertex *path);
 
 /* --- the passes -------------------------------------------------------------------------------------- */
 
-/* train_extent: the box in which most eye vertices are. */
+/* train_extent: the box that contains most eye vertices. */
 void train_extent(struct training *t, vec3 *low, vec3 *high);
 
-/* train_importance: regions and means by n eye sub-paths; importance if there is room for E, the guide if it is
- * wanted. */
+/* train_importance: add regions from n eye sub-paths, importance if E is allocated, and the guide if `guide`. */
 struct tables train_importance(struct training *t, struct tables known, long n, bool guide);
 
-/* train_emission: by light sub-paths 0 .. n-1; delta of emission_build. train_vertices: means over light vertices, by n
- * more from number `first` on; if there is room for them, also the vertices of each light region, new ones among
- * them. */
+/* train_emission: from light sub-paths 0 .. n-1; `delta` is that of emission_build.
+ * train_vertices: means over the light vertices of n sub-paths from number `first` on. If `vertices` of importance.h is
+ * allocated, also the vertices of each light region, and new regions. */
 struct tables train_emission(struct training *t, struct tables known, long n, double delta);
 struct tables train_vertices(struct training *t, struct tables known, long first, long n);
 
-/* train_pairs: by connections tried from eye sub-paths first .. first+n-1; delta of pairs_build, and the share of
- * trials that do not look at importance. */
+/* train_pairs: from trial connections of the eye sub-paths first .. first+n-1. `delta` is that of pairs_build, and the
+ * share of trials that are chosen without importance. */
 struct tables train_pairs(struct training *t, struct tables known, long first, long n, double delta);
 
 #endif

@@ -1,4 +1,4 @@
-/* usefulness.c: are light sub-paths worth tracing in this scene? See probe.h. */
+/* usefulness.c: are light sub-paths worth their time in this scene? See probe.h. */
 #include <stdlib.h>
 
 #include "base/number.h"
@@ -6,20 +6,20 @@
 
 enum { LEAST_PIXELS = 512, MOST_PIXELS = 4096 };
 static const double SHARE_OF_PIXELS = 0.25;
-static const double CLIP_TAIL = 1e4; /* of a pixel's sum: nothing else warns of a path tracer's fireflies */
+static const double CLIP_TAIL = 1e4; /* bound of a pixel's sum; large, because only this sum shows fireflies */
 
-/* The samples of a pixel: FIRST and OTHER with different random numbers, AGAIN with FIRST's and other counts. */
+/* The samples of a pixel. OTHER has other random numbers than FIRST; AGAIN has those of FIRST and other counts. */
 enum render { FIRST, OTHER, AGAIN };
 
 struct pixel {
     double value[2];  /* luminance of FIRST and OTHER, t >= 2 */
-    double direct[2]; /* of that, direct light */
-    double splats;    /* sum of squares of what FIRST contributes with t = 1 */
-    double tail, direct_tail; /* sums of X^2 (1/P - 1): of paths of three edges or more, and of direct light */
+    double direct[2]; /* the part of it that is direct light */
+    double splats;    /* sum of squares of the contributions of FIRST with t = 1 */
+    double tail, direct_tail; /* sums of X^2 (1/P - 1): paths of three edges or more; direct light */
 };
 
 struct path {
-    double x, weight; /* of FIRST */
+    double x, weight; /* in FIRST */
 };
 
 struct usefulness {
@@ -27,11 +27,11 @@ struct usefulness {
     struct pixel *pixel; /* [n] */
 };
 
-/* One pixel, while its samples are taken. */
+/* Data of one pixel while it takes its samples. */
 struct notes {
     struct pixel *pixel;
     enum render render;
-    struct path *path; /* [n] of FIRST, in their order; AGAIN has come to number `next`; owned */
+    struct path *path; /* [n], paths of FIRST in their order; `next` is the number that AGAIN makes next; owned */
     size_t n, next;
 };
 
@@ -41,7 +41,7 @@ static void add_tail(struct notes *n, const struct joined *now)
     double w = now->c->weight;
     int edges = now->s + now->t - 1;
     if (edges < 2 || !(before->weight > 0) || !(w > 0))
-        return; /* light seen directly has one strategy */
+        return; /* light that the camera sees directly has one strategy */
     double P = clamp((now->s <= 1 ? 2 : 1) * before->weight / w - 1, 1e-6, 1);
     *(edges == 2 ? &n->pixel->direct_tail : &n->pixel->tail) += sqr(before->x) * (1 / P - 1);
 }
@@ -52,7 +52,7 @@ static void note(void *context, const struct pixel_sample *sample, const struct 
     double x = rgb_luminance(path->added);
     (void)sample;
     if (!(rgb_luminance(path->c->value) > 0))
-        return; /* of both samples alike */
+        return; /* both samples leave it out */
     if (n->render == AGAIN) {
         add_tail(n, path);
         return;
@@ -99,7 +99,7 @@ bool light_paths_useful(const struct render_job *job)
     for (const struct pixel *x = u.pixel; x < u.pixel + p.n; x++) {
         double scale = probe_scale((x->value[0] + x->value[1]) / 2, all);
         variance += fmin(sqr(x->value[0] - x->value[1]) / 2 / scale, PROBE_CLIP);
-        variance += fmin(x->splats / probe_scale(all, all), PROBE_CLIP); /* they land anywhere */
+        variance += fmin(x->splats / probe_scale(all, all), PROBE_CLIP); /* they land on any pixel */
         tail += fmin(x->tail / scale, CLIP_TAIL);
         direct += fmin(sqr(x->direct[0] - x->direct[1]) / 2 / scale, PROBE_CLIP);
         direct_square += fmin((sqr(x->direct[0]) + sqr(x->direct[1])) / 2 / scale, PROBE_CLIP);

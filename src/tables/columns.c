@@ -27,7 +27,8 @@ void light_columns_free(struct light_columns *c)
     free(c->before);
 }
 
-/* Rounding may carry a target to or past the end of what it is to be found in: there the last of power > 0 is meant. */
+/* Rounding may move a target to the end of the sums or beyond. Then the result is the last column or cell of power >
+ * 0. */
 int light_columns_draw(const struct light_columns *c, const struct light_set *lights, const double *before, double u,
                        int *column)
 {

@@ -30,15 +30,15 @@ void emission_sums_add(struct emission_sums *s, int cell, const double u[2], dou
 
 /* --- the table --------------------------------------------------------------------------------------- */
 
-/* The mean of n squares, leaning on the m above; emission.h. */
+/* The mean of n squares, regularised towards m_above (emission.h). */
 static double shrunk(double sum, double n, double above)
 {
-    const double K = 4; /* rays that m_above counts for */
+    const double K = 4; /* number of rays that m_above counts as */
     return (sum + K * above) / (n + K);
 }
 
-/* m of a column's bins: of the column, then of its 2 x 2, 4 x 4 and 8 x 8 parts, each from the part that holds it; n
- * rays left the column in all. */
+/* m of the bins of a column with n rays: first of the column, then of its 2 x 2, 4 x 4 and 8 x 8 parts, each from the
+ * part that contains it. */
 static void mean_squares(const double *square, double n, double above, double *m)
 {
     m[0] = shrunk(sum_of(square, BINS), n, above);
@@ -52,7 +52,7 @@ static void mean_squares(const double *square, double n, double above, double *m
     }
 }
 
-/* The sums of a column's rows; their sum is returned. */
+/* Write the sums of a column's rows; returns their sum. */
 static double sum_rows(const double *q, double row[SIDE])
 {
     for (int i = 0; i < SIDE; i++)
@@ -91,7 +91,7 @@ void emission_free(struct emission *e)
 
 /* --- use --------------------------------------------------------------------------------------------- */
 
-/* Into which of SIDE parts the uniform number u falls; it becomes, again uniform, the place in all of them. */
+/* Draw one of SIDE parts with the uniform number u, which becomes the point in [0,1), uniform within that part. */
 static int fall(const double *part, double *u)
 {
     double rest = *u * sum_of(part, SIDE);
@@ -102,7 +102,7 @@ static int fall(const double *part, double *u)
     return i;
 }
 
-/* rho / q = B / e, the same for all bins of a column; 0 if it is dark. */
+/* rho / q = B / e, the same for all bins of a column; 0 if its power is 0. */
 static double per_q(const struct emission *e, int column)
 {
     return e->columns.power[column] > 0 ? BINS / e->columns.power[column] : 0;

@@ -30,7 +30,7 @@ void guide_sums_add(struct guide_sums *s, const struct regions *regions, int reg
 
 /* --- the tables -------------------------------------------------------------------------------------- */
 
-/* t of every region in place of its sums, each from that of the region above it. */
+/* Replace the sums of every region by its t, computed from the t of the region above. */
 static void find_shares(const struct guide_sums *s, const struct regions *regions)
 {
     const double K = 8;
@@ -68,7 +68,7 @@ void guide_free(struct guide *g)
 
 /* --- use --------------------------------------------------------------------------------------------- */
 
-/* The sums of a region; NULL: nothing is known of it. */
+/* The cumulative sums of a region; NULL if the table is empty. */
 static const double *row_of(const struct guide *g, int region)
 {
     if (region >= g->n)
@@ -107,7 +107,7 @@ double guide_density(const struct guide *g, const struct light_set *lights, int 
         return 1;
     if (cell >= 0 && !(lights->n_infinite > 1 && lights->light[lights->light_of_cell[cell]].kind == LIGHT_INFINITE))
         return ratio_of_cell(g, before, cell);
-    /* An escaping ray cannot tell infinite lights apart: their densities are added (light.h). */
+    /* An escaping ray meets all infinite lights: their densities add up (light.h). */
     double guided = 0, by_power = 0;
     for (int i = 0; i < lights->n_infinite; i++) {
         double pdf = light_pdf_towards(lights, lights->infinite[i], w, &cell);

@@ -1,7 +1,8 @@
-/* importance.h: where in space can the camera make use of light?
+/* importance.h: how much light the camera can use from a place.
  *
- * E of a region (regions.h) is the sum of the luminances of the throughputs with which eye sub-paths arrive there:
- * large where many or strong ones pass. A light vertex y is worth about luminance(beta_y) E(region of y).
+ * E of a region (regions.h) is the sum of luminance(beta) over the eye vertices in the region. It is large if many eye
+ * sub-paths, or such of high throughput, arrive there. The worth of a light vertex y is about
+ * luminance(beta_y) E(region of y).
  *
  * Tests: test_asbdpt.c.
  */
@@ -11,15 +12,15 @@
 #include <stddef.h>
 
 struct importance {
-    /* [limit of the light regions], owned; NULL: not looked for */
+    /* [limit of the light regions], owned; NULL: not learnt */
     double *E;
-    double *vertices; /* N of pairs.h: connectible vertices of a light sub-path, each in the finest region it lies in */
-    /* Means over sub-paths: */
-    double light_vertices; /* connectible vertices of a light sub-path altogether */
-    double mean;           /* sum of E over the vertices of a light sub-path */
+    double *vertices; /* N of pairs.h: mean number of connectible vertices of a light sub-path, by finest region */
+    /* Means over light sub-paths: */
+    double light_vertices; /* number of connectible vertices */
+    double mean;           /* sum of E over the connectible vertices */
 };
 
-/* importance_in: E of a region, >= 0; 0 where no eye sub-path came. */
+/* importance_in: E of a region, >= 0; 0 if no eye sub-path arrived there. */
 static inline double importance_in(const struct importance *importance, int region)
 {
     return importance->E != NULL ? importance->E[region] : 0;

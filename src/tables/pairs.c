@@ -7,7 +7,7 @@
 #include "base/alias.h"
 #include "base/mem.h"
 
-static const double KAPPA = 4; /* trials of mean weight that the pair above counts for */
+static const double KAPPA = 4; /* number of trials of mean weight that the pair above counts as */
 
 void pair_sums_init(struct pair_sums *s, const struct regions *eye, const struct regions *light)
 {
@@ -19,7 +19,7 @@ void pair_sums_init(struct pair_sums *s, const struct regions *eye, const struct
 
 static size_t number_of(const struct regions *light, int e, int y) { return (size_t)e * (size_t)light->n + (size_t)y; }
 
-/* The pair above: both one level up, or the finer one alone until they are of the same level. False at the top. */
+/* The pair above: both regions one level up; if their levels differ, only the finer one. False at the top. */
 static bool pair_above(const struct regions *eye, const struct regions *light, int *e, int *y)
 {
     const struct region *re = &eye->region[*e], *ry = &light->region[*y];
@@ -42,10 +42,10 @@ void pair_sums_add(struct pair_sums *s, const struct regions *eye, const struct 
     } while (pair_above(eye, light, &e, &y));
 }
 
-/* m(e,l) of all pairs in place of the sums of w x. A pair comes after the one above it. */
+/* Replace the sums of w x by m(e,l), in an order in which the pair above comes first. */
 static void find_means(const struct pair_sums *s, const struct regions *eye, const struct regions *light)
 {
-    double *m = s->worth, prior = s->trials > 0 ? KAPPA * s->weight[0] / s->trials : 1; /* all count in the top pair */
+    double *m = s->worth, prior = s->trials > 0 ? KAPPA * s->weight[0] / s->trials : 1; /* all are in the top pair */
     for (int e = 0; e < eye->n; e++)
         for (int y = 0; y < light->n; y++) {
             int e_above = e, y_above = y;

@@ -14,7 +14,7 @@ enum { AXIS_BITS = 19, FACE_SHIFT = 3 * AXIS_BITS, LEVEL_SHIFT = FACE_SHIFT + 3 
 
 void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_levels, int limit)
 {
-    const double SHIFT = 0.3819660112501051; /* of a cube; 2 minus the golden ratio */
+    const double SHIFT = 0.3819660112501051; /* in cubes; 2 minus the golden ratio */
     vec3 size = sub(high, low);
     double diagonal = sqrt(length2(size));
     memset(r, 0, sizeof *r);
@@ -39,7 +39,7 @@ void regions_free(struct regions *r)
     free(r->region);
 }
 
-/* 1..6, the axis and sign a unit normal is nearest to; 7 of none. */
+/* 1..6: the axis and sign nearest to a unit normal; 7 if there is no normal. */
 static uint64_t face_of(vec3 n)
 {
     double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
@@ -58,7 +58,7 @@ uint64_t regions_key(const struct regions *r, vec3 p, vec3 side)
     return face_of(side) << FACE_SHIFT | x << 2 * AXIS_BITS | y << AXIS_BITS | z;
 }
 
-/* The region of the next level that holds it: all coordinates halved. */
+/* The key of the region of the next level that contains it: all coordinates halved. */
 static uint64_t key_above(uint64_t key)
 {
     const uint64_t HALF = ((uint64_t)1 << (AXIS_BITS - 1)) - 1, XYZ = ((uint64_t)1 << FACE_SHIFT) - 1;
@@ -66,7 +66,7 @@ static uint64_t key_above(uint64_t key)
     return (key >> 1 & HALVES) | ((key & ~XYZ) + ((uint64_t)1 << LEVEL_SHIFT));
 }
 
-/* The slot that holds the key, or the free one where it belongs. */
+/* The slot of the key, or the free slot for it. */
 static struct region_slot *slot_of(const struct regions *r, uint64_t key)
 {
     size_t mask = r->n_slots - 1, i = (size_t)hash_mix(key) & mask;
@@ -75,7 +75,7 @@ static struct region_slot *slot_of(const struct regions *r, uint64_t key)
     return &r->slot[i];
 }
 
-/* A region of the given level, after those that hold it. */
+/* Add a region of the given level, after those that contain it. */
 static int add_region(struct regions *r, uint64_t key, int level)
 {
     if (slot_of(r, key)->key == key)

@@ -1,10 +1,10 @@
-/* regions.h: surface points sorted into regions of the scene, so that something can be learnt about each.
+/* regions.h: regions of surface points, about which something can be learnt.
  *
- * Space is cut into cubes, and a cube is split by the side that surfaces in it face: the two sides of a wall have
- * nothing in common (vertex_side of vertex.h says on which of them a walk is). Cubes come in levels, each twice as wide
- * as the one below; a region that was never met is represented by the finest known one that holds it, at last by the
- * whole scene, which is region 0. Only regions met so far exist, in a hash table with open addressing; they are
- * numbered in the order they were met, those of all levels together, a region after those that hold it.
+ * Space is divided into cubes, and the surface points in a cube are divided by the direction of their normals, because
+ * the two sides of a wall have different light (vertex_side of vertex.h chooses the side). The cubes of a level are
+ * twice as wide as those of the level below. A hash table with open addressing has only those regions that a vertex has
+ * been found in. Another point belongs to the finest known region that contains it, or to region 0, the whole scene.
+ * Regions of all levels are numbered in the order in which they are added, a region after those that contain it.
  */
 #ifndef ASBDPT_TABLES_REGIONS_H
 #define ASBDPT_TABLES_REGIONS_H
@@ -20,7 +20,7 @@ struct region_slot {
 };
 
 struct region {
-    int above; /* the region of the next level that holds it; -1 for region 0 */
+    int above; /* the region of the next level that contains it; -1 for region 0 */
     int level; /* 0: the finest; n_levels: region 0 */
 };
 
@@ -29,30 +29,30 @@ struct regions {
     double per_metre;         /* cubes of level 0 per unit of length */
     int last[3];              /* the last cube along each axis */
     int n_levels;             /* 1 .. REGION_LEVELS */
-    int limit;                /* no more regions than these */
+    int limit;                /* largest number of regions */
     struct region_slot *slot; /* [n_slots], owned */
-    size_t n_slots;           /* a power of 2, at least 2 limit; 0: no regions, region 0 stands for all */
+    size_t n_slots;           /* a power of 2, at least 2 limit; 0: there is only region 0 */
     struct region *region;    /* [limit], owned */
-    int n;                    /* regions known, of all levels, >= 1 */
+    int n;                    /* number of regions of all levels, >= 1 */
 };
 
 enum { REGION_LEVELS = 4 };
 
-/* regions_init: the whole scene only; `cells` cubes of level 0 along the diagonal of the box from `low` to `high`. What
- * lies outside it joins the outermost cubes. They are shifted by an irrational share of a cube, so that floors and
- * tables at round heights do not straddle two. */
+/* regions_init: start with region 0 alone. The diagonal of the box from `low` to `high` is `cells` cubes of level 0
+ * long. Points outside the box belong to the outermost cubes. Cubes are shifted by an irrational fraction of their
+ * width, so that a floor or table at a round height does not lie on the border of two. */
 void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_levels, int limit);
 void regions_free(struct regions *r);
 
-/* regions_key: names the region of level 0 of a surface point, `side` being the unit normal of the side it is on, or,
- * 0, of a point within a medium, which has none. */
+/* regions_key: the key of the region of level 0 of a surface point. `side` is the unit normal of its side, or 0 for a
+ * point within a medium. */
 uint64_t regions_key(const struct regions *r, vec3 p, vec3 side);
 
-/* regions_add: the number of a region of level 0, a new one, with those that hold it, if it was never met; beyond the
- * limit that of the finest known region that holds it. */
+/* regions_add: the number of a region of level 0. If it is new, add it and those that contain it. If that exceeds the
+ * limit, return the finest known region that contains it. */
 int regions_add(struct regions *r, uint64_t key);
 
-/* regions_find: the number of the finest known region that holds it. */
+/* regions_find: the number of the finest known region that contains the region of a key. */
 int regions_find(const struct regions *r, uint64_t key);
 
 /* region_at: the same for a surface point. */
