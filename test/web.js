@@ -1,0 +1,107 @@
+// web.js: what web.sh asks of the page that renders, in the page itself. NATIVE: sums of the native program's pixels.
+const wrong = [], check = (ok, text) => { if (!ok) wrong.push(text); };
+const sleep = ms => new Promise(done => setTimeout(done, ms));
+const until = async (what, text) => {
+  for (let i = 0; i < 1800; i++) {
+    if (what()) return;
+    await sleep(100);
+  }
+  check(false, 'waited in vain for: ' + text + ' ' + $('error').textContent);
+};
+const turn = (id, value) => { $(id).value = value; $(id).dispatchEvent(new Event('input', { bubbles: true })); };
+const sum = bytes => bytes.reduce((s, v) => (s * 31 + v) % 1000003, 0);
+const done = () => sides.every(s => s.done);
+async function rendered(settings) {
+  for (const [id, value] of settings) turn(id, value);
+  await sleep(400); // the page waits for the last of several changes
+  await until(done, 'the end of a render with ' + settings.join(' '));
+}
+(async () => {
+  await until(() => SCENES.length > 0, 'the unpacked scenes');
+  check(SCENES.length === 10 && SCENES.includes('rooms'), 'scenes: ' + SCENES);
+  await until(() => sides.every(s => s.worker), 'its start');
+  check($('reference').width > 20 && $('select').length === 18, 'reference and methods');
+  turn('scale', 2);
+  turn('spp', 4);
+  await rendered([['scene', 'cornell-box'], ['select', 'vertices']]);
+  for (const [i, side] of sides.entries()) {
+    check(side.points.length === 16, `side ${i}: ${side.points.length} pictures of 16`);
+    check(side.points[15][1] < 0.5 * side.points[0][1], `side ${i}: the error does not fall: ` +
+      side.points.map(p => p[1].toFixed(1)));
+    check(Math.abs(side.points[15][2]) < 4, `side ${i}: the mean is off by ${side.points[15][2]} %`);
+    check($(`picture${i}`).width === 64 && $(`caption${i}`).textContent.includes('16 of 16'), `side ${i}: caption`);
+    const data = $(`picture${i}`).getContext('2d').getImageData(0, 0, 64, 64).data;
+    check(new Set(data).size > 100, `side ${i}: the picture is empty`);
+  }
+  await sleep(200);
+  check($('plot0').querySelectorAll('path').length > 6 && $('plot1').querySelectorAll('path').length > 4, 'plots');
+  check($('verdict').textContent.includes('times that of bdpt'), 'verdict');
+
+  // The sliders reach the renderer: other numbers, other pictures; only those that the choice has can be moved.
+  const before = sum(sides[1].last.pixels), error = sides[1].points[15][1];
+  check(!$('connections').disabled && $('binpaths').disabled && $('restart').disabled, 'sliders of vertices');
+  await rendered([['connections', 16]]);
+  check(sum(sides[1].last.pixels) !== before, 'connections change nothing');
+  check(sides[1].points[15][1] < error, 'more connections do not lower the error');
+  await rendered([['spp', 3], ['connections', 0], ['select', 'bins'], ['binpaths', 4], ['restart', 4]]);
+  check($('connections').disabled && !$('binpaths').disabled && !$('restart').disabled, 'sliders of bins');
+  sides.forEach((side, i) => check(sum(side.last.pixels) === NATIVE[i], `side ${i}: other bytes than the program`));
+  const bins = sum(sides[1].last.pixels);
+  await rendered([['binpaths', 8]]);
+  check(sum(sides[1].last.pixels) !== bins, 'binpaths change nothing');
+  await rendered([['binpaths', 4], ['restart', 0]]);
+  check(sum(sides[1].last.pixels) !== bins, 'restart changes nothing');
+
+  // Pause: the pictures stand still, and no more come, until it ends; then they go on, and the pause is no time.
+  await rendered([['spp', 2], ['select', 'vertices']]);
+  turn('spp', 12);
+  await sleep(300);
+  await until(() => sides.every(s => s.points.length > 2 && !s.done), 'a long render');
+  $('pause').click();
+  const said = $('caption0').textContent;
+  await sleep(2000); // a picture that was under way
+  const then = sides.map(s => s.points.length);
+  await sleep(3000);
+  check(sides.every((s, i) => s.points.length === then[i]), 'a pause does not stop: ' + then);
+  check($('caption0').textContent === said, 'a pause does not hold: ' + said);
+  $('pause').click();
+  await until(() => sides.every((s, i) => s.points.length > then[i] + 1), 'the render after a pause');
+  check($('caption0').textContent !== said, 'after a pause nothing new');
+  check(sides[0].points[then[0]][0] - sides[0].points[then[0] - 1][0] < 3, 'a pause is counted as time');
+
+  // A link sets controls. The means that leave the plot are not drawn at its edge.
+  location.hash = '#scene=rooms&select=bins&spp=5&scale=2';
+  await sleep(400);
+  await until(done, 'the scene of a link');
+  check($('scene').value === 'rooms' && $('select').value === 'bins' && sides[1].points.length > 0, 'a link');
+  sides[0].points[1][2] = 1e6;
+  plot();
+  const path = $('plot1').querySelector('path[stroke="#1d5fbf"]').getAttribute('d');
+  check(!/e|NaN/.test(path) && path.split('M').length > 2, 'a mean outside is drawn: ' + path.slice(0, 60));
+  location.hash = '#scene=cornell-box&select=bins&spp=3&scale=2&binpaths=4&restart=0';
+  await sleep(400);
+  await until(done, 'the box again');
+
+  // A click shows a sample that brings light, and the button the next one.
+  for (const [i, words] of [[0, /pixel 32,16, sample \d+: bdpt/], [1, /pixel 32,16, sample \d+: asbdpt/]]) {
+    const box = $(`picture${i}`).getBoundingClientRect();
+    $(`picture${i}`).dispatchEvent(new MouseEvent('click', { bubbles: true,
+      clientX: box.left + 32.5 / 64 * box.width, clientY: box.top + 16.5 / 64 * box.height }));
+    await until(() => words.test($('story').textContent), words);
+    check($('story').textContent.endsWith('outside the picture\n'), 'the story is cut');
+    await until(() => $('drawing').naturalWidth > 1000, 'the drawing');
+  }
+  check(/the pixel's bins/.test($('choice').textContent), 'the choice is not told');
+  const first = Number($('sample').value);
+  check(!/receives 0 0 0/.test($('story').textContent), 'the first sample shown brings nothing');
+  $('next').click();
+  await until(() => Number($('sample').value) > first && /^The pixel rec/m.test($('story').textContent), 'the next');
+  check(!/receives 0 0 0/.test($('story').textContent), 'the next sample brings nothing');
+  $('sample').value = 5;
+  $('sample').dispatchEvent(new Event('change'));
+  await until(() => $('story').textContent.includes('sample 5'), 'another sample');
+  check(document.documentElement.scrollWidth <= window.innerWidth + 1, 'the page is wider than the window');
+  check(performance.getEntriesByType('resource').every(e => /^(data|blob):/.test(e.name)), 'the page loads something');
+  check($('error').textContent === '', 'it says: ' + $('error').textContent);
+})().catch(e => wrong.push(String(e))).then(() =>
+  console.log('WEB ' + (wrong.length ? 'WRONG: ' + wrong.join('; ') : 'ALL RIGHT') + ' END'));
