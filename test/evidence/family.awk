@@ -13,7 +13,7 @@ function begin(name) { section = name; open = 0 }
 /^\|/ && section == "bring" {
     split($0, cell, / *\| */)
     if (cell[2] == "method") {
-        print "== bring\n| method | the choice alone: rmse8 | relmse | 8x8 | services bring: rmse8 | relmse | 8x8 |"
+        print "== bring\n| method | choice alone, rmse8 | relmse | 8x8 | techniques, rmse8 | relmse | 8x8 |"
         print "|---|---:|---:|---:|---:|---:|---:|"
     } else if (cell[2] in alone && cell[2] !~ /^-/)
         print "| " cell[2] " | " alone[cell[2]] " | " cell[3] " | " cell[4] " | " cell[5] " |"
