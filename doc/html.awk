@@ -197,7 +197,8 @@ BEGIN {
     print "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" title "</title>"
     print "<link rel=\"stylesheet\" href=\"" root "/style.css\"></head><body" (source ? " class=\"source\"" : "") ">"
     if (nav != "0") print "<nav><a href=\"" root "/README.html\">asbdpt</a> <a href=\"" root "/doc/tour/README.html\">tour</a> " \
-        "<a href=\"" root "/doc/course/README.html\">course</a> <a href=\"" root "/doc/tour/glossary.html\">glossary</a></nav>"
+        "<a href=\"" root "/doc/course/README.html\">course</a> <a href=\"" root "/doc/tour/glossary.html\">glossary</a> " \
+        "<a href=\"" root "/doc/README.html\">all pages</a></nav>"
     if (source) print "<h1>" title "</h1><pre>"
 }
 source { printf "<span id=\"L%d\" class=\"n\">%4d</span> %s\n", FNR, FNR, title ~ /\.[ch]$/ ? colour($0) : escape($0); next }
