@@ -463,7 +463,7 @@ expect 2 'alpha: the samples of mmlt are a chain' "$lab" render lamps.pbrt --int
 expect 0 '' "$lab" trace lamps.pbrt --res 24x16 --spp 4 --worst 3 --json
 check [ "$(grep -c '"sample"' stdout.txt)" = 3 ]
 expect 0 '' "$lab" trace lamps.pbrt --res 24x16 --spp 4 --worst 1 --svg worst.svg
-check grep -q 'SAMPLES\|bring most' stdout.txt
+check grep -q 'SAMPLES\|contribute most' stdout.txt
 check [ -s worst.svg ]
 expect 1 'no pixel has one to tell of' "$lab" trace lamps.pbrt --res 4x4 --spp 4 --worst 1 --integrator pssmlt
 

@@ -2,7 +2,7 @@
 # words_test.sh: does words.sh find what is wrong in pages and sources, and nothing else?
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
-mkdir "$dir/lists" "$dir/src" "$dir/doc"
+mkdir -p "$dir/lists" "$dir/src" "$dir/doc" "$dir/test/lab"
 printf '150 doc/short.md doc/more.md\n- doc/*.md\n175 all\n' >"$dir/lists/limits.txt"
 printf '# comment\nbut for = except\nlamps? = light\nwhoever needs = anyone who needs\n' >"$dir/lists/phrases.txt"
 printf 'doc/good.md | lamps | an exception\n' >"$dir/lists/exceptions.txt"
@@ -16,7 +16,8 @@ repeat() { awk -v count="$1" -v text="$2" 'BEGIN { while (count-- > 0) printf "%
     printf '<!-- measured: lamp -->\n| a lamp |\n<!-- end -->\n| many-lamps.pbrt |\n'
     printf '\n    but for\n\n```\nlamp\n```\n'
 } >"$dir/doc/good.md"
-printf '#include "lamp.h"\n/* A light. */\nchar *lamp = "\\"good", c = %s, lamp;\n' "'\"'" >"$dir/src/good.c"
+printf '#include "lamp.h"\n/* A light, `lamp` of lamp.h. */\nchar *lamp = "\\"good", c = %s, lamp;\n' "'\"'" \
+    >"$dir/src/good.c"
 words || { echo "words.sh finds something in what is good:"; cat "$dir/told"; exit 1; }
 
 {

@@ -7,7 +7,7 @@
  *     cannot tell  otherwise,
  *     not judged   where what is here is not the paper's method; the ratio is shown all the same.
  * Three intervals are looked at and all must agree, so of claims that are only as good as their number at most one in
- * forty is found. The table says how many that would be of all that are judged. [Popov 2015] makes no claim here: its
+ * forty is found. The table has how many that would be of all that are judged. [Popov 2015] makes no claim here: its
  * bound of the variance is missing.
  *
  * Tests: test_equal_time.c.

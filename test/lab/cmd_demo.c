@@ -27,7 +27,7 @@ static const struct option OPTIONS[] = {
     {"--scale", "K", OPTION_INTEGER, AT(plan.scale), 1, 64, .fallback = "1",
      .help = "the pictures are K times as wide and high as the reference"},
     {"--reference", "PATH", OPTION_TEXT, AT(plan.reference),
-     .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene, else rendered)"},
+     .help = "picture, or directory of NAME.pfm (default: ref/ next to the scene, else rendered)"},
     {"--nthreads", "N", OPTION_INTEGER, AT(plan.n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
     {"--seed", "N", OPTION_SEED, AT(plan.seed), .fallback = "0", .help = "another set of random numbers"},
     {"--quiet", NULL, OPTION_ON, AT(plan.quiet), .help = "no messages"},

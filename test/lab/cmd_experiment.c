@@ -48,7 +48,7 @@ static const struct option SHARED[] = {
      .help = "longest path, 1 = direct light"},
     {"--res", "WIDTH[xHEIGHT]", OPTION_WIDTH, AT(res), 1, 8192, .help = "size, or width alone"},
     {"--reference", "PATH", OPTION_TEXT, AT(plan.reference),
-     .help = "picture, or directory of NAME.pfm (default: ref/ beside the scene if of it, else rendered)"},
+     .help = "picture, or directory of NAME.pfm (default: ref/ next to the scene if of it, else rendered)"},
     {"--reference-spp", "N", OPTION_INTEGER, AT(plan.reference_spp), 4, 1 << 24,
      .help = "samples of one rendered here (default: at equal time as many as the first method's, of all seeds)"},
     {"--nthreads", "N", OPTION_INTEGER, AT(plan.n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},

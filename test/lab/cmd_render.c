@@ -6,7 +6,7 @@
 #include "lab/commands.h"
 #include "lab/methods.h"
 
-/* What a chain does not show: its samples are neither a pixel's own nor independent. */
+/* What a chain does not show: its samples are not a pixel's own, and not independent. */
 static const char *of_samples(const struct job_options *o)
 {
     return o->aov != NULL && strstr(o->aov, "variance") != NULL ? "--aov variance"

@@ -1,4 +1,4 @@
-/* cmd_trace.c: asbdpt-lab trace SCENE --pixel X,Y: one sample of a pixel, or those that bring most, told in full. See
+/* cmd_trace.c: asbdpt-lab trace SCENE --pixel X,Y: one sample of a pixel, or those that contribute most, in full. See
  * trace_report.h. */
 #include <stdio.h>
 
@@ -20,7 +20,7 @@ static const struct option OPTIONS[] = {
     {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "of the film, 0,0 top left"},
     {"--sample", "K", OPTION_INTEGER, AT(sample), 0, 1 << 30, .fallback = "0", .help = "which, from 0"},
     {"--worst", "N", OPTION_INTEGER, AT(worst), 1, WORST_MOST,
-     .help = "instead, the N samples of a render that bring most to a pixel, found by rendering"},
+     .help = "instead, the N samples of a render that contribute most to a pixel, found by rendering"},
     {"--all", NULL, OPTION_ON, AT(all), .help = "every vertex, density and connection, and what the columns mean"},
     {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
     {"--svg", "FILE", OPTION_TEXT, AT(svg), .written = true, .help = "also draw the paths within the scene"},
@@ -30,8 +30,8 @@ static const struct option OPTIONS[] = {
 static void print_worst(const struct worst *w, const struct film *film, double film_scale)
 {
     double scale = film_scale / (double)film->iterations;
-    printf("The samples that bring most to a pixel, in luminance of the picture:\n\n"
-           "      brings  of pixel's      pixel   by sample\n");
+    printf("The samples that contribute most to a pixel, in luminance of the picture:\n\n"
+           "   luminance  of pixel's      pixel   by sample\n");
     for (int i = 0; i < w->n; i++) {
         const struct brought *b = &w->item[i];
         size_t row = (size_t)(b->to_y - film->rect.y0), column = (size_t)(b->to_x - film->rect.x0);

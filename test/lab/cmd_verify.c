@@ -39,7 +39,7 @@ static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), .help = "a scene file"},
     {"--methods", "A,B", OPTION_TEXT, AT(methods),
      .help = METHODS_HELP " (default: " METHOD_REFERENCE " and the scene's, or " METHOD_PARTNER ")"},
-    {"--reference", "R.pfm", OPTION_TEXT, AT(reference), .help = "a picture, beside R.error.pfm, instead of B"},
+    {"--reference", "R.pfm", OPTION_TEXT, AT(reference), .help = "an image, with R.error.pfm next to it, instead of B"},
     {"--images", "FILE...", OPTION_LIST, AT(images), .help = "pictures, each followed by its standard errors"},
     {"--files", "FILE...", OPTION_LIST, AT(files), .help = "pictures that differ in nothing but their seeds"},
     {"--against", "FILE...", OPTION_LIST, AT(against), .help = "the pictures of the other side"},
@@ -206,7 +206,7 @@ static void print_verdict(const struct verdict *v, const struct side *a, const s
     printf("verdict: %s (p = %.3g at level %g)\n", v->p >= alpha ? "agree" : "DIFFER", v->p, alpha);
 }
 
-/* The same values and errors: no test can tell them apart, nor from pictures made with the same random numbers. What is
+/* The same values and errors: no test can tell them apart, or from pictures made with the same random numbers. What is
  * not finite is the same as nothing. */
 static bool identical(const struct batches *a, const struct batches *b)
 {

@@ -169,13 +169,13 @@ static void write_notes(FILE *f, const struct results *e)
     plan_write_command(f, e->plan);
 }
 
-/* What services bring to each method that has any: with them over without. */
+/* What shared techniques contribute to each method that has any: with them over without. */
 static void services_table(FILE *f, const struct results *e)
 {
     const struct methods *m = &e->plan->methods;
     int n;
     struct table t =
-        table_begin(f, "What services bring: squared error of a method with all of them over that of the same without, "
+        table_begin(f, "What shared techniques contribute: squared error of a method with all over that without, "
                     "after the same CPU time, geometric mean over scenes with its 95 %% interval");
     table_column(&t, "method");
     square_columns(&t);

@@ -1,4 +1,4 @@
-/* family.h: methods beside each other at equal time (equal.h): what `asbdpt-lab equal-time` and `family` write.
+/* family.h: methods compared at equal time (equal.h): what `asbdpt-lab equal-time` and `family` write.
  *
  * Files: a page of Markdown, runs.csv with every picture's errors, family.svg with the ratios to the first method and
  * their intervals, and images/SCENE.png with all pictures and their errors; where there are both halves (methods.h),

@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-/* xml_print: printf for markup: what stands for %s is escaped, the format is not. Beside %s it knows %d, %ld, %f, %g
+/* xml_print: printf for markup: the text for %s is escaped, the format is not. It also knows %d, %ld, %f, %g
  * with flags, width and precision, and no %%. */
 void xml_print(FILE *f, const char *format, ...);
 

@@ -2,7 +2,7 @@
  *
  * Every picture is a record of the store (store.h): of a scene, a method with its settings, a seed, a size and a number
  * of samples; so is every price. What is there is not measured again, whichever command left it there; what was
- * interrupted goes on where it stopped. A scene or a method that makes another picture begins anew; a program that
+ * interrupted goes on where it stopped. A scene or a method that makes another picture begins again; a program that
  * is only faster does not notice: delete store/ to measure its prices again.
  *
  * Pictures after a rising number of samples come from one film, so that a run yields a whole convergence curve.

@@ -9,7 +9,7 @@
 #include "cli/job_options.h"
 #include "render/parameters.h"
 
-/* Set what stands after the colons. False with a message if something there is no NAME=VALUE. */
+/* Set the parameters after the colons. False with a message if something there is no NAME=VALUE. */
 static bool set_pairs(const char *text, struct settings *out, struct error *err)
 {
     for (const char *p = strchr(text, ':'); p != NULL; p = strchr(p, ':')) {

@@ -41,7 +41,7 @@ struct plan {
     int n_threads;
     bool quiet;
     const char *directory; /* where everything is written; NULL: nothing is kept */
-    const char *reference; /* file or directory of stored references; NULL: ref/ beside the scene */
+    const char *reference; /* file or directory of stored references; NULL: ref/ next to the scene */
     const char *command;   /* that carries it out again, without -o and scenes */
 };
 

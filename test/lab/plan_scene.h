@@ -25,7 +25,7 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
 
 /* plan_scene_load: the same at the plan's size and depth, with its stored reference. Where the plan leaves the width
  * open, size and depth are the reference's; without one the width is 0, with a warning. What is
- * found beside the scene is taken only if it says that it is of this scene, size and depth.
+ * found next to the scene is taken only if it says that it is of this scene, size and depth.
  *   name    what the reference is called
  *   stored  out, to be given to reference_free; its pixels are NULL where there is none, or none that fits
  * Returns false with a message, also when a reference was given that cannot be used; then the scene is not to be

@@ -28,7 +28,7 @@ void reference_free(struct reference *r)
     memset(r, 0, sizeof *r);
 }
 
-/* --- the text beside the picture --------------------------------------------------------------------- */
+/* --- the text of a picture --------------------------------------------------------------------- */
 
 static void read_line(char *line, struct reference *r)
 {
@@ -40,7 +40,7 @@ static void read_line(char *line, struct reference *r)
         snprintf(r->origin, sizeof r->origin, "%.1199s", line + 7);
 }
 
-/* What NAME.txt beside NAME.pfm says; a missing file says nothing. */
+/* Reads NAME.txt next to NAME.pfm; a missing file is empty. */
 static void read_text(const char *picture, struct reference *r)
 {
     char path[PATH_SIZE], line[2048];
@@ -85,7 +85,7 @@ static bool read_noise(const char *path, struct reference *r, struct error *err)
     return ok;
 }
 
-/* Read one picture, and the text beside it. False with a message if it is damaged. */
+/* Read one picture, and its text. False with a message if it is damaged. */
 static bool load(const char *path, struct reference *out, struct error *err)
 {
     struct image about;
@@ -140,7 +140,7 @@ bool reference_is_of(const struct reference *r, const struct scene *scene, bool 
 
 enum { N_PLACES = 2 };
 
-/* Where a reference may be without being given: beside the scene, or one directory up. */
+/* Where a reference may be without being given: next to the scene, or one directory up. */
 static void place_path(int i, const char *scene_path, const char *name, char path[PATH_SIZE])
 {
     static const char *const places[N_PLACES] = {"ref", "../ref"};

@@ -1,6 +1,6 @@
 /* reference.h: the picture that errors are measured against, and how far it may itself be off.
  *
- * A stored reference is a picture NAME.pfm with, beside it, an optional text NAME.txt of lines "key value", of which
+ * A stored reference is a picture NAME.pfm with an optional text NAME.txt of lines "key value", of which
  *     content     H   the scene it is of: the hash of its files, hexadecimal, as the parts of its renders have it
  *     files     H H   hashes of NAME.pfm and NAME.error.pfm: a file with another hash is refused
  *     maxdepth    N   it holds paths up to this length
@@ -35,7 +35,7 @@ struct reference {
 };
 
 /* reference_find: read the stored reference of a scene.
- *   given  a file, a directory that holds NAME.pfm, or NULL to look for ref/NAME.pfm beside the scene and one
+ *   given  a file, a directory that holds NAME.pfm, or NULL to look for ref/NAME.pfm next to the scene and one
  *          directory up; then out->pixels is NULL if there is none
  * Returns false with a message when it cannot be read, is damaged, or holds NaN. */
 bool reference_find(const char *given, const char *scene_path, const char *name, struct reference *out,

@@ -1,4 +1,4 @@
-/* report.h: everything an experiment leaves in its directory beside its runs: numbers, pictures, plots, and the tables
+/* report.h: everything an experiment leaves in its directory with its runs: numbers, pictures, plots, and the tables
  * with all these as one page of Markdown, which doc/html.sh makes HTML of.
  *
  * Tests: test_report.c.

@@ -67,7 +67,7 @@ struct results {
 void results_free(struct results *r);
 
 /* results_pairs: the squares of n >= 3 seeds from their pairs, as above.
- *   half  [n*n] half squared differences, of which those beside the diagonal are read;  out  [n] */
+ *   half  [n*n] half squared differences, of which those next to the diagonal are read;  out  [n] */
 void results_pairs(const double *half, int n, double *out);
 
 /* results_csv: runs.csv. */
@@ -104,7 +104,7 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb, 
 struct interval results_mean_log(const double *log, int n);
 
 /* results_over_first: a method over the first after the same number of samples: rmse8, the dissertation's comparison;
- * or squared error times seconds, what a method has paid for the inverse of its variance, as the squared error falls as
+ * or squared error times seconds, the cost of the inverse of its variance, as the squared error falls as
  * one over the time. */
 struct interval results_over_first(const struct scene_results *s, int method, int step, bool paid);
 

@@ -1,4 +1,4 @@
-/* rows.c: the methods of asbdpt-lab: the renderer's (src/render/rows.c), and those that they are measured beside. */
+/* rows.c: the methods of asbdpt-lab: the renderer's (src/render/rows.c), and those that they are compared with. */
 #include "render/methods.h"
 
 extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,

@@ -98,7 +98,7 @@ static bool render_batch(const struct scene *scene, const struct render_options 
     return ok;
 }
 
-/* Seeds of the batches: hashes, so that neither the two sides nor a picture rendered with a seed that somebody typed,
+/* Seeds of the batches: hashes, so that no other side, and no picture rendered with a seed that somebody typed,
  * such as a stored reference, shares random numbers with a batch. */
 static uint64_t batch_seed(uint64_t seed, int side, int batch)
 {

@@ -47,7 +47,7 @@ long side_choose_spp(const struct scene *scene, const struct render_options *opt
 /* side_choose_tile: side of tiles that are large enough for means that are nearly normal, and not too many. */
 int side_choose_tile(const struct side *s);
 
-/* What is told of a stored reference beside its pixels. */
+/* What is told of a stored reference, besides its pixels. */
 struct provenance {
     const char *note, *scene_path;
     uint64_t content; /* of the scene's files */

@@ -15,7 +15,7 @@
 #include "base/number.h"
 #include "base/vec.h"
 
-static const double TINY = 1e-300; /* stands in for a zero denominator in Lentz's method */
+static const double TINY = 1e-300; /* instead of a zero denominator in Lentz's method */
 enum { MAX_TERMS = 1000000 };      /* sqrt(a) times a few are needed: enough for 10^10 degrees of freedom */
 
 /* --- special functions ------------------------------------------------------------------------------- */

@@ -1,9 +1,9 @@
 /* stats.h: distribution functions and hypothesis tests, the yardsticks of the test suite and of `compare`.
  *
  * Every test returns a p-value: the probability, were the hypothesis true, of data at least as extreme. With a NaN
- * among the data it is NaN, which neither agrees nor differs: say `p >= level` where agreement is wanted, `p < level`
- * where a difference is, and take the smallest of several with least_of (numbers.h).
- * Tests: test_stats.c (published tables).
+ * among the data it is NaN, which does not agree and does not differ: say `p >= level` where agreement is wanted, `p <
+ * level` where a difference is, and take the smallest of several with least_of (numbers.h). Tests: test_stats.c
+ * (published tables).
  */
 #ifndef ASBDPT_LAB_STATS_H
 #define ASBDPT_LAB_STATS_H

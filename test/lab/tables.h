@@ -1,4 +1,4 @@
-/* tables.h: the tables of an experiment, beside the dissertation's numbers.
+/* tables.h: the tables of an experiment, with the dissertation's numbers.
  *
  * Tests: test_report.c (cells equal a direct computation).
  */

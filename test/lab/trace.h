@@ -41,7 +41,7 @@ struct trace {
     struct film_number number[FILM_NUMBERS]; /* what it has chosen for itself, ended by a NULL name */
 };
 
-/* A trace starts as zeros but for the sample to watch. trace_free releases what it owns. */
+/* A trace starts as zeros, except the sample to watch. trace_free releases what it owns. */
 void trace_free(struct trace *trace);
 
 /* trace_render: render one pixel sample, the one named in trace->x, y and iteration, exactly as render_scene with these

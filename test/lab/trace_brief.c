@@ -3,7 +3,7 @@
 
 #include "lab/trace_report.h"
 
-enum { TOLD = 3 }; /* connections, those that bring most */
+enum { TOLD = 3 }; /* connections, those that contribute most */
 
 /* "lens, mirror (delta), matte": what a walk met, in its order. */
 static void print_walk(FILE *f, const struct scene *scene, const struct trace_path *path)
@@ -17,7 +17,7 @@ static void print_walk(FILE *f, const struct scene *scene, const struct trace_pa
 
 static bool is_splat(const struct trace_connection *c) { return c->t == 1; }
 
-/* The connection that brings most to the pixel, of those below `limit` and behind it in their order; NULL: none. */
+/* The connection that contributes most to the pixel, of those below `limit` and after it in order; NULL: none. */
 static const struct trace_connection *next_most(const struct trace *t, const struct trace_connection *limit)
 {
     const struct trace_connection *found = NULL;

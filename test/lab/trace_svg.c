@@ -235,7 +235,7 @@ static bool is_free(const struct view *v, const double box[4])
     return true;
 }
 
-/* The name of a vertex at (x,y): beside it where no other name is, or to the upper right if there is no such place. */
+/* The name of a vertex at (x,y): next to it where no other name is, or to the upper right if there is no such place. */
 static void draw_name(FILE *f, const struct view *v, double x, double y, const char *colour, const char *name)
 {
     enum { HEIGHT = 16, AROUND = 12 };

@@ -202,7 +202,7 @@ void trace_text(FILE *f, const struct trace_story *s)
         fprintf(f, "  none in this sample\n");
     fprintf(f,
             "\n  chosen  probability of the draw, where there was a choice\n"
-            "  C*      what one sample of the strategy alone would bring, not weighted: W/(m^2 sr)\n"
+            "  C*      what one sample of the strategy alone would contribute, not weighted: W/(m^2 sr)\n"
             "  times   1/number of samples, filter weight (%.4g here), 1/probability of the choice where that is made "
             "up for\n"
             "  weight  share of the strategy in multiple importance sampling; of one path they add up to 1 over (s,t)\n"

@@ -15,7 +15,7 @@
 
 enum {
     RESAMPLINGS = 299,
-    MANY = 1000 /* stands in for the number of batches of a picture whose error is known */
+    MANY = 1000 /* instead of the number of batches of a picture whose error is known */
 };
 
 struct batches batches_new(int n_batches, long n, bool with_error)

@@ -14,7 +14,7 @@
  * the deviations of the batches from their mean, each batch multiplied by a random sign ("wild bootstrap" [Liu 1988]).
  * Kolmogorov's distribution is stretched until its 90 % quantile is the one found that way.
  *
- * Welch's test takes the means of batches for nearly normal. Where a rare sample brings most of the light they are not:
+ * Welch's test takes the means of batches for nearly normal. Where a rare sample has most of the light they are not:
  * in a dark pixel of a Markov chain, or of few samples, all batches may miss it alike, and then even equal expectations
  * DIFFER. Such tiles are others with another --seed, and none with larger tiles or more samples; a bias stays.
  *

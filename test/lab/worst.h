@@ -1,4 +1,4 @@
-/* worst.h: which samples are worth telling of: those of a render that bring most to a pixel, by observers.
+/* worst.h: which samples are worth telling of: those of a render that contribute most to a pixel, by observers.
  *
  * Tests: test_trace.c.
  */
@@ -7,7 +7,7 @@
 
 #include "render/render.h"
 
-/* What a sample brings to one pixel: its own, or, of its light sub-path, another. */
+/* What a sample contributes to one pixel: its own, or, of its light sub-path, another. */
 struct brought {
     double luminance;
     int x, y; /* the sample */
@@ -15,8 +15,8 @@ struct brought {
     int to_x, to_y; /* the pixel */
 };
 
-/* The samples that bring most to a pixel, each with its most, in that order; equal ones by iteration and pixel: what is
- * in the list does not depend on the order of offers. All zeros but for `most`: empty. */
+/* The samples that contribute most to a pixel, each with its most, in that order; equal ones by iteration and pixel:
+ * what is in the list does not depend on the order of offers. All zeros except `most`: empty. */
 enum { WORST_MOST = 64 };
 struct worst {
     int n, most; /* 1 <= most <= WORST_MOST */

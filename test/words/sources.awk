@@ -1,4 +1,5 @@
-# sources.awk: the comments and strings of C files, as pages.awk does it for pages. All are of the kind "source".
+# sources.awk: the comments and strings of C files, as pages.awk does it for pages. All are of the kind "source"; code
+# in backquotes and names of files become one word.
 FNR == 1 { comment = 0 }
 {
     gsub(/'\\?.'/, "0")
@@ -16,6 +17,7 @@ FNR == 1 { comment = 0 }
             line = substr(line, RSTART + RLENGTH)
         } else line = ""
     }
+    gsub(/`[^`]*`|[a-z_0-9-]+\.(c|h|sh|awk|md|pbrt)/, "CODE", text)
     gsub(/\t/, " ", text)
     print FILENAME "\t" FNR "\tsource\t" text
 }

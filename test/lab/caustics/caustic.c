@@ -154,13 +154,13 @@ struct makers {
     double connect, hit, splat;
 };
 
-/* How the walk from the lens comes to z, whoever made the path. */
+/* How the walk from the lens comes to z, in any strategy. */
 struct arrival {
     vec3 wo;    /* unit, back to where it came from: not what a light sub-path's vertex calls so */
     double pdf; /* of z per area where t = 1 can make the path; else 0 */
 };
 
-/* J is the same both ways but for the squared ratio of the refractive indices at the ends. */
+/* J is the same both ways except for the squared ratio of the refractive indices at the ends. */
 static struct makers makers_of(const struct mis_counts *n, const struct quest *q, const struct specular_chain *c,
                                struct arrival at)
 {
@@ -350,15 +350,15 @@ struct one_more *caustics_new(const struct scene *scene, int longest)
     return NULL;
 }
 
-/* --- does it pay? ------------------------------------------------------------------------------------ */
+/* --- is it worth its cost? ------------------------------------------------------------------------------------ */
 
-/* A sample of the picture: what it brings, and what its square would be larger by without chains, by eye ends as in
- * `left`. */
+/* A sample of the picture: what it contributes, and what its square would be larger by without chains, by eye ends as
+ * in `left`. */
 struct trial {
     double brings, tail[2];
 };
 
-/* Without a chain of weight w, which brings X, the second moment is larger by X^2 / (1 - w); and others bring the rest
+/* Without a chain of weight w that contributes X, the second moment is larger by X^2 / (1 - w); others find the rest
  * of what the chain found, t = 1 with them, which is not tried. */
 static struct trial try_chains(const struct one_more *self, struct pixel_sample *sample, struct arena *arena,
                                const struct vertex *eye, int n)
@@ -388,7 +388,7 @@ static double relative_tail(const struct trial *trial, int n, int which)
 
 bool caustics_pay(struct one_more *self, const struct render_job *job, const struct mis_counts *counts)
 {
-    const double LEAST = 0.5; /* chains make a sample several times as dear */
+    const double LEAST = 0.5; /* chains make a sample several times as expensive */
     struct caustics *all = (void *)self;
     struct render_job other = *job;
     struct pixel_rect film = job->film_rect;

@@ -1,8 +1,8 @@
 /* caustic.h: caustic connections: a point that scatters joined to a light through mirrors and glass.
  *                                                              [Speierer 2018] [Hanika 2015]
- * Strategies that draw a point of a light do not pass delta vertices, so what a lamp behind a pane or a mirror casts is
- * left to chance hits of the lamp (s = 0) and to light sub-paths (t = 1); a point light's caustic seen in a mirror is
- * made by nobody. Here chains of k <= K delta vertices are sought between an eye vertex z and a point y drawn on a
+ * Strategies that draw a point of a light do not pass delta vertices, so what a light behind a pane or a mirror casts
+ * is left to chance hits of the light (s = 0) and to light sub-paths (t = 1); a point light's caustic seen in a mirror
+ * is made by nobody. Here chains of k <= K delta vertices are sought between an eye vertex z and a point y drawn on a
  * light (specular.h). Where the search starts decides which of several it finds, and is a function of z, y and of what
  * the chain is:
  *
@@ -22,13 +22,13 @@
  * density of y times the probability of looking for a chain of that kind,
  *     C* = beta_z f_z |cos| kappa_1 ... kappa_k Le |cos_y| / (J p_y)
  * The weights are the balance (or power) heuristic's. As densities of y they are p_y; of s = 0 p_z(w) |cos_y| / J times
- * the probability of choosing the lobes; of t = 1 p_emit(w_y) |cos_z| / J times the same: J, but for indices of
- * refraction, is the same both ways. At a focus, where J is 0, these two have all the weight.
+ * the probability of choosing the lobes; of t = 1 p_emit(w_y) |cos_z| / J times the same: J is the same both ways,
+ * except for indices of refraction. At a focus, where J is 0, these two have all the weight.
  *
- * Does it pay? A search costs tens of rays. The second moment of a sample would be larger by the sum of X^2 / (1 - w)
- * over the chains of weight w that bring X, if they were not made; a few hundred samples before the render say how much
- * that is, beside brightness. Where it is little, s = 0 and t = 1 are left to make those paths: those whose z the lens
- * sees, those whose z it sees by delta lobes, or both; but none that they cannot make.
+ * Is it worth its cost? A search costs tens of rays. The second moment of a sample would be larger by the sum of X^2 /
+ * (1 - w) over the chains of weight w that contribute X, if they were not made; a few hundred samples before the render
+ * say how much that is, compared with brightness. Where it is little, s = 0 and t = 1 are left to make those paths:
+ * those whose z the lens sees, those whose z it sees by delta lobes, or both; but none that they cannot make.
  *
  * Tests: test_caustic.c.
  */

@@ -1,4 +1,4 @@
-/* caustics.c: the method `caustics`: another, with caustic connections (caustic.h) where they pay.
+/* caustics.c: the method `caustics`: another, with caustic connections (caustic.h) where they are worth their cost.
  *
  * Tests: test_caustic.c.
  */
@@ -32,7 +32,7 @@ static void release(void *state)
 static const struct field PARAMETERS[] = {
     ONE_MORE_WITH(caustics_state),
     {"longest", FIELD_INTEGER, offsetof(struct caustics_state, longest), SPECULAR_LONGEST, 1, SPECULAR_LONGEST,
-     "most mirrors or glass surfaces between a first hit and a light that are joined, if it pays", NULL},
+     "most mirrors or glass surfaces between a first hit and a light that are joined, if it is worth its cost", NULL},
     {.name = NULL}};
 
 const struct method method_caustics = {

@@ -29,7 +29,7 @@ struct one_more {
                   const struct vertex *path, int s, int t, struct connection *c);
 };
 
-/* one_more_sum_eye: as pixel_sum_eye, s = 0 and s = 1, and what is made beside them. */
+/* one_more_sum_eye: as pixel_sum_eye, s = 0 and s = 1, and what is made in addition. */
 void one_more_sum_eye(struct pixel_sample *sample, struct arena *arena, const struct one_more *more,
                       const struct vertex *eye, int n);
 

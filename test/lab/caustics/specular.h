@@ -2,7 +2,7 @@
  * and whose ray, traced through the chain, arrives at y.
  *
  * The search. u being the direction from the chain's last vertex p to y, and d the one in which the ray goes on, the
- * sum of squares of d(w) - u(w) is minimised by Gauss and Newton, the step halved where it brings nothing. Its
+ * sum of squares of d(w) - u(w) is minimised by Gauss and Newton, the step halved where it is no nearer. Its
  * derivatives are those of a ray [Igehy 1999], by two directions across w; each step is a ray traced through the scene,
  * so what is found is visible. Bump maps are not differentiated: no chain goes over them.
  *

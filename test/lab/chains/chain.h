@@ -1,9 +1,9 @@
 /* chain.h: what the methods of Markov chains share: many samples that are each a small change of the one before.
  *
- * A state is what one sample brings: splats f, raster points with colours, of luminance I in all. A chain goes from
- * state to state by proposals that it accepts with a probability a, such that it comes to each state as often as
- * I says [Metropolis 1953]. Instead of one of the two, each gets its share: 1 - a is where the chain was, a where it
- * may go [V97 11.3.3]. So a state counts as f / I, and a picture of M mutations for P pixels is
+ * A state is what one sample contributes: splats f, raster points with colours, of luminance I in all. A chain goes
+ * from state to state by proposals that it accepts with a probability a, such that it comes to each state as often as I
+ * says [Metropolis 1953]. Instead of one of the two, each gets its share: 1 - a is where the chain was, a where it may
+ * go [V97 11.3.3]. So a state counts as f / I, and a picture of M mutations for P pixels is
  *     b / M sum f / I,   b = mean of I over independent states, luminance per unit of raster area,
  * times the area of the raster that states lie on, over P: filters reach beyond the picture.
  *

@@ -244,14 +244,14 @@ static struct mlt_move draw_move(struct chain *c, const struct mlt_path *path, e
 
 static bool in_raster(const double u[2]) { return u[0] >= 0 && u[0] < 1 && u[1] >= 0 && u[1] < 1; }
 
-/* Could the way back have this angle? */
+/* Could the reverse move have this angle? */
 static bool returns(const struct chain *c, const struct mlt_path *path, double angle)
 {
     double r = angle * mlt_pixels_per_angle(c, path);
     return angle < PI && r >= LEAST_OFFSET && r <= most_offset(c->all);
 }
 
-/* The moved path. Of what an eye walk makes anew nothing is asked again but the numbers. */
+/* The moved path. Of what an eye walk makes again only the numbers are needed. */
 static void keep_moved(struct chain *c, const struct mlt_path *old, enum mlt_perturbation which,
                        const struct strategy *to)
 {

@@ -10,7 +10,7 @@ enum mlt_perturbation { LENS_PERTURBATION, CAUSTIC_PERTURBATION, MLT_PERTURBATIO
 /* x_0 .. x_k, x_k being the lens. */
 struct mlt_path {
     struct arena arena; /* holds the rest */
-    struct path_stop *x; /* [k]; x_0 as vertex_light_end fills it in; those an eye walk makes anew may be out of date */
+    struct path_stop *x; /* [k]; x_0 as vertex_light_end fills it in; those of an eye walk may be out of date */
     int k, m, l;         /* see mlt.c; l is used where can[CAUSTIC_PERTURBATION] */
     bool can[MLT_PERTURBATIONS];
     double L[MLT_PERTURBATIONS]; /* below 0: not known yet */
@@ -27,7 +27,7 @@ struct mlt_move {
 struct mlt_move mlt_stay(const struct mlt_path *path, enum mlt_perturbation which);
 
 /* mlt_remake: make a path again by the strategy that belongs to a perturbation, which it allows, into the thread's
- * memory, and hear what it brings as `next`.
+ * memory, and hear what it contributes as `next`.
  *   to  out: the strategy; to->n is given
  * Returns L, 0 if it has become no path, or one of other delta lobes. */
 double mlt_remake(struct primary *p, const struct mlt_path *path, enum mlt_perturbation which,

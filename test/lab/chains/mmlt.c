@@ -1,8 +1,8 @@
 /* mmlt.c: multiplexed Metropolis light transport: a state is one strategy of bdpt.                    [Hachisuka 2014]
  *
  * A chain keeps the length of its paths, and one of its numbers says which of the strategies (s,t) that make such paths
- * is taken, so that it stays where a strategy's weight is large, and does not pay for the others. N strategies each
- * chosen with 1/N stand for their sum: a contribution counts N times. This is pbrt-v3's `mlt`.
+ * is taken, so that it stays where a strategy's weight is large, and does not spend time on the others. N strategies
+ * each chosen with 1/N stand for their sum: a contribution counts N times. This is pbrt-v3's `mlt`.
  *
  * Tests: test_chains.c.
  */

@@ -12,7 +12,7 @@ const struct field CHAIN_PARAMETERS[] = {
     {"starts", FIELD_INTEGER, offsetof(struct chains, starts), 0, 0, 1 << 24,
      "independent states (of each path length) of every chain, of which one is its start; 0: 256, or 64 of each", NULL},
     {"largestepprobability", FIELD_NUMBER, offsetof(struct chains, large_step), 0.3, 1e-3, 1,
-     "of a mutation that makes all anew", NULL},
+     "of a mutation that draws all numbers again", NULL},
     {.name = NULL}};
 
 /* Two numbers, normal with the given standard deviation.                                       [Box & Muller 1958] */
@@ -37,7 +37,7 @@ static void move(const struct tape *from, struct tape *to, double sigma, struct 
     to->n = from->n;
 }
 
-/* Numbers of one kind for `next`: plain random ones, but those of independent states, of which there are many, are of
+/* Numbers of one kind for `next`: plain random ones, but those of independent states, which are many, are of
  * low discrepancy from one to the next. */
 static struct sampler numbers(const struct chain *c, enum chain_stream stream, uint64_t key)
 {

@@ -1,10 +1,10 @@
 /* primary.h: states made of the random numbers that a sample consumes, and their small changes.       [Kelemen 2002 3]
  *
  * A mutation makes new numbers and leaves it to the sampling of bdpt to make a path of them. A large step makes all of
- * them anew; a small step moves each a little, around the ends of [0,1), which keeps numbers uniform and the way
- * back as likely as the way there, so that only the luminances decide. Where the new sample takes more numbers than the
- * old one had they are uniform, and what it does not take is forgotten: the way back would draw it anew. So both ways
- * have the density of the moves of those numbers that both samples have.
+ * them again; a small step moves each a little, around the ends of [0,1), which keeps numbers uniform and the reverse
+ * move as likely as the move, so that only the luminances decide. Where the new sample takes more numbers than the old
+ * one had they are uniform, and what it does not take is forgotten: the reverse move would draw it. So both ways have
+ * the density of the moves of those numbers that both samples have.
  *
  * Tests: test_chains.c.
  */
@@ -20,8 +20,8 @@ struct primary {
     struct sampler sampler[CHAIN_STREAMS];
 };
 
-/* primary_begin: numbers for c->next: those of c->now, moved (small), or fresh ones. What it brings is heard from
- * here on. primary_end: forget the numbers that the sample has not taken, and what it brings that is black or outside
+/* primary_begin: numbers for c->next: those of c->now, moved (small), or fresh ones. What it contributes is heard from
+ * here on. primary_end: forget the numbers that the sample has not taken, and contributions that are black or outside
  * the raster; sum up. */
 void primary_begin(struct primary *p, struct chain *c, bool small);
 void primary_end(struct primary *p);
@@ -30,7 +30,7 @@ void primary_end(struct primary *p);
 extern const struct field CHAIN_PARAMETERS[];
 
 /* primary_eye: an eye sub-path of at most n vertices through a raster point that is uniform over the raster.
- * primary_light: a light sub-path likewise. Both into the thread's memory, both return their lengths. */
+ * primary_light: the same of a light sub-path. Both into the thread's memory, both return their lengths. */
 int primary_eye(struct primary *p, int n, double *px, double *py);
 int primary_light(struct primary *p, int n);
 struct walk primary_walk(struct primary *p, enum chain_stream stream); /* theirs */
@@ -43,10 +43,10 @@ struct strategy {
 };
 
 /* primary_strategy: draw one for paths of c->next.length vertices, with sub-paths of just the vertices that it needs
- * and with bdpt's weight, and hear what it brings. Returns false if that is nothing. */
+ * and with bdpt's weight, and hear what it contributes. Returns false if that is nothing. */
 bool primary_strategy(struct primary *p, struct strategy *out);
 
-/* primary_bring: hear what a connection brings to out->px, py, or of t = 1 to where it arrives, which is set then. */
+/* primary_bring: hear what a connection contributes to out->px, py, or of t = 1 to where it arrives, which it sets. */
 bool primary_bring(struct primary *p, const struct connection *c, struct strategy *out);
 
 #endif

@@ -1,14 +1,14 @@
 /* mbdpt.c: matrix BDPT: the pairs of sub-paths are the elements of a matrix, from which a lattice is taken.
  *
- * Of the N eye and K light sub-paths of a tile and iteration, every pair joined by strategy (s,t) is an element of an
- * N x K matrix, whose mean is what the pixels are to receive together [Chaitanya 2018]. Its rows are sorted by the
- * eye sub-paths' first t vertices, its columns by the light sub-paths' first s, either by the length of these or by
- * the throughput at the last of them, which what a pair brings is proportional to, so that neighbouring elements are
- * alike, and a stratified choice is good for something. Chosen are the N elements
+ * Of the N eye and K light sub-paths of a tile and iteration, every pair joined by strategy (s,t) is an element of an N
+ * x K matrix, whose mean is what the pixels are to receive together [Chaitanya 2018]. Its rows are sorted by the eye
+ * sub-paths' first t vertices, its columns by the light sub-paths' first s, either by the length of these or by the
+ * throughput at the last of them, which the contribution of a pair is proportional to, so that neighbouring elements
+ * are alike, and a stratified choice is good for something. Chosen are the N elements
  *     row i,  column floor(K frac(i A / N + U)),    A prime to N, near N times the golden section,
  * a lattice [Roberts 2018] shifted at random: one in every row; with K = N one in every column, too. Given its row, a
  * column is uniform since U is, so each pixel is joined with one light sub-path, any equally likely, as in BDPT: its
- * expectation and its counts. What the stratification brings is that the errors of neighbours in path space cancel in
+ * expectation and its counts. The gain of stratification is that the errors of neighbours in path space cancel in
  * sums over pixels; a pixel's own variance is BDPT's.
  *
  * s = 0, s = 1 and t = 1 are no matrices of pairs and stay as they are, as the paper advises. How it sorts and

@@ -14,8 +14,8 @@
  * the camera sees, itself or in mirrors, is in no cluster: pixels share what lies behind it, so that edges stay sharp.
  * The grid lies elsewhere in every iteration.
  *
- * Light that comes over an edge has the length of the path that found it. To strategies and trace the first vertex is a
- * lamp.
+ * Light that comes over an edge has the length of the path that found it. To strategies and trace the first vertex is
+ * the light.
  *
  * Tests: test_rivals.c.
  */

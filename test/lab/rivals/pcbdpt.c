@@ -56,7 +56,7 @@ static const struct field PARAMETERS[] = {
     {"subpaths", FIELD_INTEGER, AT(ris.sub_paths), RECORDS_SUB_PATHS, 1, 1e6, "light sub-paths that are drawn from",
      NULL},
     {"records", FIELD_NUMBER, AT(ris.records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
-    {"normals", FIELD_NUMBER, AT(normals), 0.5, 0, 1e6, "what normals count beside places in looking for records",
+    {"normals", FIELD_NUMBER, AT(normals), 0.5, 0, 1e6, "weight of normals relative to places when records are sought",
      NULL},
     SERVICES(false, 1, false, RECORDS_TILE, 1),
     {.name = NULL}};

@@ -5,7 +5,7 @@
  * light vertex v of the pool
  *     h_c(v) = L_v luminance(f_v towards c) G(v,c) Vis(v,c),    PMF_c(v) = h_c(v) / sum h_c,
  * the BSDF at the record being left out, since at the eye vertex it is another. They see what a choice by power does
- * not: cosine, distance, and what stands between; they cost a shadow ray for every pair of a record and a vertex.
+ * not: cosine, distance, and visibility; they cost a shadow ray for every pair of a record and a vertex.
  *
  * Tests: test_rivals.c.
  */
@@ -20,7 +20,7 @@ enum { RECORDS_NEAR = 3, RECORDS_DEPTH = 5, RECORDS_TILE = MAX_TILE_SIZE, RECORD
 struct record {
     struct vertex z;
     double sum;           /* of h over the light vertices */
-    double expected;      /* of that over one light sub-path; whoever asks for it sets it */
+    double expected;      /* of that over one light sub-path; set by the caller that needs it */
     const double *h;      /* [V] */
     const double *before; /* [V] sum of h before each */
 };

@@ -3,7 +3,7 @@
  * Bitterli's reservoirs [Bitterli 2020] within one picture, without time. With f_i(y) the luminance of what light point
  * y, seen or not, would contribute at pixel i's first vertex (s = 1, t = 2):
  *  1. Each pixel draws M light points y with density p and keeps one in proportion to f_i / p [Talbot 2005]. If it is
- *     seen, it stands for the light with the weight
+ *     seen, it represents the light with the weight
  *         W_i = (1/f_i(y)) (1/M) sum f_i / p,    else W_i = 0:   E[h(y) W_i] = integral of h where f_i V_i > 0.
  *  2. Pixel c keeps one of its own reservoir and those of up to N pixels of the tile with a like surface, the set S,
  *     in proportion to f_c(y_j) W_j. Of the one kept, y from pixel s,
@@ -12,7 +12,7 @@
  *     without that what neighbours do not see comes out too dark.
  * Given the weights w, E[X] = integral of w F_c; they are BDPT's, but that s = 1, t = 2 counts for several samples. All
  * other strategies are BDPT's, with the pixel's own light sub-path. With M = 1, N = 0 and a worth of 1 the method is
- * BDPT but for the order in which it adds.
+ * BDPT except for the order in which it adds.
  *
  * Densities cancel in f / p, so p is never asked for: f stands for f / p below, p being that of the pixel that drew y.
  * A guide (services.h) may have another p in each. M says how many light points there are.

@@ -2,7 +2,7 @@
  *
  * Reservoirs for paths [Ouyang 2021] within one picture, without time, and unbiased. A path goes from the lens to the
  * pixel's first vertex z1, to z2, and on along a tail: a point on a light (s = 1), or a next vertex with all that the
- * walk finds from there on. With f_i(x) the luminance, weighed, of what z2 and tail x bring to pixel i:
+ * walk finds from there on. With f_i(x) the luminance, weighed, of what z2 and tail x contribute to pixel i:
  *  1. Each pixel i makes one eye sub-path, whose tails it offers, each with density p; one is kept in proportion to
  *     f_i / p, with the weight
  *         W_i = (1/f_i(x)) sum f_i / p:    E[h(x) W_i] = integral of h where f_i V_i > 0.
@@ -13,7 +13,7 @@
  *
  * Densities are of z2's area: a walk's, 1/sr, times g = |cos| / distance^2. The ratio of two pixels' g is the Jacobian
  * of taking over a direction; where it is below a tenth or above ten nothing is taken over, which m must know, too. How
- * z2 scatters is found anew for each pixel, and with it the weight of s = 0 against s = 1 there.
+ * z2 scatters is found again for each pixel, and with it the weight of s = 0 against s = 1 there.
  *
  * What does not go by z1 and z2 so that both scatter smoothly is path tracing's, as are all paths of pixels that are
  * alone: without neighbours the method is `pt` to the bit.

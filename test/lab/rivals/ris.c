@@ -1,4 +1,5 @@
-/* ris.c: resampled connections: a light vertex is drawn by one of the records nearby, and the weights know how well.
+/* ris.c: resampled connections: a light vertex is drawn by one of the records nearby, and the weights take into account
+ * how well.
  *
  * An eye vertex chooses one of the three records next to it (records.h), or none, and draws one light vertex from the
  * record's PMF, or, without a record, uniformly. Each choice c is a technique of its own [Nabata 2020a]:
@@ -16,7 +17,7 @@
  * the picture's, and s = 1 takes light points of its own. A light sub-path is splat in any tile, so t = 1 has mis.h's
  * weight, with lvc.c's count of connections, and the others share what that leaves. In the first iteration the paper
  * takes its own Q, which is biased; here an iteration is made up before it. Of the services (services.h) it has those
- * that its weights know of.
+ * that its weights count.
  *
  * `weights = counts` draws the same and has the weights of pcbdpt.c, whose draws by place alone it is to the byte.
  *

@@ -11,8 +11,8 @@
  * in both walks, at vertices where something can be merged; all that the heart weighs then knows of it. A merge has
  *     w = 1 / (1 + (c_y + pdf_rev_y mis_y) / (eta F_y) + (c_z + pdf_rev_z mis_z) / (eta F_z)).   [Georgiev 2012c]
  *
- * Unlike in the paper the K sub-paths are those of a tile, so no map of the whole picture is needed, nor anything
- * between iterations: the radius of iteration i is r_0 (i + 1)^((alpha - 1) / 2). With fewer sub-paths a merge brings
+ * Unlike in the paper the K sub-paths are those of a tile, so no map of the whole picture is needed, and nothing
+ * between iterations: the radius of iteration i is r_0 (i + 1)^((alpha - 1) / 2). With fewer sub-paths a merge adds
  * more at a time; over iterations it is the same. Only the balance heuristic is right here.
  *
  * Tests: test_vcm.c.
