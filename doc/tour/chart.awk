@@ -1,6 +1,6 @@
 # chart.awk: a bar chart as SVG. Reads lines "LABEL VALUE [LOW HIGH]"; underscores in LABEL are blanks, and LOW to HIGH is
-# a whisker. -v title=, -v axis=: what the values are, with unit. -v band=uniform: values are counts that should be equal;
-# a grey band shows where nearly all of them then are, 3 standard deviations to either side.
+# a whisker. -v title=, -v axis=: what the values are, with unit. -v together=N: values are counts that should be equal,
+# of things that come N together; a grey band shows where most of them then are, 2 standard deviations to either side.
 function place(v) { return left + width * (v - low) / (high - low) }
 function reach(v) { if (v < low) low = v; if (v > high) high = v }
 # A step of 1, 2 or 5 times a power of ten, so that there are at most n of them.
@@ -17,16 +17,16 @@ BEGIN { left = 150; width = 360; low = high = 0 }
 }
 END {
     bottom = 34 + 22 * NR
-    deviation = band == "uniform" ? sqrt(sum / NR * (1 - 1 / NR)) : 0
-    reach(sum / NR + 3 * deviation)
+    deviation = sqrt(together * sum / NR * (1 - 1 / NR))
+    reach(sum / NR + 2 * deviation)
     if (high == low) high = low + 1
     printf "<svg xmlns='http://www.w3.org/2000/svg' width='%d' height='%d' viewBox='0 0 %d %d' ", left + width + 80,
         bottom + 44, left + width + 80, bottom + 44
     print "font-family='sans-serif' font-size='13'><rect width='100%' height='100%' fill='white'/>"
     printf "<text x='10' y='18' font-weight='bold'>%s</text>\n", title
     if (deviation > 0)
-        printf "<rect x='%g' y='28' width='%g' height='%g' fill='#ddd'/>\n", place(sum / NR - 3 * deviation),
-            place(6 * deviation) - place(0), bottom - 28
+        printf "<rect x='%g' y='28' width='%g' height='%g' fill='#ddd'/>\n", place(sum / NR - 2 * deviation),
+            place(4 * deviation) - place(0), bottom - 28
     step = step_of(high - low, 8)
     for (k = int(low / step); k * step <= high; k++)
         printf "<path d='M%g 28V%g' stroke='#222' stroke-opacity='%g'/><text x='%g' y='%g' text-anchor='middle'>%g</text>\n",

@@ -11,10 +11,10 @@ cd "$dir" || exit 1
 set -e
 mkdir -p "$out"
 render() { "$program" render "$scene" --quiet "$@"; }
-# chart NAME TITLE AXIS [BAND]: table.txt as a bar chart.
+# chart NAME TITLE AXIS [TOGETHER]: table.txt as a bar chart.
 chart() {
     [ -s table.txt ]
-    awk -v title="$2" -v axis="$3" -v band="${4-}" -f "$tour/chart.awk" table.txt >"$out/$1.svg"
+    awk -v title="$2" -v axis="$3" -v together="${4-0}" -f "$tour/chart.awk" table.txt >"$out/$1.svg"
 }
 
 # The same scene by every method, 16 samples per pixel.
@@ -73,7 +73,7 @@ for method in bdpt bins; do
     "$lab" verify "$scene" --files $method-*.pfm --against pool-*.pfm --tile 8 --quiet >verdict.txt || :
     awk '/^  [01]\.[0-9]-/ { print $1, $2 }' verdict.txt >table.txt
     chart p-$method "p-values of $method against pool, by tenths of [0,1]" \
-        "number of p-values; grey: expected if the means are equal" uniform
+        "number of p-values; grey: expected if the means are equal" 3 # the colours of a square vary together
 done
 
 # The alias table, step by step.
