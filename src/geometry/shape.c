@@ -197,13 +197,14 @@ static struct triangle triangle_of(const struct geometry *geo, int prim)
         load_corners(geo->N, index, tri.n);
     if (group->has_s)
         load_corners(geo->S, index, tri.s);
-    memcpy(tri.uv, default_uv, sizeof tri.uv);
-    for (size_t i = 0; group->has_uv && i < 6; i++)
-        tri.uv[i / 2][i % 2] = geo->UV[2 * (size_t)index[i / 2] + i % 2];
+    for (size_t i = 0; !group->skip_uv && i < 6; i++)
+        tri.uv[i / 2][i % 2] =
+            group->has_uv ? (double)geo->UV[2 * (size_t)index[i / 2] + i % 2] : default_uv[i / 2][i % 2];
     tri.has_n = group->has_n;
     tri.has_s = group->has_s;
     tri.flip = group->flip;
     tri.skip_partials = group->skip_partials;
+    tri.skip_uv = group->skip_uv;
     return tri;
 }
 
@@ -247,27 +248,20 @@ bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray
     return true;
 }
 
-/* Of a triangle at b1 and b2, of a quadric at the object-space position p. */
-static void surface_at(const struct geometry *geo, int prim, double b1, double b2, vec3 p, struct surface *out)
-{
-    const struct shape_group *group = shape_group_of(geo, prim);
-    if (is_quadric(prim)) {
-        quadric_surface_at(quadric_of(geo, prim), group->flip, p, out);
-    } else {
-        struct triangle tri = triangle_of(geo, prim);
-        triangle_surface(&tri, b1, b2, out);
-    }
-    out->material = group->material;
-    out->prim_id = shape_prim_id(prim);
-    out->light = group->first_light >= 0 ? group->first_light + prim - group->first_prim : -1;
-}
-
 void shape_surface(const struct geometry *geo, const struct hit *hit, const struct ray *ray, struct surface *out)
 {
-    vec3 p = add(ray->o, mul(ray->d, hit->t));
-    if (is_quadric(hit->prim))
-        p = transform_point_back(&quadric_of(geo, hit->prim)->to_world, p);
-    surface_at(geo, hit->prim, hit->b1, hit->b2, p, out);
+    const struct shape_group *group = shape_group_of(geo, hit->prim);
+    if (is_quadric(hit->prim)) {
+        const struct quadric *q = quadric_of(geo, hit->prim);
+        vec3 p = transform_point_back(&q->to_world, add(ray->o, mul(ray->d, hit->t)));
+        quadric_surface_at(q, group->flip, p, out);
+    } else {
+        struct triangle tri = triangle_of(geo, hit->prim);
+        triangle_surface(&tri, hit->b1, hit->b2, out);
+    }
+    out->material = group->material;
+    out->prim_id = shape_prim_id(hit->prim);
+    out->light = group->first_light >= 0 ? group->first_light + hit->prim - group->first_prim : -1;
 }
 
 double shape_area(const struct geometry *geo, int prim)
@@ -280,16 +274,19 @@ double shape_area(const struct geometry *geo, int prim)
 
 bool shape_sample(const struct geometry *geo, int prim, double u1, double u2, struct surface *out, double *pdf_a)
 {
+    const struct shape_group *group = shape_group_of(geo, prim);
+    if (is_quadric(prim)) {
+        const struct quadric *q = quadric_of(geo, prim);
+        quadric_surface_at(q, group->flip, quadric_sample(q, u1, u2), out);
+        *pdf_a = quadric_pdf_a(q, out->ng);
+        return true;
+    }
+    struct triangle tri = triangle_of(geo, prim);
     struct hit hit = {.prim = prim};
-    vec3 p = vec(0, 0, 0);
-    if (is_quadric(prim))
-        p = quadric_sample(quadric_of(geo, prim), u1, u2);
-    else
-        warp_triangle(u1, u2, &hit.b1, &hit.b2);
-    surface_at(geo, prim, hit.b1, hit.b2, p, out);
-    *pdf_a = shape_pdf_a(geo, prim, out);
-    return is_quadric(prim) || shape_group_of(geo, prim)->alpha < 0 || geo->opaque == NULL ||
-           geo->opaque(geo->opaque_context, geo, &hit, false);
+    warp_triangle(u1, u2, &hit.b1, &hit.b2);
+    triangle_surface(&tri, hit.b1, hit.b2, out);
+    *pdf_a = 1 / triangle_area(&tri);
+    return group->alpha < 0 || geo->opaque == NULL || geo->opaque(geo->opaque_context, geo, &hit, false);
 }
 
 double shape_pdf_a(const struct geometry *geo, int prim, const struct surface *at)

@@ -36,6 +36,7 @@ struct shape_group {
     bool has_s;       /* vertex tangents given */
     bool has_uv;
     bool skip_partials; /* leave partial derivatives zero: nobody reads them (scene_prepare finds out) */
+    bool skip_uv;       /* leave all of these and u and v as they are: likewise */
 };
 
 struct geometry {

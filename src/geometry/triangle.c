@@ -72,9 +72,6 @@ void triangle_surface(const struct triangle *tri, double b1, double b2, struct s
     out->p = barycentric3(tri->p, b1, b2);
     out->ng = normalize(tri->flip ? neg(normal) : normal);
     out->ns = out->ng;
-    out->u = (1 - b1 - b2) * tri->uv[0][0] + b1 * tri->uv[1][0] + b2 * tri->uv[2][0];
-    out->v = (1 - b1 - b2) * tri->uv[0][1] + b1 * tri->uv[1][1] + b2 * tri->uv[2][1];
-    out->dpdu = out->dpdv = out->dndu = out->dndv = vec(0, 0, 0);
     double size = 0;
     if (tri->has_n) {
         vec3 ns = barycentric3(tri->n, b1, b2);
@@ -83,6 +80,11 @@ void triangle_surface(const struct triangle *tri, double b1, double b2, struct s
             out->ns = mul(ns, 1 / size);
         out->ng = faceforward(out->ng, out->ns);
     }
+    if (tri->skip_uv)
+        return;
+    out->u = (1 - b1 - b2) * tri->uv[0][0] + b1 * tri->uv[1][0] + b2 * tri->uv[2][0];
+    out->v = (1 - b1 - b2) * tri->uv[0][1] + b1 * tri->uv[1][1] + b2 * tri->uv[2][1];
+    out->dpdu = out->dpdv = out->dndu = out->dndv = vec(0, 0, 0);
     if (tri->skip_partials)
         return;
     if (!linear_partials(tri, tri->p, &out->dpdu, &out->dpdv) || !(length2(cross(out->dpdu, out->dpdv)) > 0))

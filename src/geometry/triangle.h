@@ -74,7 +74,7 @@ struct triangle {
     double uv[3][2]; /* (0,0) (1,0) (1,1) where the mesh has none */
     bool has_n, has_s;
     bool flip;          /* turns the normal of a triangle without vertex normals */
-    bool skip_partials; /* leave the partial derivatives zero */
+    bool skip_partials, skip_uv; /* see struct shape_group */
 };
 
 /* triangle_surface: position, normals, texture coordinates and partial derivatives at barycentric coordinates

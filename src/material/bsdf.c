@@ -3,11 +3,9 @@
 
 static const struct bsdf_value NOTHING = {{0, 0, 0}, 0, 0};
 
-void bsdf_make(struct bsdf *b, struct frame shading, vec3 ng, struct lobe *lobe, int n)
+void bsdf_make(struct bsdf *b, struct lobe *lobe, int n)
 {
     const double even = 0.125;
-    b->shading = shading;
-    b->ng = ng;
     b->lobe = lobe;
     b->n_lobes = b->n_smooth = 0;
     b->transmits = false;

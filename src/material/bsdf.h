@@ -23,10 +23,10 @@ struct bsdf {
     bool transmits;          /* one of these lets light through */
 };
 
-/* bsdf_make: a BSDF of n >= 0 lobes in the given shading frame. The array is kept, not copied; black lobes are taken
- * out of it, and `choice` is filled in: in proportion to lobe_albedo_guess, with an eighth spread evenly so that no
- * lobe starves. It does not depend on directions, so both directions of a walk choose alike. */
-void bsdf_make(struct bsdf *b, struct frame shading, vec3 ng, struct lobe *lobe, int n);
+/* bsdf_make: a BSDF of n >= 0 lobes, whose shading and ng are to be filled in. The array is kept, not copied; black
+ * lobes are taken out of it, and `choice` is filled in: in proportion to lobe_albedo_guess, with an eighth spread evenly
+ * so that no lobe starves. It does not depend on directions, so both directions of a walk choose alike. */
+void bsdf_make(struct bsdf *b, struct lobe *lobe, int n);
 
 /* bsdf_may_scatter: false where bsdf_eval is black for no other reason than that wo and wi lie on different sides of a
  * surface that lets nothing through. It is asked before anything that costs more. wi may have any length. */

@@ -10,6 +10,7 @@ struct material *material_new(const struct material_row *row)
     struct material *m = mem_alloc(1, row->size);
     m->row = row;
     m->bump = m->rough.u = m->rough.v = -1;
+    m->reads_uv = m->reads_partials = true;
     for (const struct field *f = row->fields; f->name != NULL; f++)
         if (f->kind == FIELD_FLOAT_TEXTURE || f->kind == FIELD_RGB_TEXTURE)
             *place_of(m, f) = -1;
@@ -42,20 +43,43 @@ static bool is_brushed(const struct material *m, const struct texture_set *textu
     return u->kind != TEXTURE_CONSTANT || v->kind != TEXTURE_CONSTANT || u->constant.r != v->constant.r;
 }
 
-bool material_reads_partials(const struct material *m, const struct texture_set *textures)
+/* The lobes at a point. */
+static void make_lobes(const struct material *m, struct lobe_list list, struct arena *arena, struct bsdf *out)
 {
-    return m->bump >= 0 || is_brushed(m, textures);
+    list.lobe = arena_alloc(arena, (size_t)m->most_lobes * sizeof *list.lobe);
+    m->row->lobes(&list, m);
+    bsdf_make(out, list.lobe, list.n);
+}
+
+void material_prepare(struct material *const *materials, int id, const struct texture_set *textures,
+                      struct arena *arena)
+{
+    struct material *m = materials[id];
+    m->reads_partials = m->bump >= 0 || is_brushed(m, textures);
+    m->reads_uv = false;
+    for (const struct field *f = m->row->fields; f->name != NULL; f++) {
+        bool texture = f->kind == FIELD_FLOAT_TEXTURE || f->kind == FIELD_RGB_TEXTURE;
+        if (f->kind == FIELD_MATERIAL)
+            m->reads_uv |= materials[*place_of(m, f)]->reads_uv;
+        else if (texture && *place_of(m, f) >= 0)
+            m->reads_uv |= textures->texture[*place_of(m, f)].kind != TEXTURE_CONSTANT;
+    }
+    if (!m->reads_uv)
+        make_lobes(m, (struct lobe_list){.materials = materials, .textures = textures}, arena, &m->same);
 }
 
 void material_bsdf(struct material *const *materials, int id, const struct texture_set *textures,
                    const struct surface *at, struct arena *arena, struct bsdf *out)
 {
     const struct material *m = materials[id];
-    struct lobe_list list = {materials, textures, at,
-                             arena_alloc(arena, (size_t)m->most_lobes * sizeof *list.lobe), 0};
-    m->row->lobes(&list, m);
-    struct frame shading = m->bump >= 0 ? bump_frame(textures, m->bump, at) : frame_from_tangent(at->ns, at->dpdu);
-    bsdf_make(out, shading, at->ng, list.lobe, list.n);
+    if (m->same.lobe != NULL)
+        *out = m->same;
+    else
+        make_lobes(m, (struct lobe_list){.materials = materials, .textures = textures, .at = at}, arena, out);
+    out->ng = at->ng;
+    out->shading = m->bump >= 0           ? bump_frame(textures, m->bump, at)
+                   : m->reads_partials ? frame_from_tangent(at->ns, at->dpdu)
+                                       : frame_from_normal(at->ns);
 }
 
 /* --- bump maps --------------------------------------------------------------------------------------- */

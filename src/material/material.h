@@ -20,6 +20,8 @@ struct material {
     const struct material_row *row;
     int bump;       /* float texture of displacement along the normal, in world units; -1: none */
     int most_lobes; /* of its BSDF, counted over all branches of nested mixes */
+    struct bsdf same; /* its BSDF but for the frame, where no texture varies; `lobe` NULL: not known to be so */
+    bool reads_uv, reads_partials; /* its BSDF depends on u and v; on dpdu, dpdv, dndu or dndv */
     struct {
         int u, v;   /* float textures, -1: it has none; v -1 where a field says so: as u */
         bool remap; /* they are what artists call rough, see roughness_to_alpha */
@@ -68,9 +70,10 @@ struct material *material_new(const struct material_row *row);
  * shades with the frame of its first one, as in pbrt-v3. */
 void material_settle(struct material *m, struct material *const *materials);
 
-/* material_reads_partials: whether its BSDFs depend on dpdu, dpdv, dndu or dndv: by a bump map, or by a roughness that
- * differs between u and v. May say so of one that does not. */
-bool material_reads_partials(const struct material *m, const struct texture_set *textures);
+/* material_prepare: find out what the BSDF of material `id` depends on, and make its lobes in `arena`, once for all
+ * points, if no texture varies. Materials of lower numbers have been prepared. Without it, all is read everywhere. */
+void material_prepare(struct material *const *materials, int id, const struct texture_set *textures,
+                      struct arena *arena);
 
 /* material_bsdf: the BSDF of material `id` at a point.
  *   materials, textures  the scene's

@@ -30,6 +30,7 @@ void scene_free(struct scene *s)
     for (int i = 0; i < s->n_materials; i++)
         free(s->material[i]);
     free(s->material);
+    arena_free(&s->lobes);
     light_set_free(&s->lights);
     free(s->film_filename);
     free(s->integrator);
@@ -137,10 +138,13 @@ void scene_prepare(struct scene *s)
 {
     s->geo.opaque = opaque_at;
     s->geo.opaque_context = &s->textures;
-    for (int i = 0; i < s->geo.n_groups; i++)
-        s->geo.group[i].skip_partials =
-            s->geo.group[i].material < 0 ||
-            !material_reads_partials(s->material[s->geo.group[i].material], &s->textures);
+    for (int i = 0; i < s->n_materials; i++)
+        material_prepare(s->material, i, &s->textures, &s->lobes);
+    for (struct shape_group *g = s->geo.group; g < s->geo.group + s->geo.n_groups; g++) {
+        g->skip_partials = g->material < 0 || !s->material[g->material]->reads_partials;
+        g->skip_uv = g->skip_partials && g->alpha < 0 && g->shadow_alpha < 0 &&
+                     (g->material < 0 || !s->material[g->material]->reads_uv);
+    }
     kd_build(&s->kd, &s->geo, KD_SURFACES);
     kd_build(&s->kd_lamps, &s->geo, KD_LAMPS);
     kd_build(&s->media.interfaces, &s->geo, KD_INTERFACES);

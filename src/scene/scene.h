@@ -33,6 +33,7 @@ struct scene {
     struct texture_set textures;
     struct material **material; /* [n_materials], owned with what they point to */
     int n_materials;
+    struct arena lobes;         /* of materials that are the same everywhere */
     struct light_set lights;
     struct medium_set media;
 
