@@ -174,19 +174,18 @@ static struct kd_cell root_cell(const struct geometry *geo, enum kd_of kind)
 /* n <= KD_LANES primitives, all triangles or all quadrics. */
 static void fill_block(struct kd_block *b, const struct geometry *geo, const int *prim, int n)
 {
-    const struct kd_block empty = {{{{0}}}, {KD_NONE, KD_NONE, KD_NONE, KD_NONE}};
-    *b = empty;
-    for (int lane = 0; lane < n; lane++) {
-        b->prim[lane] = (uint32_t)prim[lane];
-        if (prim[lane] >= FIRST_QUADRIC)
-            continue;
-        const struct shape_group *group = shape_group_of(geo, prim[lane]);
-        if (geo->opaque != NULL && (group->alpha >= 0 || group->shadow_alpha >= 0))
-            b->prim[lane] |= KD_ALPHA;
-        float v[9];
-        shape_vertices(geo, prim[lane], v);
+    for (int lane = 0; lane < KD_LANES; lane++) {
+        bool triangle = lane < n && prim[lane] < FIRST_QUADRIC;
+        float v[9] = {0};
+        b->prim[lane] = lane < n ? (uint32_t)prim[lane] : KD_NONE;
+        if (triangle) {
+            const struct shape_group *group = shape_group_of(geo, prim[lane]);
+            if (geo->opaque != NULL && (group->alpha >= 0 || group->shadow_alpha >= 0))
+                b->prim[lane] |= KD_ALPHA;
+            shape_vertices(geo, prim[lane], v);
+        }
         for (int i = 0; i < 9; i++)
-            b->v[i / 3][i % 3][lane] = v[i];
+            b->v[i / 3][i % 3][lane] = lane < n ? v[i] : NAN;
     }
 }
 

@@ -38,11 +38,7 @@ struct block_ray {
     struct triangle_ray exact;
     float ox, oy, oz, sx, sy; /* of exact, in float */
     float slack;              /* 64 u s */
-    uint32_t from, to;        /* primitive numbers of the triangles it begins and ends on, KD_NONE: on none */
 };
-
-/* The number of a primitive that is a triangle, KD_NONE of another: quadrics see to themselves. */
-static uint32_t own_triangle(uint32_t id) { return id - 1 < FIRST_QUADRIC ? id - 1 : KD_NONE; }
 
 /* For the scene whose largest absolute coordinate, or the ray's origin's, is `size`. */
 static void prepare_ray(struct block_ray *r, const struct ray *ray, double size)
@@ -54,19 +50,16 @@ static void prepare_ray(struct block_ray *r, const struct ray *ray, double size)
     r->sx = (float)r->exact.sx;
     r->sy = (float)r->exact.sy;
     r->slack = (float)(64 * 0x1p-24 * size);
-    r->from = own_triangle(ray->from);
-    r->to = own_triangle(ray->to);
 }
 
-/* Which lanes may the ray hit? Sets near[i] to 1 or 0 and returns whether any is 1. A quadric's zeros always may. The
- * names are those of triangle_hit. */
-static inline bool block_near(const struct kd_block *b, const struct block_ray *r, int near[KD_LANES])
+/* Which lanes may the ray hit? Those where beyond[i] <= 0; returns whether there are any. A quadric's zeros always may,
+ * the NaNs of an unused lane never. The names are those of triangle_hit. */
+static inline bool block_near(const struct kd_block *b, const struct block_ray *r, float beyond[KD_LANES])
 {
     const float *a_x = b->v[0][r->exact.kx], *a_y = b->v[0][r->exact.ky], *a_z = b->v[0][r->exact.kz];
     const float *b_x = b->v[1][r->exact.kx], *b_y = b->v[1][r->exact.ky], *b_z = b->v[1][r->exact.kz];
     const float *c_x = b->v[2][r->exact.kx], *c_y = b->v[2][r->exact.ky], *c_z = b->v[2][r->exact.kz];
     const float ox = r->ox, oy = r->oy, oz = r->oz, sx = r->sx, sy = r->sy, factor = r->slack;
-    const uint32_t *prim = b->prim, from = r->from, to = r->to;
     int any = 0;
     for (int i = 0; i < KD_LANES; i++) {
         float az = a_z[i] - oz, bz = b_z[i] - oz, cz = c_z[i] - oz;
@@ -75,12 +68,11 @@ static inline bool block_near(const struct kd_block *b, const struct block_ray *
         float cx = (c_x[i] - ox) - sx * cz, cy = (c_y[i] - oy) - sy * cz;
         float ea = cx * by - cy * bx, eb = ax * cy - ay * cx, ec = bx * ay - by * ax;
         float sum = fabsf(ax) + fabsf(ay) + fabsf(bx) + fabsf(by) + fabsf(cx) + fabsf(cy);
-        float slack = factor * sum + FLT_MIN;
         float least = ea < eb ? ea : eb, most = ea > eb ? ea : eb;
         least = ec < least ? ec : least;
         most = ec > most ? ec : most;
-        near[i] = (prim[i] != KD_NONE) & (prim[i] != from) & (prim[i] != to) & !((least < -slack) & (most > slack));
-        any |= near[i];
+        beyond[i] = (-least < most ? -least : most) - (factor * sum + FLT_MIN);
+        any |= beyond[i] <= 0;
     }
     return any != 0;
 }
@@ -90,11 +82,13 @@ static bool lane_hit(const struct kd_block *b, int lane, const struct geometry *
 {
     float v[9];
     struct hit h;
+    h.prim = (int)(b->prim[lane] & ~KD_ALPHA);
+    if (shape_prim_id(h.prim) == r->exact.ray->from || shape_prim_id(h.prim) == r->exact.ray->to)
+        return false;
     for (int i = 0; i < 9; i++)
         v[i] = b->v[i / 3][i % 3][lane];
     if (!triangle_hit(&r->exact, v, tmax, &h))
         return false;
-    h.prim = (int)(b->prim[lane] & ~KD_ALPHA);
     if ((b->prim[lane] & KD_ALPHA) && !geo->opaque(geo->opaque_context, geo, &h, shadow))
         return false;
     *hit = h;
@@ -116,14 +110,14 @@ static bool quadrics_hit(const struct kd_block *b, const struct geometry *geo, c
 }
 
 /* The first hit within (ray->tmin, tmax) among the near lanes, honouring alpha; false, with *hit untouched, if none. */
-static bool block_hit(const struct kd_block *b, const int near[KD_LANES], const struct geometry *geo,
+static bool block_hit(const struct kd_block *b, const float beyond[KD_LANES], const struct geometry *geo,
                       const struct block_ray *r, double tmax, bool shadow, struct hit *hit)
 {
     bool found = false;
     if ((b->prim[0] & ~KD_ALPHA) >= FIRST_QUADRIC)
         return quadrics_hit(b, geo, r->exact.ray, tmax, hit);
     for (int i = 0; i < KD_LANES; i++)
-        if (near[i] && lane_hit(b, i, geo, r, tmax, shadow, hit)) {
+        if (beyond[i] <= 0 && lane_hit(b, i, geo, r, tmax, shadow, hit)) {
             tmax = hit->t;
             found = true;
         }
@@ -140,9 +134,9 @@ struct kd_visit {
 
 /* A ray on its way through a tree. */
 struct traversal {
-    double before[3], after[3]; /* origin moved by the slab's half width, so that t_lo = (split - before) inverse */
-    double inverse[3];          /* 1/d, finite */
-    uint32_t near_child[3];     /* 0: the ray goes up the axis, the lower cell comes first; 1: down */
+    double o[3], inverse[3]; /* origin; 1/d, finite */
+    double slack[3];         /* the half of a slab's width, in t */
+    uint32_t near_child[3];  /* 0: the ray goes up the axis, the lower cell comes first; 1: down */
     struct block_ray ray;
     struct kd_visit cell;
     int waiting;
@@ -153,7 +147,7 @@ struct traversal {
 static double inverse_of(double d)
 {
     const double least = 1e-30;
-    return 1 / (fabs(d) < least ? copysign(least, d) : d);
+    return 1 / (d + copysign(least, d));
 }
 
 /* What fmax and fmin do, but for NaN, without a call. */
@@ -163,18 +157,18 @@ static inline double smaller(double a, double b) { return a < b ? a : b; }
 /* Prepare the traversal; false if the ray misses the bounds. */
 static bool traversal_start(struct traversal *w, const struct kdtree *kd, const struct ray *ray)
 {
-    double o[3] = {ray->o.x, ray->o.y, ray->o.z}, d[3] = {ray->d.x, ray->d.y, ray->d.z};
+    const double o[3] = {ray->o.x, ray->o.y, ray->o.z}, d[3] = {ray->d.x, ray->d.y, ray->d.z};
     double size = larger(larger(kd->reach, fabs(o[0])), larger(fabs(o[1]), fabs(o[2])));
     double tmin = ray->tmin, tmax = ray->tmax;
     for (int k = 0; k < 3; k++) {
-        double half = copysign(1e-14 * size, d[k]);
-        bool up = half > 0;
-        w->inverse[k] = inverse_of(d[k]);
-        w->before[k] = o[k] + half;
-        w->after[k] = o[k] - half;
-        w->near_child[k] = !up;
-        tmin = larger(tmin, ((up ? kd->lo[k] : kd->hi[k]) - w->before[k]) * w->inverse[k]);
-        tmax = smaller(tmax, ((up ? kd->hi[k] : kd->lo[k]) - w->after[k]) * w->inverse[k]);
+        double inverse = inverse_of(d[k]), slack = 1e-14 * size * fabs(inverse);
+        double lo = (kd->lo[k] - o[k]) * inverse, hi = (kd->hi[k] - o[k]) * inverse;
+        w->o[k] = o[k];
+        w->inverse[k] = inverse;
+        w->slack[k] = slack;
+        w->near_child[k] = inverse < 0;
+        tmin = larger(tmin, smaller(lo, hi) - slack);
+        tmax = smaller(tmax, larger(lo, hi) + slack);
     }
     w->cell.node = 0;
     w->cell.tmin = tmin;
@@ -195,8 +189,8 @@ static inline struct kd_node traversal_to_leaf(struct traversal *w, const struct
     while (!kd_is_leaf(n)) {
         uint32_t axis = n.word & 3, children = kd_children(n);
         uint32_t near_cell = children + w->near_child[axis], far_cell = children + 1 - w->near_child[axis];
-        double t_lo = (n.at.split - w->before[axis]) * w->inverse[axis];
-        double t_hi = (n.at.split - w->after[axis]) * w->inverse[axis];
+        double t = (n.at.split - w->o[axis]) * w->inverse[axis];
+        double t_lo = t - w->slack[axis], t_hi = t + w->slack[axis];
         if (t_lo > tmax) {
             n = nodes[near_cell];
         } else if (t_hi < tmin) {
@@ -236,14 +230,14 @@ static inline bool traverse(const struct kdtree *kd, const struct geometry *geo,
     if (!traversal_start(&w, kd, ray))
         return false;
     double nearest = ray->tmax, range[2];
-    int near[KD_LANES];
+    float beyond[KD_LANES];
     bool found = false;
     do {
         struct kd_node leaf = traversal_to_leaf(&w, kd->node, range);
         const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
         for (; block < end; block++)
-            if (block_near(block, &w.ray, near) &&
-                block_hit(block, near, geo, &w.ray, nearest, shadow, hit)) {
+            if (block_near(block, &w.ray, beyond) &&
+                block_hit(block, beyond, geo, &w.ray, nearest, shadow, hit)) {
                 if (shadow)
                     return true;
                 nearest = hit->t;
