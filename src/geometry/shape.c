@@ -186,26 +186,22 @@ static void load_corners(const float *v, const uint32_t index[3], vec3 corner[3]
         corner[i] = load3(v, index[i]);
 }
 
-static struct triangle triangle_of(const struct geometry *geo, int prim)
+static void load_triangle(const struct geometry *geo, const struct shape_group *group, int prim, struct triangle *tri)
 {
     static const double default_uv[3][2] = {{0, 0}, {1, 0}, {1, 1}};
-    const struct shape_group *group = shape_group_of(geo, prim);
     const uint32_t *index = &geo->index[3 * (size_t)prim];
-    struct triangle tri;
-    load_corners(geo->P, index, tri.p);
+    load_corners(geo->P, index, tri->p);
     if (group->has_n)
-        load_corners(geo->N, index, tri.n);
+        load_corners(geo->N, index, tri->n);
     if (group->has_s)
-        load_corners(geo->S, index, tri.s);
+        load_corners(geo->S, index, tri->s);
     for (size_t i = 0; !group->skip_uv && i < 6; i++)
-        tri.uv[i / 2][i % 2] =
+        tri->uv[i / 2][i % 2] =
             group->has_uv ? (double)geo->UV[2 * (size_t)index[i / 2] + i % 2] : default_uv[i / 2][i % 2];
-    tri.has_n = group->has_n;
-    tri.has_s = group->has_s;
-    tri.flip = group->flip;
-    tri.skip_partials = group->skip_partials;
-    tri.skip_uv = group->skip_uv;
-    return tri;
+    tri->has_n = group->has_n;
+    tri->has_s = group->has_s;
+    tri->flip = group->flip;
+    tri->skip_partials = group->skip_partials;
 }
 
 void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3])
@@ -256,8 +252,11 @@ void shape_surface(const struct geometry *geo, const struct hit *hit, const stru
         vec3 p = transform_point_back(&q->to_world, add(ray->o, mul(ray->d, hit->t)));
         quadric_surface_at(q, group->flip, p, out);
     } else {
-        struct triangle tri = triangle_of(geo, hit->prim);
-        triangle_surface(&tri, hit->b1, hit->b2, out);
+        struct triangle tri;
+        load_triangle(geo, group, hit->prim, &tri);
+        triangle_place(&tri, hit->b1, hit->b2, out);
+        if (!group->skip_uv)
+            triangle_partials(&tri, hit->b1, hit->b2, out);
     }
     out->material = group->material;
     out->prim_id = shape_prim_id(hit->prim);
@@ -268,8 +267,9 @@ double shape_area(const struct geometry *geo, int prim)
 {
     if (is_quadric(prim))
         return quadric_area(quadric_of(geo, prim));
-    struct triangle tri = triangle_of(geo, prim);
-    return triangle_area(&tri);
+    vec3 p[3];
+    load_corners(geo->P, &geo->index[3 * (size_t)prim], p);
+    return 0.5 * length(cross(sub(p[1], p[0]), sub(p[2], p[0])));
 }
 
 bool shape_sample(const struct geometry *geo, int prim, double u1, double u2, struct surface *out, double *pdf_a)
@@ -281,11 +281,11 @@ bool shape_sample(const struct geometry *geo, int prim, double u1, double u2, st
         *pdf_a = quadric_pdf_a(q, out->ng);
         return true;
     }
-    struct triangle tri = triangle_of(geo, prim);
+    struct triangle tri;
     struct hit hit = {.prim = prim};
+    load_triangle(geo, group, prim, &tri);
     warp_triangle(u1, u2, &hit.b1, &hit.b2);
-    triangle_surface(&tri, hit.b1, hit.b2, out);
-    *pdf_a = 1 / triangle_area(&tri);
+    *pdf_a = 2 / triangle_place(&tri, hit.b1, hit.b2, out);
     return group->alpha < 0 || geo->opaque == NULL || geo->opaque(geo->opaque_context, geo, &hit, false);
 }
 

@@ -3,11 +3,6 @@
  * there. */
 #include "geometry/triangle.h"
 
-double triangle_area(const struct triangle *tri)
-{
-    return 0.5 * length(cross(sub(tri->p[1], tri->p[0]), sub(tri->p[2], tri->p[0])));
-}
-
 /* Two unit vectors that make an orthogonal system with v (any length but 0): pbrt-v3's choice. [PBRT3 2.2.4] */
 static void tangents_of(vec3 v, vec3 *s, vec3 *t)
 {
@@ -66,29 +61,16 @@ static void turn_tangents(vec3 s, struct surface *out)
     out->dpdv = mul(cross(out->ns, s), handed * length(out->dpdv));
 }
 
-void triangle_surface(const struct triangle *tri, double b1, double b2, struct surface *out)
+void triangle_partials(const struct triangle *tri, double b1, double b2, struct surface *out)
 {
-    vec3 normal = cross(sub(tri->p[1], tri->p[0]), sub(tri->p[2], tri->p[0]));
-    out->p = barycentric3(tri->p, b1, b2);
-    out->ng = normalize(tri->flip ? neg(normal) : normal);
-    out->ns = out->ng;
-    double size = 0;
-    if (tri->has_n) {
-        vec3 ns = barycentric3(tri->n, b1, b2);
-        size = length(ns);
-        if (size > 0)
-            out->ns = mul(ns, 1 / size);
-        out->ng = faceforward(out->ng, out->ns);
-    }
-    if (tri->skip_uv)
-        return;
     out->u = (1 - b1 - b2) * tri->uv[0][0] + b1 * tri->uv[1][0] + b2 * tri->uv[2][0];
     out->v = (1 - b1 - b2) * tri->uv[0][1] + b1 * tri->uv[1][1] + b2 * tri->uv[2][1];
     out->dpdu = out->dpdv = out->dndu = out->dndv = vec(0, 0, 0);
     if (tri->skip_partials)
         return;
     if (!linear_partials(tri, tri->p, &out->dpdu, &out->dpdv) || !(length2(cross(out->dpdu, out->dpdv)) > 0))
-        tangents_of(neg(normal), &out->dpdu, &out->dpdv);
+        tangents_of(cross(sub(tri->p[2], tri->p[0]), sub(tri->p[1], tri->p[0])), &out->dpdu, &out->dpdv);
+    double size = tri->has_n ? length(barycentric3(tri->n, b1, b2)) : 0;
     if (size > 0)
         partials_by_vertex_normals(tri, size, out);
     if (tri->has_s)

@@ -74,16 +74,30 @@ struct triangle {
     double uv[3][2]; /* (0,0) (1,0) (1,1) where the mesh has none */
     bool has_n, has_s;
     bool flip;          /* turns the normal of a triangle without vertex normals */
-    bool skip_partials, skip_uv; /* see struct shape_group */
+    bool skip_partials; /* see struct shape_group */
 };
 
-/* triangle_surface: position, normals, texture coordinates and partial derivatives at barycentric coordinates
- * (1-b1-b2, b1, b2). With vertex normals, ns is their normalised mean, ng lies on
- * its side, and dpdu, dpdv are the derivatives by (u,v) projected to be orthogonal to ns; without, ns = ng and they are
- * the derivatives as they are. Where (u,v) do not span the triangle they are any unit tangents. With vertex tangents
- * dpdu and dpdv are turned about ns until dpdu is along their mean. All are zero if skip_partials is set. */
-void triangle_surface(const struct triangle *tri, double b1, double b2, struct surface *out);
+/* triangle_place: position and normals at barycentric coordinates (1-b1-b2, b1, b2). With vertex normals, ns is their
+ * normalised mean and ng lies on its side; without, ns = ng. Returns twice the triangle's area, m^2. */
+static inline double triangle_place(const struct triangle *tri, double b1, double b2, struct surface *out)
+{
+    vec3 normal = cross(sub(tri->p[1], tri->p[0]), sub(tri->p[2], tri->p[0]));
+    double size = length(normal);
+    out->p = barycentric3(tri->p, b1, b2);
+    out->ng = out->ns = mul(normal, (tri->flip ? -1 : 1) / size);
+    if (tri->has_n) {
+        vec3 ns = normalize(barycentric3(tri->n, b1, b2));
+        if (length2(ns) > 0)
+            out->ns = ns;
+        out->ng = faceforward(out->ng, out->ns);
+    }
+    return size;
+}
 
-double triangle_area(const struct triangle *tri); /* m^2 */
+/* triangle_partials: texture coordinates and, unless skip_partials is set and they are zero, partial derivatives of a
+ * place. With vertex normals dpdu and dpdv are the derivatives by (u,v) projected to be orthogonal to ns; without, the
+ * derivatives as they are. Where (u,v) do not span the triangle they are any unit tangents. With vertex tangents they
+ * are turned about ns until dpdu is along their mean. */
+void triangle_partials(const struct triangle *tri, double b1, double b2, struct surface *out);
 
 #endif

@@ -24,19 +24,13 @@ void bsdf_make(struct bsdf *b, struct lobe *lobe, int n)
     }
     for (int i = 0; i < b->n_lobes; i++)
         lobe[i].choice = b->n_lobes == 1 ? 1 : even / b->n_lobes + (1 - even) * lobe[i].choice / total;
+    if (b->n_lobes == 1 && lobe->kind == LOBE_LAMBERT_REFLECTION)
+        lobe->of.diffuse = rgb_scale(rgb_mul(lobe->R, lobe->scale), INV_PI);
 }
 
-struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)
+/* All smooth lobes for a pair of directions in the shading frame. */
+static struct bsdf_value eval_lobes(const struct bsdf *b, vec3 o, vec3 i, bool reflect, enum transport mode)
 {
-    if (b->n_smooth == 0 || !bsdf_may_scatter(b, wo, wi))
-        return NOTHING;
-    if (b->n_lobes == 1 && b->lobe->kind == LOBE_LAMBERT_REFLECTION) { /* the commonest by far: two cosines */
-        struct bsdf_value v = {rgb_scale(rgb_mul(b->lobe->R, b->lobe->scale), INV_PI),
-                               abs_dot(wi, b->shading.n) * INV_PI, abs_dot(wo, b->shading.n) * INV_PI};
-        return v;
-    }
-    bool reflect = dot(wi, b->ng) * dot(wo, b->ng) > 0;
-    vec3 o = to_local(&b->shading, wo), i = to_local(&b->shading, wi);
     struct bsdf_value sum = NOTHING;
     for (const struct lobe *l = b->lobe; l < b->lobe + b->n_lobes; l++) {
         struct bsdf_value v = lobe_eval(l, o, i, reflect, mode);
@@ -45,6 +39,17 @@ struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transpo
         sum.pdf_rev += l->choice * v.pdf_rev;
     }
     return rgb_is_black(sum.f) ? NOTHING : sum;
+}
+
+struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)
+{
+    if (b->n_smooth == 0 || !bsdf_may_scatter(b, wo, wi))
+        return NOTHING;
+    if (b->n_lobes == 1 && b->lobe->kind == LOBE_LAMBERT_REFLECTION) /* the commonest by far: two cosines */
+        return (struct bsdf_value){b->lobe->of.diffuse, abs_dot(wi, b->shading.n) * INV_PI,
+                                   abs_dot(wo, b->shading.n) * INV_PI};
+    bool reflect = dot(wi, b->ng) * dot(wo, b->ng) > 0;
+    return eval_lobes(b, to_local(&b->shading, wo), to_local(&b->shading, wi), reflect, mode);
 }
 
 /* Choose a lobe with *u and replace *u by what is left of it, uniform again. */
@@ -75,10 +80,12 @@ bool bsdf_sample(const struct bsdf *b, vec3 wo, const double u[3], enum transpor
         out->pdf_rev *= l->choice;
         return true;
     }
-    if (!lobe_sample(l, o, to_local(&b->shading, b->ng), rest, &i))
+    vec3 ng = to_local(&b->shading, b->ng);
+    if (!lobe_sample(l, o, ng, rest, &i))
         return false;
+    bool reflect = dot(i, ng) * dot(o, ng) > 0;
+    struct bsdf_value v = reflect || b->transmits ? eval_lobes(b, o, i, reflect, mode) : NOTHING;
     out->wi = to_world(&b->shading, i);
-    struct bsdf_value v = bsdf_eval(b, wo, out->wi, mode);
     out->f = v.f;
     out->pdf = v.pdf;
     out->pdf_rev = v.pdf_rev;

@@ -56,6 +56,7 @@ struct lobe {
     double alpha_x, alpha_y;   /* Trowbridge-Reitz roughness along s and t, > 0 */
     double choice;             /* probability with which bsdf_sample takes this lobe; set by bsdf_make */
     union {
+        rgb diffuse; /* f of LOBE_LAMBERT_REFLECTION, if it is the only one; set by bsdf_make */
         struct {
             double A, B; /* the two coefficients of the formula */
         } oren_nayar;
