@@ -26,19 +26,25 @@ void kd_free(struct kdtree *kd)
 
 /* --- a ray and a block ------------------------------------------------------------------------------- */
 
-/* Up to four triangles are tested in one loop, whose arithmetic a compiler can do on all lanes at once. It is done in
- * float and only sorts out: a triangle stays in unless the ray certainly misses it, and those that stay are tested in
- * double by triangle_hit, which alone decides. With s the largest coordinate of scene and origin and u = 2^-24, a
- * sheared coordinate in float is off by at most 14 u s, and an edge function by at most 64 u s times the sum S of the
- * six coordinates' absolute values (were S itself below 16 u s, the edge function would be smaller than that). This is
- * the slack an edge function is given; FLT_MIN covers what underflows. */
+/* One loop tests up to four triangles, and a compiler can do its arithmetic on all lanes at once. The loop computes in
+ * float and only sorts out: a triangle stays in unless the ray certainly misses it. triangle_hit then tests those that
+ * stay in double, and alone decides. Let s be the largest coordinate of scene and origin and u = 2^-24. A sheared
+ * coordinate in float is off by at most 14 u s, and an edge function by at most 64 u s times the sum S of the six
+ * coordinates' absolute values (were S itself below 16 u s, the edge function would be smaller than that). If the ray
+ * hits the triangle, the origin of the sheared plane is within it, so that no coordinate exceeds the longest difference
+ * of two corners, and S is at most kd_block.reach. So 64 u s times that is the slack that an edge function is given;
+ * FLT_MIN covers what underflows. */
 
 /* A ray and what the test needs of it. */
 struct block_ray {
     struct triangle_ray exact;
     float ox, oy, oz, sx, sy; /* of exact, in float */
     float slack;              /* 64 u s */
+    uint32_t from, to;        /* primitive numbers of the triangles it begins and ends on, KD_NONE: on none */
 };
+
+/* The number of a primitive that is a triangle, KD_NONE of another: quadrics see to themselves. */
+static uint32_t own_triangle(uint32_t id) { return id - 1 < FIRST_QUADRIC ? id - 1 : KD_NONE; }
 
 /* For the scene whose largest absolute coordinate, or the ray's origin's, is `size`. */
 static void prepare_ray(struct block_ray *r, const struct ray *ray, double size)
@@ -50,29 +56,33 @@ static void prepare_ray(struct block_ray *r, const struct ray *ray, double size)
     r->sx = (float)r->exact.sx;
     r->sy = (float)r->exact.sy;
     r->slack = (float)(64 * 0x1p-24 * size);
+    r->from = own_triangle(ray->from);
+    r->to = own_triangle(ray->to);
 }
 
-/* Which lanes may the ray hit? Those where beyond[i] <= 0; returns whether there are any. A quadric's zeros always may,
- * the NaNs of an unused lane never. The names are those of triangle_hit. */
-static inline bool block_near(const struct kd_block *b, const struct block_ray *r, float beyond[KD_LANES])
+/* Which lanes may the ray hit? Sets near[i] to 1 or 0 and returns whether any is 1. A quadric's zeros always may, the
+ * NaNs of an unused lane never. The names are those of triangle_hit. */
+static inline bool block_near(const struct kd_block *b, const struct block_ray *r, int near[KD_LANES])
 {
     const float *a_x = b->v[0][r->exact.kx], *a_y = b->v[0][r->exact.ky], *a_z = b->v[0][r->exact.kz];
     const float *b_x = b->v[1][r->exact.kx], *b_y = b->v[1][r->exact.ky], *b_z = b->v[1][r->exact.kz];
     const float *c_x = b->v[2][r->exact.kx], *c_y = b->v[2][r->exact.ky], *c_z = b->v[2][r->exact.kz];
-    const float ox = r->ox, oy = r->oy, oz = r->oz, sx = r->sx, sy = r->sy, factor = r->slack;
+    const float ox = r->ox, oy = r->oy, oz = r->oz, sx = r->sx, sy = r->sy, factor = r->slack, *reach = b->reach;
+    const uint32_t *prim = b->prim, from = r->from, to = r->to;
     int any = 0;
+#pragma GCC unroll 1 /* else gcc writes the lanes one after the other, and does not put them side by side again */
     for (int i = 0; i < KD_LANES; i++) {
         float az = a_z[i] - oz, bz = b_z[i] - oz, cz = c_z[i] - oz;
         float ax = (a_x[i] - ox) - sx * az, ay = (a_y[i] - oy) - sy * az;
         float bx = (b_x[i] - ox) - sx * bz, by = (b_y[i] - oy) - sy * bz;
         float cx = (c_x[i] - ox) - sx * cz, cy = (c_y[i] - oy) - sy * cz;
         float ea = cx * by - cy * bx, eb = ax * cy - ay * cx, ec = bx * ay - by * ax;
-        float sum = fabsf(ax) + fabsf(ay) + fabsf(bx) + fabsf(by) + fabsf(cx) + fabsf(cy);
         float least = ea < eb ? ea : eb, most = ea > eb ? ea : eb;
         least = ec < least ? ec : least;
         most = ec > most ? ec : most;
-        beyond[i] = (-least < most ? -least : most) - (factor * sum + FLT_MIN);
-        any |= beyond[i] <= 0;
+        float outside = -least < most ? -least : most;
+        near[i] = (outside <= factor * reach[i] + FLT_MIN) & (prim[i] != from) & (prim[i] != to);
+        any |= near[i];
     }
     return any != 0;
 }
@@ -82,13 +92,11 @@ static bool lane_hit(const struct kd_block *b, int lane, const struct geometry *
 {
     float v[9];
     struct hit h;
-    h.prim = (int)(b->prim[lane] & ~KD_ALPHA);
-    if (shape_prim_id(h.prim) == r->exact.ray->from || shape_prim_id(h.prim) == r->exact.ray->to)
-        return false;
     for (int i = 0; i < 9; i++)
         v[i] = b->v[i / 3][i % 3][lane];
     if (!triangle_hit(&r->exact, v, tmax, &h))
         return false;
+    h.prim = (int)(b->prim[lane] & ~KD_ALPHA);
     if ((b->prim[lane] & KD_ALPHA) && !geo->opaque(geo->opaque_context, geo, &h, shadow))
         return false;
     *hit = h;
@@ -110,14 +118,14 @@ static bool quadrics_hit(const struct kd_block *b, const struct geometry *geo, c
 }
 
 /* The first hit within (ray->tmin, tmax) among the near lanes, honouring alpha; false, with *hit untouched, if none. */
-static bool block_hit(const struct kd_block *b, const float beyond[KD_LANES], const struct geometry *geo,
+static bool block_hit(const struct kd_block *b, const int near[KD_LANES], const struct geometry *geo,
                       const struct block_ray *r, double tmax, bool shadow, struct hit *hit)
 {
     bool found = false;
     if ((b->prim[0] & ~KD_ALPHA) >= FIRST_QUADRIC)
         return quadrics_hit(b, geo, r->exact.ray, tmax, hit);
     for (int i = 0; i < KD_LANES; i++)
-        if (beyond[i] <= 0 && lane_hit(b, i, geo, r, tmax, shadow, hit)) {
+        if (near[i] && lane_hit(b, i, geo, r, tmax, shadow, hit)) {
             tmax = hit->t;
             found = true;
         }
@@ -230,14 +238,14 @@ static inline bool traverse(const struct kdtree *kd, const struct geometry *geo,
     if (!traversal_start(&w, kd, ray))
         return false;
     double nearest = ray->tmax, range[2];
-    float beyond[KD_LANES];
+    int near[KD_LANES];
     bool found = false;
     do {
         struct kd_node leaf = traversal_to_leaf(&w, kd->node, range);
         const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
         for (; block < end; block++)
-            if (block_near(block, &w.ray, beyond) &&
-                block_hit(block, beyond, geo, &w.ray, nearest, shadow, hit)) {
+            if (block_near(block, &w.ray, near) &&
+                block_hit(block, near, geo, &w.ray, nearest, shadow, hit)) {
                 if (shadow)
                     return true;
                 nearest = hit->t;
