@@ -170,11 +170,13 @@ static bool traversal_start(struct traversal *w, const struct kdtree *kd, const 
     double tmin = ray->tmin, tmax = ray->tmax;
     for (int k = 0; k < 3; k++) {
         double inverse = inverse_of(d[k]), slack = 1e-14 * size * fabs(inverse);
-        double lo = (kd->lo[k] - o[k]) * inverse, hi = (kd->hi[k] - o[k]) * inverse;
         w->o[k] = o[k];
         w->inverse[k] = inverse;
         w->slack[k] = slack;
         w->near_child[k] = inverse < 0;
+        if (ray->tmax < INFINITY) /* most of these lie within the bounds */
+            continue;
+        double lo = (kd->lo[k] - o[k]) * inverse, hi = (kd->hi[k] - o[k]) * inverse;
         tmin = larger(tmin, smaller(lo, hi) - slack);
         tmax = smaller(tmax, larger(lo, hi) + slack);
     }
