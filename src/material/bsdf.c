@@ -28,19 +28,6 @@ void bsdf_make(struct bsdf *b, struct lobe *lobe, int n)
         lobe->of.diffuse = rgb_scale(rgb_mul(lobe->R, lobe->scale), INV_PI);
 }
 
-/* All smooth lobes for a pair of directions in the shading frame. */
-static struct bsdf_value eval_lobes(const struct bsdf *b, vec3 o, vec3 i, bool reflect, enum transport mode)
-{
-    struct bsdf_value sum = NOTHING;
-    for (const struct lobe *l = b->lobe; l < b->lobe + b->n_lobes; l++) {
-        struct bsdf_value v = lobe_eval(l, o, i, reflect, mode);
-        sum.f = rgb_add(sum.f, v.f);
-        sum.pdf += l->choice * v.pdf;
-        sum.pdf_rev += l->choice * v.pdf_rev;
-    }
-    return rgb_is_black(sum.f) ? NOTHING : sum;
-}
-
 struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)
 {
     if (b->n_smooth == 0 || !bsdf_may_scatter(b, wo, wi))
@@ -49,7 +36,15 @@ struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transpo
         return (struct bsdf_value){b->lobe->of.diffuse, abs_dot(wi, b->shading.n) * INV_PI,
                                    abs_dot(wo, b->shading.n) * INV_PI};
     bool reflect = dot(wi, b->ng) * dot(wo, b->ng) > 0;
-    return eval_lobes(b, to_local(&b->shading, wo), to_local(&b->shading, wi), reflect, mode);
+    vec3 o = to_local(&b->shading, wo), i = to_local(&b->shading, wi);
+    struct bsdf_value sum = NOTHING;
+    for (const struct lobe *l = b->lobe; l < b->lobe + b->n_lobes; l++) {
+        struct bsdf_value v = lobe_eval(l, o, i, reflect, mode);
+        sum.f = rgb_add(sum.f, v.f);
+        sum.pdf += l->choice * v.pdf;
+        sum.pdf_rev += l->choice * v.pdf_rev;
+    }
+    return rgb_is_black(sum.f) ? NOTHING : sum;
 }
 
 /* Choose a lobe with *u and replace *u by what is left of it, uniform again. */
@@ -80,12 +75,10 @@ bool bsdf_sample(const struct bsdf *b, vec3 wo, const double u[3], enum transpor
         out->pdf_rev *= l->choice;
         return true;
     }
-    vec3 ng = to_local(&b->shading, b->ng);
-    if (!lobe_sample(l, o, ng, rest, &i))
+    if (!lobe_sample(l, o, to_local(&b->shading, b->ng), rest, &i))
         return false;
-    bool reflect = dot(i, ng) * dot(o, ng) > 0;
-    struct bsdf_value v = reflect || b->transmits ? eval_lobes(b, o, i, reflect, mode) : NOTHING;
     out->wi = to_world(&b->shading, i);
+    struct bsdf_value v = bsdf_eval(b, wo, out->wi, mode);
     out->f = v.f;
     out->pdf = v.pdf;
     out->pdf_rev = v.pdf_rev;

@@ -24,8 +24,8 @@ struct bsdf {
 };
 
 /* bsdf_make: a BSDF of n >= 0 lobes, whose shading and ng are to be filled in. The array is kept, not copied; black
- * lobes are taken out of it, and `choice` is filled in: in proportion to lobe_albedo_guess, with an eighth spread evenly
- * so that no lobe starves. It does not depend on directions, so both directions of a walk choose alike. */
+ * lobes are taken out of it, and `choice` is filled in: in proportion to lobe_albedo_guess, with an eighth spread
+ * evenly so that no lobe starves. It does not depend on directions, so both directions of a walk choose alike. */
 void bsdf_make(struct bsdf *b, struct lobe *lobe, int n);
 
 /* bsdf_may_scatter: false where bsdf_eval is black for no other reason than that wo and wi lie on different sides of a
