@@ -228,7 +228,7 @@ static void check_quadric_partials(struct test *t, const struct geometry *geo, i
         for (int m = 0; m < 5; m++) {
             double du = m == 0 ? h : m == 1 ? -h : 0, dv = m == 2 ? h : m == 3 ? -h : 0;
             vec3 p = transform_point_back(&q->to_world, point_of(q, u + du, v + dv));
-            quadric_surface_at(q, false, p, m < 4 ? &step[m] : &at);
+            quadric_surface_at(q, false, false, p, m < 4 ? &step[m] : &at);
         }
         vec3 dpdu = mul(sub(step[0].p, step[1].p), 0.5 / h), dpdv = mul(sub(step[2].p, step[3].p), 0.5 / h);
         vec3 dndu = mul(sub(step[0].ns, step[1].ns), 0.5 / h), dndv = mul(sub(step[2].ns, step[3].ns), 0.5 / h);
@@ -341,7 +341,7 @@ static double sample_p(const struct geometry *geo, int prim, bool forget, struct
         for (int k = 0; k < N * FINE; k++) {
             struct surface at;
             double u = (i + 0.5) / (N * FINE), v = (k + 0.5) / (N * FINE);
-            quadric_surface_at(q, false, transform_point_back(&q->to_world, point_of(q, u, v)), &at);
+            quadric_surface_at(q, false, false, transform_point_back(&q->to_world, point_of(q, u, v)), &at);
             double patch = length(cross(at.dpdu, at.dpdv)) / (N * FINE * N * FINE);
             *area += patch;
             double pdf = forget ? 1 / whole : shape_pdf_a(geo, prim, &at);

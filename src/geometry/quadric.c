@@ -220,7 +220,26 @@ bool quadric_intersect(const struct quadric *q, const struct ray *ray, bool begi
 
 /* --- the surface -------------------------------------------------------------------------------------- */
 
-/* What follows fills a surface point in object space, whose dndu and dndv are zero at first; ng is of any length. */
+/* The normal at a point of the surface in object space, of any length. */
+static vec3 normal_at(const struct quadric *q, vec3 p)
+{
+    struct profile f;
+    vec3 out = outwards(p), n;
+    switch (q->kind) {
+    case QUADRIC_SPHERE: return mul(p, 1 / q->radius);
+    case QUADRIC_DISK: return vec(0, 0, 1);
+    case QUADRIC_CYLINDER: return vec(p.x / q->radius, p.y / q->radius, 0);
+    case QUADRIC_CONE: return vec(out.x * q->zmax, out.y * q->zmax, q->radius);
+    case QUADRIC_PARABOLOID: return vec(p.x, p.y, -0.5 * sqr(q->radius) / q->zmax); /* half the gradient */
+    case QUADRIC_HYPERBOLOID: /* half the gradient, turned the way of dpdu x dpdv; any direction on the axis */
+        f = profile_of(q);
+        n = vec(p.x, p.y, -0.5 * f.c1 - f.c2 * (p.z - f.z0));
+        return mul(length2(n) > 0 ? n : vec(1, 0, 0), q->p2.z > q->p1.z ? 1 : -1);
+    }
+    return p;
+}
+
+/* What follows fills in u, v and partial derivatives of a point in object space; dndu and dndv are zero at first. */
 
 /* Derivatives by u shrink towards the axis, where they would be no tangents; of the radius, they stop at this. */
 static const double LEAST_RING = 1e-5;
@@ -233,7 +252,6 @@ static void sphere_point(const struct quadric *q, vec3 p, struct surface *at)
     vec3 out = outwards(p);
     ring = fmax(ring, LEAST_RING * r);
     at->v = (m_acos(clamp(p.z / r, -1, 1)) - theta0) / (theta1 - theta0);
-    at->ng = mul(p, 1 / r);
     at->dpdu = mul(vec(-out.y, out.x, 0), q->phi_max * ring);
     at->dpdv = mul(vec(p.z * out.x, p.z * out.y, -ring), theta1 - theta0);
     at->dndu = mul(at->dpdu, 1 / r);
@@ -245,7 +263,6 @@ static void disk_point(const struct quadric *q, vec3 p, struct surface *at)
     double r = fmax(ring_of(p), LEAST_RING * q->radius), width = q->radius - q->inner_radius;
     vec3 out = outwards(p);
     at->v = (q->radius - r) / width;
-    at->ng = vec(0, 0, 1);
     at->dpdu = mul(vec(-out.y, out.x, 0), q->phi_max * r);
     at->dpdv = mul(out, -width);
 }
@@ -253,7 +270,6 @@ static void disk_point(const struct quadric *q, vec3 p, struct surface *at)
 static void cylinder_point(const struct quadric *q, vec3 p, struct surface *at)
 {
     at->v = (p.z - q->zmin) / (q->zmax - q->zmin);
-    at->ng = vec(p.x / q->radius, p.y / q->radius, 0);
     at->dpdu = mul(vec(-p.y, p.x, 0), q->phi_max);
     at->dpdv = vec(0, 0, q->zmax - q->zmin);
     at->dndu = mul(at->dpdu, 1 / q->radius);
@@ -264,34 +280,28 @@ static void cone_point(const struct quadric *q, vec3 p, struct surface *at)
 {
     vec3 out = outwards(p), along = vec(-out.y, out.x, 0);
     at->v = p.z / q->zmax;
-    at->ng = vec(out.x * q->zmax, out.y * q->zmax, q->radius);
     at->dpdu = mul(along, q->phi_max * fmax(ring_of(p), LEAST_RING * q->radius));
     at->dpdv = vec(-out.x * q->radius, -out.y * q->radius, q->zmax);
     at->dndu = mul(along, q->phi_max * q->zmax);
 }
 
-/* n is half the gradient of x^2 + y^2 - k z, k = radius^2 / zmax. */
+/* The surface is x^2 + y^2 = k z, k = radius^2 / zmax. */
 static void paraboloid_point(const struct quadric *q, vec3 p, struct surface *at)
 {
     double k = sqr(q->radius) / q->zmax, r = fmax(ring_of(p), LEAST_RING * q->radius), height = q->zmax - q->zmin;
     vec3 out = outwards(p);
     at->v = (p.z - q->zmin) / height;
-    at->ng = vec(p.x, p.y, -0.5 * k);
     at->dpdu = at->dndu = mul(vec(-out.y, out.x, 0), q->phi_max * r);
     at->dndv = mul(out, height * k / (2 * r)); /* the ring grows by k / 2r with z */
     at->dpdv = vec(at->dndv.x, at->dndv.y, height);
 }
 
-/* n is half the gradient, turned the way of dpdu x dpdv. Where segment and axis meet any direction will do. */
 static void hyperboloid_point(const struct quadric *q, vec3 p, struct surface *at)
 {
     struct profile f = profile_of(q);
     double phi = azimuth(q, p), c = m_cos(phi), s = m_sin(phi), side = q->p2.z > q->p1.z ? 1 : -1;
     vec3 d = sub(q->p2, q->p1);
     at->v = (p.z - q->p1.z) / d.z;
-    at->ng = mul(vec(p.x, p.y, -0.5 * f.c1 - f.c2 * (p.z - f.z0)), side);
-    if (length2(at->ng) == 0)
-        at->ng = vec(side, 0, 0);
     at->dpdu = mul(vec(-p.y, p.x, 0), q->phi_max);
     at->dpdv = vec(d.x * c - d.y * s, d.x * s + d.y * c, d.z);
     at->dndu = mul(at->dpdu, side);
@@ -306,9 +316,15 @@ static vec3 normal_derivative(const struct quadric *q, vec3 d, vec3 n, double sc
     return sub(w, mul(n, dot(n, w)));
 }
 
-void quadric_surface_at(const struct quadric *q, bool reverse_orientation, vec3 p, struct surface *out)
+void quadric_surface_at(const struct quadric *q, bool reverse_orientation, bool skip_uv, vec3 p, struct surface *out)
 {
     p = project(q, p);
+    vec3 normal = transform_normal(&q->to_world, normal_at(q, p));
+    double scale = (reverse_orientation ? -1 : 1) / length(normal);
+    out->p = transform_point(&q->to_world, p);
+    out->ng = out->ns = mul(normal, scale);
+    if (skip_uv)
+        return;
     out->dndu = out->dndv = vec(0, 0, 0);
     out->u = azimuth(q, p) / q->phi_max;
     switch (q->kind) {
@@ -319,10 +335,6 @@ void quadric_surface_at(const struct quadric *q, bool reverse_orientation, vec3 
     case QUADRIC_PARABOLOID: paraboloid_point(q, p, out); break;
     case QUADRIC_HYPERBOLOID: hyperboloid_point(q, p, out); break;
     }
-    vec3 normal = transform_normal(&q->to_world, out->ng);
-    double scale = (reverse_orientation ? -1 : 1) / length(normal);
-    out->p = transform_point(&q->to_world, p);
-    out->ng = out->ns = mul(normal, scale);
     out->dpdu = transform_vector(&q->to_world, out->dpdu);
     out->dpdv = transform_vector(&q->to_world, out->dpdv);
     out->dndu = normal_derivative(q, out->dndu, out->ng, scale);
@@ -381,7 +393,7 @@ double quadric_area(const struct quadric *q)
     for (int i = 0; i < n * n; i++) {
         struct surface at;
         vec3 p = quadric_sample(q, (i / n + 0.5) / n, (i % n + 0.5) / n);
-        quadric_surface_at(q, false, p, &at);
+        quadric_surface_at(q, false, true, p, &at);
         sum += area_ratio(q, at.ng);
     }
     return object_area(q) * sum / (n * n);

@@ -45,8 +45,8 @@ void quadric_bounds(const struct quadric *q, vec3 *lo, vec3 *hi);
 bool quadric_intersect(const struct quadric *q, const struct ray *ray, bool begins, bool ends, double *t);
 
 /* quadric_surface_at: the surface point at object-space point p, near the quadric, which is moved onto it first.
- * Fills all of *out but material and light. */
-void quadric_surface_at(const struct quadric *q, bool reverse_orientation, vec3 p, struct surface *out);
+ * Fills in what the shape knows of *out; if skip_uv is set, only its position and normals. */
+void quadric_surface_at(const struct quadric *q, bool reverse_orientation, bool skip_uv, vec3 p, struct surface *out);
 
 /* quadric_sample: an object-space point of a sphere, disk or cylinder, uniform by object-space area, from (u1,u2) in
  * [0,1)^2. */

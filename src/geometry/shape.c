@@ -250,7 +250,7 @@ void shape_surface(const struct geometry *geo, const struct hit *hit, const stru
     if (is_quadric(hit->prim)) {
         const struct quadric *q = quadric_of(geo, hit->prim);
         vec3 p = transform_point_back(&q->to_world, add(ray->o, mul(ray->d, hit->t)));
-        quadric_surface_at(q, group->flip, p, out);
+        quadric_surface_at(q, group->flip, group->skip_uv, p, out);
     } else {
         struct triangle tri;
         load_triangle(geo, group, hit->prim, &tri);
@@ -277,7 +277,7 @@ bool shape_sample(const struct geometry *geo, int prim, double u1, double u2, st
     const struct shape_group *group = shape_group_of(geo, prim);
     if (is_quadric(prim)) {
         const struct quadric *q = quadric_of(geo, prim);
-        quadric_surface_at(q, group->flip, quadric_sample(q, u1, u2), out);
+        quadric_surface_at(q, group->flip, group->skip_uv, quadric_sample(q, u1, u2), out);
         *pdf_a = quadric_pdf_a(q, out->ng);
         return true;
     }

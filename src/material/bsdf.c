@@ -1,8 +1,6 @@
 /* bsdf.c: sums over lobes, see bsdf.h. One lobe's formulas are in lobe.c. */
 #include "material/bsdf.h"
 
-static const struct bsdf_value NOTHING = {{0, 0, 0}, 0, 0};
-
 void bsdf_make(struct bsdf *b, struct lobe *lobe, int n)
 {
     const double even = 0.125;
@@ -24,27 +22,22 @@ void bsdf_make(struct bsdf *b, struct lobe *lobe, int n)
     }
     for (int i = 0; i < b->n_lobes; i++)
         lobe[i].choice = b->n_lobes == 1 ? 1 : even / b->n_lobes + (1 - even) * lobe[i].choice / total;
-    if (b->n_lobes == 1 && lobe->kind == LOBE_LAMBERT_REFLECTION)
+    b->diffuse = b->n_lobes == 1 && lobe->kind == LOBE_LAMBERT_REFLECTION;
+    if (b->diffuse)
         lobe->of.diffuse = rgb_scale(rgb_mul(lobe->R, lobe->scale), INV_PI);
 }
 
-struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)
+struct bsdf_value bsdf_eval_lobes(const struct bsdf *b, vec3 wo, vec3 wi, bool reflect, enum transport mode)
 {
-    if (b->n_smooth == 0 || !bsdf_may_scatter(b, wo, wi))
-        return NOTHING;
-    if (b->n_lobes == 1 && b->lobe->kind == LOBE_LAMBERT_REFLECTION) /* the commonest by far: two cosines */
-        return (struct bsdf_value){b->lobe->of.diffuse, abs_dot(wi, b->shading.n) * INV_PI,
-                                   abs_dot(wo, b->shading.n) * INV_PI};
-    bool reflect = dot(wi, b->ng) * dot(wo, b->ng) > 0;
     vec3 o = to_local(&b->shading, wo), i = to_local(&b->shading, wi);
-    struct bsdf_value sum = NOTHING;
+    struct bsdf_value sum = NO_SCATTERING;
     for (const struct lobe *l = b->lobe; l < b->lobe + b->n_lobes; l++) {
         struct bsdf_value v = lobe_eval(l, o, i, reflect, mode);
         sum.f = rgb_add(sum.f, v.f);
         sum.pdf += l->choice * v.pdf;
         sum.pdf_rev += l->choice * v.pdf_rev;
     }
-    return rgb_is_black(sum.f) ? NOTHING : sum;
+    return rgb_is_black(sum.f) ? NO_SCATTERING : sum;
 }
 
 /* Choose a lobe with *u and replace *u by what is left of it, uniform again. */

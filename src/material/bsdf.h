@@ -21,6 +21,7 @@ struct bsdf {
     int n_lobes;
     int n_smooth;            /* lobes that are not delta; 0: no connection can end here */
     bool transmits;          /* one of these lets light through */
+    bool diffuse;            /* it is one LOBE_LAMBERT_REFLECTION, the commonest by far, and f is its `diffuse` */
 };
 
 /* bsdf_make: a BSDF of n >= 0 lobes, whose shading and ng are to be filled in. The array is kept, not copied; black
@@ -37,8 +38,19 @@ static inline bool bsdf_may_scatter(const struct bsdf *b, vec3 wo, vec3 wi)
 
 /* bsdf_eval: value and both densities for a pair of directions, summed over all smooth lobes. Where the value is
  * black both densities are 0: bsdf_sample never returns such a pair. Swapping wo and wi swaps pdf and pdf_rev, and
- * f(wo, wi, RADIANCE) = f(wi, wo, IMPORTANCE). Cannot fail. */
-struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode);
+ * f(wo, wi, RADIANCE) = f(wi, wo, IMPORTANCE). Cannot fail. bsdf_eval_lobes is for bsdf_eval alone. */
+struct bsdf_value bsdf_eval_lobes(const struct bsdf *b, vec3 wo, vec3 wi, bool reflect, enum transport mode);
+
+static inline struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi, enum transport mode)
+{
+    bool reflect = dot(wi, b->ng) * dot(wo, b->ng) > 0;
+    if (b->n_smooth == 0 || !(b->transmits || reflect))
+        return NO_SCATTERING;
+    if (b->diffuse)
+        return (struct bsdf_value){b->lobe->of.diffuse, abs_dot(wi, b->shading.n) * INV_PI,
+                                   abs_dot(wo, b->shading.n) * INV_PI};
+    return bsdf_eval_lobes(b, wo, wi, reflect, mode);
+}
 
 /* bsdf_sample: draw wi given wo.
  *   u  three uniform numbers in [0,1): lobe choice and direction

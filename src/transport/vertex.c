@@ -9,17 +9,6 @@ struct light_point vertex_light_point(const struct vertex *v)
     return at;
 }
 
-double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode)
-{
-    vec3 ns = v->bsdf.shading.n;
-    if (v->kind == VERTEX_MEDIUM)
-        return 1;
-    if (mode == RADIANCE)
-        return abs_dot(wi, ns);
-    double wo_ng = abs_dot(v->wo, v->ng);
-    return wo_ng > 0 ? abs_dot(v->wo, ns) * abs_dot(wi, v->ng) / wo_ng : 0;
-}
-
 /* An eye sub-path that escapes meets all infinite lights at once, so their densities are added up for the weight.
  * [PBRT3 16.3.5] */
 double vertex_light_pdf(const struct light_set *lights, const struct light_point *at)

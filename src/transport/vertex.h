@@ -112,6 +112,15 @@ static inline vec3 vertex_side(const struct vertex *v)
 /* scatter_cosine: the factor by which a BSDF's f is multiplied when a walk leaves v in direction wi. For a walk from
  * the eye it is |cos(wi, ns)|. For a walk from a light, the adjoint BSDF of shading normals makes it
  * |cos(wo, ns)| |cos(wi, ng)| / |cos(wo, ng)|.                                                         [V97 5.3] */
-double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode);
+static inline double scatter_cosine(const struct vertex *v, vec3 wi, enum transport mode)
+{
+    vec3 ns = v->bsdf.shading.n;
+    if (v->kind == VERTEX_MEDIUM)
+        return 1;
+    if (mode == RADIANCE)
+        return abs_dot(wi, ns);
+    double wo_ng = abs_dot(v->wo, v->ng);
+    return wo_ng > 0 ? abs_dot(v->wo, ns) * abs_dot(wi, v->ng) / wo_ng : 0;
+}
 
 #endif
