@@ -47,11 +47,11 @@ double lobe_albedo_guess(const struct lobe *l)
 
 /* --- diffuse lobes ----------------------------------------------------------------------------------- */
 
-/* NO_SCATTERING unless the directions are on the sides that the lobe is for. */
+/* NOTHING unless the directions are on the sides that the lobe is for. */
 static struct bsdf_value diffuse(bool there, rgb f, vec3 wo, vec3 wi)
 {
     struct bsdf_value v = {f, fabs(wi.z) * INV_PI, fabs(wo.z) * INV_PI};
-    return there ? v : NO_SCATTERING;
+    return there ? v : NOTHING;
 }
 
 /* The original has sin(alpha) tan(beta) with alpha the larger and beta the smaller of the two angles, and the
@@ -96,12 +96,12 @@ static double masking(const struct lobe *l, double lambda_o, double lambda_i)
 static struct bsdf_value microfacet_reflection(const struct lobe *l, vec3 wo, vec3 wi, bool reflect)
 {
     if (!(wo.z * wi.z > 0))
-        return NO_SCATTERING;
+        return NOTHING;
     vec3 wh = normalize(add(wo, wi));
     double lambda_o = microfacet_lambda(wo, l->alpha_x, l->alpha_y);
     double lambda_i = microfacet_lambda(wi, l->alpha_x, l->alpha_y);
     double d4 = 0.25 * microfacet_d(wh, l->alpha_x, l->alpha_y);
-    struct bsdf_value v = NO_SCATTERING;
+    struct bsdf_value v = NOTHING;
     v.pdf = d4 / ((1 + lambda_o) * fabs(wo.z));
     v.pdf_rev = d4 / ((1 + lambda_i) * fabs(wi.z));
     if (reflect) {
@@ -134,17 +134,17 @@ static struct bsdf_value microfacet_transmission(const struct lobe *l, vec3 wo, 
                                                  enum transport mode)
 {
     if (!(wo.z * wi.z < 0))
-        return NO_SCATTERING;
+        return NOTHING;
     double eta = wo.z > 0 ? l->eta_b / l->eta_a : l->eta_a / l->eta_b;
     vec3 wh = normalize(add(wo, mul(wi, eta)));
     wh = wh.z * wo.z < 0 ? neg(wh) : wh;
     double cos_oh = dot(wo, wh), cos_ih = dot(wi, wh);
     if (!(cos_oh > 0 && cos_ih < 0)) /* the facet's back is turned to one of them */
-        return NO_SCATTERING;
+        return NOTHING;
     double lambda_o = microfacet_lambda(wo, l->alpha_x, l->alpha_y);
     double lambda_i = microfacet_lambda(wi, l->alpha_x, l->alpha_y);
     double j = microfacet_d(wh, l->alpha_x, l->alpha_y) * cos_oh * -cos_ih / sqr(cos_oh + eta * cos_ih);
-    struct bsdf_value v = NO_SCATTERING;
+    struct bsdf_value v = NOTHING;
     v.pdf = eta * eta * j / ((1 + lambda_o) * fabs(wo.z));
     v.pdf_rev = j / ((1 + lambda_i) * fabs(wi.z));
     if (!reflect) {
@@ -195,7 +195,7 @@ static struct bsdf_value substrate(const struct lobe *l, vec3 wo, vec3 wi, bool 
 static struct bsdf_value clearcoat(const struct lobe *l, vec3 wo, vec3 wi, bool reflect)
 {
     if (!(wo.z * wi.z > 0))
-        return NO_SCATTERING;
+        return NOTHING;
     vec3 wh = normalize(add(wo, wi));
     double pdf = disney_coat_d(wh, l->of.gloss) * fabs(wh.z) / (4 * dot(wo, wh));
     double value = reflect ? disney_coat(l->of.gloss, wo, wi, wh) : 0;
@@ -232,9 +232,9 @@ static vec3 sample_phase(double g, vec3 wo, double u1, double u2)
 
 struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode)
 {
-    struct bsdf_value v = NO_SCATTERING;
+    struct bsdf_value v = NOTHING;
     if (l->kind != LOBE_PHASE && (wo.z == 0 || wi.z == 0)) /* along the surface */
-        return NO_SCATTERING;
+        return NOTHING;
     switch (l->kind) {
     case LOBE_LAMBERT_REFLECTION: v = diffuse(reflect, rgb_scale(l->R, INV_PI), wo, wi); break;
     case LOBE_LAMBERT_TRANSMISSION: v = diffuse(!reflect, rgb_scale(l->T, INV_PI), wo, wi); break;

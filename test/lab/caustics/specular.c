@@ -15,8 +15,13 @@ vec3 specular_normal_change(const struct geometry *geo, const struct surface *at
 {
     int prim = (int)(at->prim_id - 1);
     double u, v, b1, b2;
-    if (prim >= FIRST_QUADRIC)
-        return combination(at->dpdu, at->dpdv, dp, &u, &v) ? along(at, u, v) : vec(0, 0, 0);
+    if (prim >= FIRST_QUADRIC) { /* `at` may lack derivatives, see struct shape_group */
+        const struct quadric *q = &geo->quadric[prim - FIRST_QUADRIC];
+        struct surface whole;
+        vec3 p = transform_point_back(&q->to_world, at->p);
+        quadric_surface_at(q, shape_group_of(geo, prim)->flip, false, p, &whole);
+        return combination(whole.dpdu, whole.dpdv, dp, &u, &v) ? along(&whole, u, v) : vec(0, 0, 0);
+    }
     vec3 p[3], n[3];
     for (size_t i = 0; i < 3; i++) {
         size_t vertex = geo->index[3 * (size_t)prim + i];
