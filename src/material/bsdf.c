@@ -30,14 +30,14 @@ void bsdf_make(struct bsdf *b, struct lobe *lobe, int n)
 struct bsdf_value bsdf_eval_lobes(const struct bsdf *b, vec3 wo, vec3 wi, bool reflect, enum transport mode)
 {
     vec3 o = to_local(&b->shading, wo), i = to_local(&b->shading, wi);
-    struct bsdf_value sum = NOTHING;
+    struct bsdf_value sum = NO_SCATTERING;
     for (const struct lobe *l = b->lobe; l < b->lobe + b->n_lobes; l++) {
         struct bsdf_value v = lobe_eval(l, o, i, reflect, mode);
         sum.f = rgb_add(sum.f, v.f);
         sum.pdf += l->choice * v.pdf;
         sum.pdf_rev += l->choice * v.pdf_rev;
     }
-    return rgb_is_black(sum.f) ? NOTHING : sum;
+    return rgb_is_black(sum.f) ? NO_SCATTERING : sum;
 }
 
 /* Choose a lobe with *u and replace *u by what is left of it, uniform again. */

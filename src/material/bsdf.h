@@ -45,7 +45,7 @@ static inline struct bsdf_value bsdf_eval(const struct bsdf *b, vec3 wo, vec3 wi
 {
     bool reflect = dot(wi, b->ng) * dot(wo, b->ng) > 0;
     if (b->n_smooth == 0 || !(b->transmits || reflect))
-        return NOTHING;
+        return NO_SCATTERING;
     if (b->diffuse)
         return (struct bsdf_value){b->lobe->of.diffuse, abs_dot(wi, b->shading.n) * INV_PI,
                                    abs_dot(wo, b->shading.n) * INV_PI};

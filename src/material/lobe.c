@@ -8,6 +8,8 @@
 #include "material/fresnel.h"
 #include "material/microfacet.h"
 
+static const struct bsdf_value NOTHING = {{0, 0, 0}, 0, 0};
+
 bool lobe_is_delta(enum lobe_kind kind)
 {
     return kind == LOBE_SPECULAR_REFLECTION || kind == LOBE_SPECULAR_TRANSMISSION || kind == LOBE_FRESNEL_SPECULAR;

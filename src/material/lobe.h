@@ -84,7 +84,7 @@ struct bsdf_value {
     double pdf;     /* density of sampling wi given wo, 1/sr; delta lobes left out */
     double pdf_rev; /* density of sampling wo given wi, 1/sr */
 };
-static const struct bsdf_value NOTHING = {{0, 0, 0}, 0, 0};
+static const struct bsdf_value NO_SCATTERING = {{0, 0, 0}, 0, 0};
 
 /* A drawn direction. The walk's throughput is to be multiplied by f |cos(wi, ns)| / pdf in all cases. */
 struct bsdf_sample {
