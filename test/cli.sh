@@ -583,11 +583,17 @@ expect 0 '' "$lab" equal-time "$box" --methods bdpt,asbdpt:select=pool --seconds
 check grep -q -e 'equal-time --seconds 0.01 --methods bdpt,asbdpt:select=pool --seeds 2' stdout.txt
 check [ "$(grep -c '^cornell-box,asbdpt:select=pool,' equal/runs.csv)" = 2 ]
 # family: once more, nothing is measured again.
-expect 0 'cornell-box, lvc:.*, seed' \
-    "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --seeds 3 -o family
+set -- "$box" "$ajar" --methods bdpt,pt,lvc --quick --spp 2 --res 8x8 --seeds 3 -o family
+expect 0 'cornell-box, lvc:.*, seed' "$lab" family "$@"
 check grep -q '^| lvc |' family/family.md
-expect 0 '' "$lab" family "$box" --methods bdpt,lvc --quick --spp 2 --res 8x8 --seeds 3 -o family
+expect 0 '' "$lab" family "$@"
 check [ "$(grep -c ', seed ' stderr.txt)" = 0 ]
+# Its means and intervals can be computed again from its runs; another number is found out.
+evidence=$scenes/../test/evidence
+awk -f "$evidence/family.awk" family/family.md >family.txt
+expect 0 '' awk -f "$evidence/recompute.awk" family/runs.csv family.txt
+sed '/^| pt/s/\[/[9/' family.txt >planted.txt
+expect 1 '' awk -f "$evidence/recompute.awk" family/runs.csv planted.txt
 # A reference is of the scene, or it is none: another's of the same name is refused, and no reference is not kept quiet.
 mkdir -p bathroom/ref
 printf 'Film "image" "integer xresolution" 32 "integer yresolution" 32 WorldBegin\n' >bathroom/scene.pbrt

@@ -7,6 +7,7 @@
 #   sh test/evidence.sh take NAME DIR      store and show what the entry's command has left in DIR, wherever it ran;
 #                                          MINUTES=, COMMIT=, ESTIMATOR= and MACHINE= say what is not as it is here
 #   sh test/evidence.sh fill               put what is stored into the documents
+#   sh test/evidence.sh recompute [NAME...]  are means and intervals those of the stored runs, NAME.csv?
 #   sh test/evidence.sh check              do the documents show what is stored, and say so where it is old?
 # What is stored, doc/measured/NAME.txt, has a head of lines "key: value" and sections "== SECTION". A document shows
 # one between <!-- measured: NAME.SECTION --> and <!-- end -->: both on lines of their own, or both in a line of text.
@@ -67,6 +68,14 @@ keep() {
         echo "minutes: ${MINUTES:-$3}"
         cat "$dir/shown"
     } >"$dir/kept" && mv "$dir/kept" "$stored/$1.txt"
+    for runs in "$2/runs.csv" "$2/64/runs.csv"; do
+        [ ! -f "$runs" ] || awk -F , '
+            BEGIN {
+                n = split("scene label half seed spp square8 square square8x8 price_before price_each mark", name, " ")
+            }
+            NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
+            { for (i = 1; i <= n; i++) printf "%s%s", $at[name[i]], i < n ? "," : "\n" }' "$runs" >"$stored/$1.csv"
+    done
 }
 
 # missing NAME: which of its needs is not there.
@@ -203,8 +212,20 @@ near() {
         END { exit bad || FNR != n }' "$1" "$2"
 }
 
+# recompute NAME...: the stored runs against the stored numbers.
+recompute() {
+    for name in "$@"; do
+        [ -f "$stored/$name.csv" ] || { wrong "$name has no stored runs: sh test/evidence.sh run $name"; continue; }
+        awk -f test/evidence/recompute.awk "$stored/$name.csv" "$stored/$name.txt" >"$dir/again" ||
+            wrong "$name is not what its runs say"
+        sed "s/^/$name: /" "$dir/again"
+    done
+}
+with_runs() { for name in $(names); do [ ! -f "$stored/$name.csv" ] || echo "$name"; done; }
+
 check() {
     n=0 behind=
+    recompute $(with_runs)
     for name in $(names); do
         file=$stored/$name.txt
         if [ ! -f "$file" ]; then behind="$behind $name"; continue; fi
@@ -278,6 +299,11 @@ run)
 take) keep "$2" "$3" unknown && fill ;;
 fill) fill ;;
 check) check ;;
-*) sed -n 's/^# *//p' "$0" | sed -n '2,12p'; bad=2 ;;
+recompute)
+    shift
+    [ $# -gt 0 ] || set -- $(with_runs)
+    recompute "$@"
+    ;;
+*) sed -n 's/^# *//p' "$0" | sed -n '2,13p'; bad=2 ;;
 esac
 exit $bad

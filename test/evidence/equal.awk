@@ -1,70 +1,70 @@
-# equal.awk: sections of doc/measured from equal-time.md of `asbdpt-lab equal-time`, from family.md of `asbdpt-lab
-# family`, where the default is called subspaces, or from such a table as it makes itself. table: a row for each scene;
-# mean, worst: these two alone; without: the mean without the best scene; better: the mean over the better of bdpt and
-# pt, which counts where it has no mark, like "misses light", behind its interval; losses: where that is above 1.
-function clean(s) { gsub(/[ *]/, "", s); return s }
-function first(s) { sub(/ .*/, "", s); return s }
-function add(scene, a, b, c, d) { row[++n] = scene; pt[n] = a; rmse8[n] = b; relmse[n] = c; blocks[n] = d }
-function mark(s) { return match(s, /[a-z][a-z ]*$/) ? substr(s, RSTART) : "" }
-# The scene with the smallest (sign 1) or largest (sign -1) value.
-function end_of(values, sign,    i, at) {
-    for (i = 1; i <= n; i++)
-        if (values[i] != "-" && (!at || sign * first(values[i]) < sign * first(values[at]))) at = i
-    return at ? at : 1
+# equal.awk: sections of doc/measured from family.md of `asbdpt-lab family`, where the default is called subspaces. Of
+# the last file: table, a row for each scene; mean, worst: these two alone; without: the mean without the best scene;
+# better: the mean over the better of bdpt and pt, which counts where it has no mark, like "misses light", behind its
+# interval; losses: where that is above 1. Of two files, with 16 and 64 samples: sizes, what the default makes of the
+# better one, a line where learning left no time for a sample.
+function number(s) { return s ~ /^[0-9]/ ? s + 0 : 0 }
+function cell(method, m, i) { return value[file, method, m, i] }
+# What the default of a file makes of the better one in a scene; 0: not known. bdpt is 1; what is printed as 0.000 is
+# taken for half of the last digit.
+function over_better(f, m, i,    q, pt) {
+    q = value[f, "subspaces", m, i]; pt = value[f, "pt", m, i]
+    if (q !~ /^[0-9]/) return 0
+    q = q + 0 > 0 ? q + 0 : 0.0005
+    if (pt ~ /[a-z]/ || pt !~ /^[0-9]/ || pt + 0 >= 1) return q
+    return q / (pt + 0 > 0 ? pt + 0 : 0.0005)
 }
+FNR == 1 { file++; measure = "" }
 /^(rmse8|relmse|8x8): squared/ { measure = $1; sub(/:/, "", measure) }
-/^\| method \|.*price/ { summary = 1; next }
-/^\| method \|/ { summary = 0; n_scenes = split($0, scene, /\|/); next }
-/^\| (pt|asbdpt|subspaces) \|/ {
-    sub(/^\| subspaces /, "| asbdpt ")
-    split($0, cell, /\|/)
-    for (i in cell) gsub(/^ +| +$/, "", cell[i])
-    if (summary) {
-        mean[cell[2], "rmse8"] = cell[4]; mean[cell[2], "relmse"] = cell[5]; mean[cell[2], "8x8"] = cell[6]
-        next
+/^\| method \|.*price/ { measure = "summary" }
+measure == "" { next }
+/^\| method \|/ && measure != "summary" {
+    n = split($0, scene, / *\| */) - 3
+    for (i = 1; i <= n; i++) { scene[i] = scene[i + 2]; sub(/,.*/, "", scene[i]) }
+}
+/^\| (pt|subspaces) \|/ {
+    m = split($0, c, / *\| */)
+    for (i = 3; i < m; i++) value[file, c[2], measure, i - (measure == "summary" ? 0 : 2)] = c[i]
+}
+function bold(s) { sub(/^[^ ]+/, "**&**", s); return s }
+function sizes(    i, f, m, q, line, mean, sum, count) {
+    print "== sizes\n| scene | 16: rmse8 | relmse | 8x8 | 64: rmse8 | relmse | 8x8 |"
+    print "|---|---:|---:|---:|---:|---:|---:|"
+    mean = "| **geometric mean** |"
+    for (i = 1; i <= n; i++) {
+        line = "| " scene[i] " |"
+        for (f = 1; f <= 2; f++) for (m = 1; m <= 3; m++) {
+            q = over_better(f, name[m], i)
+            if (q > 0) { sum[f, m] += log(q); count[f, m]++ }
+            line = line (q > 0 ? sprintf(q > 1 ? " **%.2f** |" : " %.2f |", q) : " **-** |")
+        }
+        print line
     }
-    for (i = 3; i < n_scenes; i++) value[cell[2], measure, i] = cell[i]
-}
-/^\| [a-z-]+ \|.*\*\*.*\[.*\|$/ { # a row of such a table
-    split($0, cell, /\|/)
-    for (i in cell) gsub(/^ +| +$|\*/, "", cell[i])
-    add(cell[2], cell[3], cell[4], cell[5], cell[6])
-}
-/^\| \*\*geometric mean\*\*/ {
-    split($0, cell, /\|/)
-    for (i in cell) gsub(/^ +| +$|\*/, "", cell[i])
-    mean["pt", "rmse8"] = cell[3]; mean["asbdpt", "rmse8"] = cell[4]
-    mean["asbdpt", "relmse"] = cell[5]; mean["asbdpt", "8x8"] = cell[6]
+    for (f = 1; f <= 2; f++) for (m = 1; m <= 3; m++) mean = mean sprintf(" %.2f |", exp(sum[f, m] / count[f, m]))
+    print mean
 }
 END {
-    for (i = 3; i < n_scenes; i++) {
-        name = clean(scene[i]); sub(/,.*/, "", name)
-        add(name, value["pt", "rmse8", i], value["asbdpt", "rmse8", i], value["asbdpt", "relmse", i],
-            value["asbdpt", "8x8", i])
-    }
     if (!n) exit 1
+    split("rmse8 relmse 8x8", name, " ")
     print "== table\n| scene | pt, rmse8 | asbdpt, rmse8 | asbdpt, relmse | asbdpt, 8x8 |\n|---|---:|---:|---:|---:|"
+    best = worst = 1
     for (i = 1; i <= n; i++) {
-        bold = rmse8[i]
-        sub(/^[^ ]+/, "**&**", bold)
-        printf "| %s | %s | %s | %s | %s |\n", row[i], pt[i], bold, relmse[i], blocks[i]
+        print "| " scene[i] " | " cell("pt", "rmse8", i) " | " bold(cell("subspaces", "rmse8", i)) " | " \
+            cell("subspaces", "relmse", i) " | " cell("subspaces", "8x8", i) " |"
+        q[i] = number(cell("subspaces", "rmse8", i))
+        if (q[i] < q[best]) best = i
+        if (q[i] > q[worst]) worst = i
+        over = over_better(file, "rmse8", i)
+        better += log(over > 0 ? over : 1)
+        losses += over > 1
     }
-    bold = mean["asbdpt", "rmse8"]
-    sub(/^[^ ]+/, "**&**", bold)
-    printf "| **geometric mean** | %s | %s | %s | %s |\n", mean["pt", "rmse8"], bold, mean["asbdpt", "relmse"],
-        mean["asbdpt", "8x8"]
-    asbdpt = mean["asbdpt", "rmse8"]
-    j = end_of(rmse8, -1)
-    worst = first(rmse8[j]) " (`" row[j] "`)"
-    printf "== mean\n%s\n== worst\n%s\n", first(asbdpt), worst
-    at = end_of(rmse8, 1)
-    for (i = 1; i <= n; i++) {
-        q = first(rmse8[i]) + 0; p = first(pt[i]) + 0
-        q = log(q > 0 ? q : 0.0005); p = mark(pt[i]) != "" ? 0 : log(p > 0 ? p : 0.0005)
-        rest += i == at ? 0 : q
-        beside += p < 0 ? q - p : q
-        if (q > (p < 0 ? p : 0)) losses++
-    }
-    printf "== without\n%.2f without `%s`\n== better\n%.2f\n== losses\n%d of %d\n", exp(rest / (n - 1)), row[at],
-        exp(beside / n), losses, n
+    for (i = 1; i <= n; i++) rest += i == best ? 0 : log(q[i] > 0 ? q[i] : 0.0005)
+    all = cell("subspaces", "summary", 4)
+    print "| **geometric mean** | " cell("pt", "summary", 4) " | " bold(all) " | " \
+        cell("subspaces", "summary", 5) " | " cell("subspaces", "summary", 6) " |"
+    sub(/ .*/, "", all)
+    printf "== mean\n%s\n== worst\n%.3f (`%s`)\n== without\n%.2f without `%s`\n", all, q[worst], scene[worst],
+        exp(rest / (n - 1)), scene[best]
+    printf "== better\n%.2f\n== losses\n%d of %d\n", exp(better / n), losses, n
+    if (file > 1) sizes()
 }

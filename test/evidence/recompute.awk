@@ -1,0 +1,51 @@
+# recompute.awk RUNS.csv NAME.txt: computes again from every run the geometric means over scenes of the squared errors
+# over the first method's after the same CPU time, and their intervals, Student's at 95 % on the logarithms. It compares
+# these with a stored table: the rows of methods in the sections of both halves, or the row of means of equal.awk. Exit
+# status 1 if a number differs or none was compared.
+BEGIN {
+    FS = ","
+    split("12.706 4.303 3.182 2.776 2.571 2.447 2.365 2.306 2.262 2.228 2.201 2.179 2.160 2.145 2.131 2.120", t, " ")
+    split("square8 square square8x8", square, " ")
+}
+FNR == 1 { file++ }
+file == 1 && FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+file == 1 {
+    s = $at["scene"]; h = $at["half"]
+    n = split(h == "both" ? "choice services" : h == "" ? "all" : h, half, " ")
+    if (!(s in time)) { scene[++scenes] = s; first = $at["label"]; time[s] = $at["price_before"] + $at["spp"] }
+    afforded = (time[s] - $at["price_before"]) / $at["price_each"] # samples
+    for (h = 1; h <= n; h++)
+        for (k = 1; k <= 3; k++)
+            sum[half[h], $at["label"], s, k] += afforded >= 1 ? $at[square[k]] * $at["spp"] / afforded : -1e99
+    next
+}
+function near(a, b) { return (a - b) ^ 2 <= (0.0006 + 0.0006 * b) ^ 2 || sprintf("%.2g", a) == sprintf("%.2g", b) }
+# Is the cell of a row, "VALUE [LOW, HIGH]", what the runs say by measure k?
+function compare(half, method, k, text,    i, x, a, b, mean, squares, error, stored) {
+    for (i = 1; i <= scenes; i++) {
+        a = sum[half, method, scene[i], k]; b = sum[half, first, scene[i], k]
+        if (a <= 0 || b <= 0) return text ~ /^ *[*]*-/ || wrong(half, method, k, text, "nothing")
+        x[i] = log(a / b); mean += x[i] / scenes
+    }
+    for (i = 1; i <= scenes; i++) squares += (x[i] - mean) ^ 2
+    error = t[scenes - 1] * sqrt(squares / (scenes - 1) / scenes)
+    gsub(/[][*,]/, " ", text); split(text, stored, " ")
+    compared++
+    return near(stored[1], exp(mean)) && near(stored[2], exp(mean - error)) && near(stored[3], exp(mean + error)) || \
+        wrong(half, method, k, text, sprintf("%.3f [%.3f, %.3f]", exp(mean), exp(mean - error), exp(mean + error)))
+}
+function wrong(half, method, k, text, runs) {
+    print half, method, square[k] ": stored" text ", of the runs " runs
+    bad = 1
+}
+/^== / { section = substr($0, 4) }
+section ~ /^(choice|services)$/ && /^\| / {
+    split($0, c, / *\| */)
+    for (k = 1; k <= 3; k++) if ((section, c[2], scene[1], 1) in sum) compare(section, c[2], k, " " c[3 + k])
+}
+/^\| \*\*geometric mean\*\*.*\[/ {
+    split($0, c, / *\| */); of = ("all", first, scene[1], 1) in sum ? "all" : "services"
+    compare(of, "pt", 1, " " c[3])
+    for (k = 1; k <= 3; k++) compare(of, "subspaces", k, " " c[3 + k])
+}
+END { print compared + 0 " intervals computed again"; exit bad || !compared }
