@@ -202,7 +202,7 @@ if heard TERM; then
     wait $!
     check grep -Eq 'stopped by SIGTERM, at 0 of 16 samples per pixel, [0-9.]+ % of the pixels at 1$' stderr.txt
     check [ -s caught.pfm ]
-    expect 1 'state: stands in the middle of a block' "$program" merge --partial -o again.pfm state
+    expect 1 'state: ends in the middle of a block' "$program" merge --partial -o again.pfm state
 fi
 long="--integrator bdpt --res 32x32 --spp 4000 --quiet -j 1" some='at ([1-9][0-9]{0,2}|[1-3][0-9]{3}) of 4000'
 if ! command -v timeout >/dev/null || ! timeout --preserve-status 5 true 2>/dev/null; then

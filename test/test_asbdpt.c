@@ -28,8 +28,7 @@ static void test_bias(struct test *t)
     static const char *const ways[] = {"asbdpt select=pool metric=constant",
                                        "asbdpt select=pool metric=throughput",
                                        "asbdpt select=pool metric=importance",
-                                       "asbdpt select=vertices metric=importance connections=2",
-                                       "asbdpt select=vertices metric=constant connections=2",
+                                       "asbdpt select=vertices connections=2",
                                        "asbdpt select=subspaces",
                                        "asbdpt select=subspaces connections=2",
                                        "asbdpt guide=off emission=1 credit=off tile=16 spread=1",
@@ -220,7 +219,7 @@ static void test_every_scene(struct test *t, size_t n)
     static const char *const scenes[] = {"light-kinds", "mirror-glass", "all-materials", "smooth-normals",
                                          "thin-lens", "negative-scale", "alpha", "instances"};
     static const char *const ways[] = {"asbdpt select=pool metric=importance",
-                                       "asbdpt select=vertices metric=importance connections=3",
+                                       "asbdpt select=vertices connections=3",
                                        "asbdpt select=subspaces probe=off", "lvc connections=2",
                                        "cbdpt connections=2"};
     for (size_t i = 0; i < n; i++) {

@@ -31,7 +31,7 @@ struct named {
 
 struct merge {
     struct named *part; /* [n], by first sample; owned */
-    int n, n_wrong;
+    int n;
 };
 
 static int by_first(const void *a, const void *b)
@@ -41,87 +41,65 @@ static int by_first(const void *a, const void *b)
     return same ? strcmp(x->path, y->path) : x->part.first < y->part.first ? -1 : 1;
 }
 
-/* All that is wrong is said, not only the first. */
-static void wrong(struct merge *m, const char *text)
-{
-    fprintf(stderr, "asbdpt: %s\n", text);
-    m->n_wrong++;
-}
-
-static void wrong_range(struct merge *m, const char *path, const char *what, long first, long end)
+/* Every wrong range is said, for parts may be of many jobs. Returns false. */
+static bool wrong_range(const char *path, const char *what, long first, long end)
 {
     struct error err;
-    error_set(&err, "%s%s%s samples %ld:%ld", path, path[0] != '\0' ? ": " : "", what, first, end);
-    wrong(m, err.text);
+    error_set(&err, "%s%s the samples %ld:%ld", path, what, first, end);
+    return fail(&err) == EXIT_OK;
 }
 
 /* What the parts say of themselves; files are closed again, for there may be thousands. */
-static void read_headers(struct merge *m, const struct texts *names)
+static bool read_headers(struct merge *m, const struct texts *names, struct error *err)
 {
-    struct error err;
     m->part = mem_alloc((size_t)names->n, sizeof *m->part);
     for (int i = 0; i < names->n; i++) {
         struct named *p = &m->part[m->n];
         p->path = names->item[i];
-        FILE *f = part_open(p->path, &p->part, &err);
-        if (f == NULL) {
-            wrong(m, err.text);
-            continue;
-        }
+        FILE *f = part_open(p->path, &p->part, err);
+        if (f == NULL)
+            return false;
         fclose(f);
         m->n++;
-        if (!part_same(&p->part, p->path, &m->part[0].part, &err))
-            wrong(m, err.text);
-        else if (p->part.passes > 0)
-            wrong_range(m, p->path, "stands in the middle of a block (see --resume) of the", p->part.first,
-                        p->part.end);
+        if (!part_same(&p->part, p->path, &m->part[0].part, err))
+            return false;
+        if (p->part.passes > 0)
+            return error_set(err, "%s: ends in the middle of a block of samples; --resume it first", p->path);
     }
     qsort(m->part, (size_t)m->n, sizeof *m->part, by_first);
+    return true;
 }
 
-/* Samples twice, and samples between `first` and `end` in no part unless that is allowed. Returns the end of the last
- * samples that there are. */
-static long check_ranges(struct merge *m, long first, long end, bool gaps)
+/* Are no samples twice, and none between `first` and `end` in no part unless that is allowed? *reached: the end of the
+ * last samples that there are. */
+static bool check_ranges(const struct merge *m, long first, long end, bool gaps, long *reached)
 {
-    long reached = first;
+    bool ok = true;
+    *reached = first;
     for (int i = 0; i < m->n; i++) {
         const struct part *p = &m->part[i].part;
         long part_end = p->first + p->done;
-        if (p->first > reached && !gaps)
-            wrong_range(m, "", "missing are the", reached, p->first);
-        if (i > 0 && p->first < reached && p->done > 0)
-            wrong_range(m, m->part[i].path, "other parts have the", p->first, part_end < reached ? part_end : reached);
-        reached = part_end > reached ? part_end : reached;
+        if (p->first > *reached && !gaps)
+            ok = wrong_range("", "missing are", *reached, p->first);
+        if (i > 0 && p->first < *reached && p->done > 0)
+            ok = wrong_range(m->part[i].path, ": other parts have", p->first, part_end < *reached ? part_end : *reached);
+        *reached = part_end > *reached ? part_end : *reached;
     }
-    if (reached < end && !gaps)
-        wrong_range(m, "", "missing are the", reached, end);
-    return reached;
+    if (*reached < end && !gaps)
+        ok = wrong_range("", "missing are", *reached, end);
+    return ok;
 }
 
-/* Is the part what it was when it was opened first? */
-static bool unchanged(const struct part *p, const char *path, const struct part *before, struct error *err)
+static bool add_parts(const struct merge *m, struct film *film, struct error *err)
 {
-    return part_same(p, path, before, err) &&
-           ((p->first == before->first && p->end == before->end && p->done == before->done &&
-             p->passes == before->passes && p->left_out == before->left_out) ||
-            error_set(err, "%s: the part has changed while it was read", path));
-}
-
-static void add_parts(struct merge *m, struct film *film)
-{
-    struct error err;
-    for (int i = 0; i < m->n && m->n_wrong == 0; i++) {
+    bool ok = true;
+    for (int i = 0; ok && i < m->n; i++) {
         struct part again;
-        const char *path = m->part[i].path;
-        FILE *f = part_open(path, &again, &err);
-        bool same = f != NULL && unchanged(&again, path, &m->part[i].part, &err);
-        if (!same || !part_add(f, path, &again, film, &err))
-            wrong(m, err.text);
-        if (f != NULL && !same)
-            fclose(f);
-        if (f != NULL)
-            part_free(&again);
+        FILE *f = part_open(m->part[i].path, &again, err);
+        ok = f != NULL && part_add(f, m->part[i].path, &again, film, err);
+        part_free(&again);
     }
+    return ok;
 }
 
 static bool write_film(const struct merge_options *o, struct merge *m, long end, struct film *film, struct outputs *out,
@@ -145,23 +123,18 @@ static bool write_film(const struct merge_options *o, struct merge *m, long end,
 /* A picture needs all samples, a part only that nothing is missing between its first and its last. */
 static bool merge(const struct merge_options *o, struct merge *m, bool picture, struct outputs *out, struct error *err)
 {
-    bool ok = false;
-    read_headers(m, &o->part);
-    if (m->n_wrong == 0) {
-        struct film film;
-        const struct part *first = &m->part[0].part;
-        struct pixel_rect rect = {0, 0, first->width, first->height};
-        long end = check_ranges(m, picture ? 0 : first->first, picture ? first->planned : 0, o->partial);
-        film_init(&film, rect, rect.x1, rect.y1);
-        film_keep_planes(&film, first->planes);
-        add_parts(m, &film);
-        ok = m->n_wrong == 0 && write_film(o, m, end, &film, out, err);
-        film_free(&film);
-    }
-    if (m->n_wrong > 0) {
-        outputs_abandon(out);
-        error_set(err, "nothing was written");
-    }
+    struct film film;
+    long end;
+    if (!read_headers(m, &o->part, err))
+        return false;
+    const struct part *first = &m->part[0].part;
+    struct pixel_rect rect = {0, 0, first->width, first->height};
+    if (!check_ranges(m, picture ? 0 : first->first, picture ? first->planned : 0, o->partial, &end))
+        return error_set(err, "nothing was written");
+    film_init(&film, rect, rect.x1, rect.y1);
+    film_keep_planes(&film, first->planes);
+    bool ok = add_parts(m, &film, err) && write_film(o, m, end, &film, out, err);
+    film_free(&film);
     return ok;
 }
 
@@ -179,6 +152,7 @@ static int run(void *options)
     if (!outputs_open(&o->output, &o->tone, PARTS_NAMED, &out, &err))
         return fail(&err);
     bool ok = merge(o, &m, n_pictures > 0, &out, &err);
+    outputs_abandon(&out); /* unless they are written */
     for (int i = 0; i < m.n; i++)
         part_free(&m.part[i].part);
     free(m.part);

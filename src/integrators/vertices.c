@@ -25,9 +25,10 @@
 #include "integrators/services.h"
 #include "transport/counts.h"
 
+enum { IMPORTANCE_CELLS = 64 }; /* along the scene's diagonal */
+
 struct vertices_state {
     struct frozen frozen;
-    int metric, grid;
     double delta;
 };
 
@@ -97,11 +98,10 @@ static void prepare(const struct render_job *job, struct preparation *out)
 {
     const struct vertices_state *s = out->state;
     struct frozen *f = out->state;
-    const struct learn_options own = {.importance = s->metric == METRIC_IMPORTANCE, .light_cells = s->grid,
-                                      .levels = 1};
+    const struct learn_options own = {.importance = true, .light_cells = IMPORTANCE_CELLS, .levels = 1};
     services_learn(job, out, own);
     f->numbers.draws[LATER_HIT] = f->numbers.draws[FIRST_HIT];
-    if (own.importance && f->tables.importance.mean > 0)
+    if (f->tables.importance.mean > 0)
         f->tables.pairs = pairs_from_importance(&f->tables, s->delta);
     services_settle(job, out, CREDITS);
 }
@@ -112,9 +112,7 @@ static const struct field PARAMETERS[] = {
      "light vertices drawn for each eye vertex", NULL},
     {"pathpixels", FIELD_INTEGER, AT(frozen.numbers.path_pixels), 2, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path", NULL},
-    {"metric", FIELD_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light vertex is chosen by", METRICS},
     {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
-    {"grid", FIELD_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
     SERVICES(true, 1, false, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 

@@ -127,14 +127,6 @@ static bool next_number(struct lexer *l, struct token *out)
     while (!is_separator(*end))
         end++;
     int shown = end - l->at < 40 ? (int)(end - l->at) : 40;
-    const char *scanned = scan_number(l->at, &out->number);
-    if (scanned != NULL && scanned < end && isfinite(out->number) &&
-        (!is_letter(*scanned) || (*scanned == 'f' && scanned + 1 == end))) {
-        source_warn(l->messages, out->position, "'%.*s' counts as %.9g: numbers are separated by blanks", shown,
-                    l->at, out->number);
-        l->at = end;
-        return true;
-    }
     return source_error(l->messages, out->position,
                         "'%.*s' is not a number, or beyond 1.7e308; write it like 12, -0.5 or 1.5e-3", shown, l->at);
 }
