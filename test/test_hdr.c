@@ -103,7 +103,7 @@ static void test_fixtures(struct test *t)
     } CASES[] = {
         {"none.exr", ALL},      {"zips.exr", ALL},       {"zip.exr", ALL},
         {"piz.exr", ALL},       {"piz-float.exr", ALL}, {"zip-float.exr", ALL},  {"window.exr", ALL},
-        {"tiles.exr", ALL},     {"tiles-piz.exr", ALL}, {"tiles-mip.exr", ALL},  {"plain-and-layer.exr", ALL},
+        {"plain-and-layer.exr", ALL},
         {"red.exr", ONLY_RED},  {"grey.exr", ONLY_GREEN_AS_GREY},
         {"uint.exr", THOUSANDFOLD}, {"ramp-piz.exr", HALFS}, {"ramp-float.exr", FLOATS},
     };
@@ -130,7 +130,7 @@ static size_t value_of(const uint8_t *data, size_t n, const char *name)
 
 static void test_refused(struct test *t)
 {
-    static const char DAMAGED[] = "the OpenEXR header is damaged or truncated", BLOCK[] = "damaged in block 0";
+    static const char DAMAGED[] = "the OpenEXR header is damaged or truncated", BLOCK[] = "damaged in row 0";
     static const struct {
         const char *name;
         const char *attribute; /* "": from the beginning of the file; NULL: nothing is changed */
@@ -145,7 +145,7 @@ static void test_refused(struct test *t)
         {"deep.exr", NULL, 0, 0, "", "deep ones"},
         {"chroma.exr", NULL, 0, 0, "", "\"BY\" is subsampled"},
         {"layers.exr", NULL, 0, 0, "", "no channels R, G, B or Y, but e.g. \"left.G\""},
-        {"tiles.exr", "tiles", 0, 4, "\0\0\0", DAMAGED},
+        {"tiles.exr", NULL, 0, 0, "", "in tiles"},
         {"none.exr", "", 0, 1, "w", DAMAGED},
         {"none.exr", "", 4, 1, "\3", "other versions than 2"},
         {"none.exr", "", 6, 1, "\1", "kind 10002"},
@@ -185,10 +185,10 @@ static void test_refused_blocks(struct test *t)
         uint64_t value;
         const char *message;
     } CASES[] = {
-        {0, 0, "in block 0"},                       {8, UINT64_MAX, "in block 1"},
-        {8, (uint64_t)1 << 63, "in block 1"},       {19 * 8 + 4, 0xfffffff0, "in block 0"},
-        {19 * 8 + 4, 29 * 6 + 1, "in block 0"},     {19 * 8 + 4, 29 * 6 - 1, "in block 0"},
-        {19 * 8, 1, "in block 0"},
+        {0, 0, "in row 0"},                       {8, UINT64_MAX, "in row 1"},
+        {8, (uint64_t)1 << 63, "in row 1"},       {19 * 8 + 4, 0xfffffff0, "in row 0"},
+        {19 * 8 + 4, 29 * 6 + 1, "in row 0"},     {19 * 8 + 4, 29 * 6 - 1, "in row 0"},
+        {19 * 8, 1, "in row 0"},
     };
     size_t n = 0, table = 0;
     uint8_t *data = load(t, "none.exr", &n), *copy = mem_alloc(n, 1);

@@ -88,7 +88,7 @@ static int run(void *options)
     struct outputs out;
     struct image about;
     int width, height;
-    if (!outputs_open(&o->out, &o->tone, PARTS_NONE, &out, &err))
+    if (!outputs_open(&o->out, &o->tone, false, &out, &err))
         return fail(&err);
     bool one = o->in.n == 1 && o->weights == NULL;
     float *pixels = one ? image_read_linear(o->in.item[0], &width, &height, &about, &err)

@@ -149,7 +149,7 @@ static int run(void *options)
         n_pictures += !outputs_is_part(o->output.item[i]);
     if (o->partial && n_pictures < o->output.n)
         return usage_error(&command_merge, "--partial is for pictures; a part has one range of samples");
-    if (!outputs_open(&o->output, &o->tone, PARTS_NAMED, &out, &err))
+    if (!outputs_open(&o->output, &o->tone, true, &out, &err))
         return fail(&err);
     bool ok = merge(o, &m, n_pictures > 0, &out, &err);
     outputs_abandon(&out); /* unless they are written */

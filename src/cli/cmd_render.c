@@ -99,8 +99,7 @@ static bool check_options(const struct job_options *o, struct files *f, struct e
 /* What needs no scene to be opened. */
 static bool open_named(const struct job_options *o, struct files *f, struct error *err)
 {
-    enum outputs_parts parts = o->keep.samples[1] > 0 ? PARTS_OTHERS : PARTS_NAMED;
-    return (o->output.n == 0 || outputs_open(&o->output, &o->tone, parts, &f->pictures, err)) &&
+    return (o->output.n == 0 || outputs_open(&o->output, &o->tone, true, &f->pictures, err)) &&
            (o->stats == NULL || file_create(o->stats, &f->stats, err));
 }
 
@@ -110,7 +109,7 @@ static bool open_default_output(const struct job_options *o, const struct scene 
     struct texts names = {0};
     char *name = default_output(scene);
     texts_add(&names, name);
-    bool ok = outputs_open(&names, &o->tone, PARTS_NONE, out, err);
+    bool ok = outputs_open(&names, &o->tone, false, out, err);
     free(names.item);
     free(name);
     return ok;

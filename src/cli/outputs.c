@@ -51,16 +51,13 @@ bool outputs_add(struct outputs *out, const char *name, bool is_part, struct err
     return true;
 }
 
-bool outputs_open(const struct texts *names, const struct tone_options *tone, enum outputs_parts parts,
-                  struct outputs *out, struct error *err)
+bool outputs_open(const struct texts *names, const struct tone_options *tone, bool parts, struct outputs *out,
+                  struct error *err)
 {
     memset(out, 0, sizeof *out);
     bool ok = read_tone(tone, names, &out->tone, err);
-    for (int i = 0; ok && i < names->n; i++) {
-        const char *name = names->item[i];
-        bool named = parts == PARTS_NAMED && outputs_is_part(name), other = parts == PARTS_OTHERS;
-        ok = outputs_add(out, name, named || (other && !image_writable(name)), err);
-    }
+    for (int i = 0; ok && i < names->n; i++)
+        ok = outputs_add(out, names->item[i], parts && outputs_is_part(names->item[i]), err);
     if (!ok)
         outputs_abandon(out);
     return ok;

@@ -12,9 +12,6 @@
 #include "image/tone.h"
 #include "render/part.h"
 
-/* Which names are those of parts (render/part.h) and not of pictures. */
-enum outputs_parts { PARTS_NONE, PARTS_NAMED /* NAME.part */, PARTS_OTHERS /* all that are no picture's */ };
-
 struct output {
     struct file_output file;
     bool is_part;
@@ -52,11 +49,12 @@ bool outputs_is_part(const char *name);
 bool outputs_possible(const char *name, struct error *err);
 
 /* outputs_open: begin to write pictures of these names, which differ.
- *   tone  of the 8-bit pictures, or NULL: as they are; if it changes anything, one of the pictures must be such
+ *   tone   of the 8-bit pictures, or NULL: as they are; if it changes anything, one of the pictures must be such
+ *   parts  may a name that ends in .part be that of a part (render/part.h)?
  * Returns false with a message; nothing is open then. After success outputs_abandon must follow in the end.
  * outputs_add: one more. False with a message. */
-bool outputs_open(const struct texts *names, const struct tone_options *tone, enum outputs_parts parts,
-                  struct outputs *out, struct error *err);
+bool outputs_open(const struct texts *names, const struct tone_options *tone, bool parts, struct outputs *out,
+                  struct error *err);
 bool outputs_add(struct outputs *out, const char *name, bool is_part, struct error *err);
 
 /* outputs_write: the picture into all of them; unless `quiet` a last line on stderr names them. One that fails does not

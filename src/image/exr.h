@@ -1,7 +1,7 @@
 /* exr.h: what the files about OpenEXR share: exr_read.c, piz.c, exr_write.c.
  *
- * A file is a magic number, a version, a header of attributes, a table of offsets, and blocks: rows of the picture, or
- * tiles of it. In a block come row after row; in a row channel after channel, in the order of the header, all samples
+ * A file is a magic number, a version, a header of attributes, a table of offsets, and blocks of rows of the picture. In
+ * a block come row after row; in a row channel after channel, in the order of the header, all samples
  * of one before the next; every number is little-endian. Blocks are compressed one by one; where that saves nothing,
  * they are stored as they are. [OpenEXR]
  * Tests: test_hdr.c (files of another program, round trips, damaged files, all 65536 halfs). */
@@ -32,11 +32,10 @@ static inline size_t exr_type_bytes(enum exr_type type) { return type == EXR_HAL
 struct exr {
     const uint8_t *data;
     size_t size, at; /* bytes, and how many are read */
-    bool tiled;
     enum exr_compression compression;
     int64_t data_window[4], display[4]; /* left, top, right, bottom, all in it */
     size_t width, height;        /* of the data window, not empty */
-    size_t block[2];             /* usual width and height of a block, at most the picture's */
+    size_t rows;                 /* of a block; the last may have fewer */
     struct exr_channel *channel; /* [n_channels], at least one; owned */
     size_t n_channels, capacity;
     size_t pixel_bytes; /* of all channels */

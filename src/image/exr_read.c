@@ -14,7 +14,7 @@
 /* --- the header --------------------------------------------------------------------------------------- */
 
 static const uint8_t MAGIC[4] = {0x76, 0x2f, 0x31, 0x01};
-enum { VERSION = 2, TILED = 0x200, LONG_NAMES = 0x400 };
+enum { VERSION = 2, LONG_NAMES = 0x400 };
 
 bool exr_matches(const uint8_t *data, size_t size)
 {
@@ -29,10 +29,9 @@ static bool read_version(struct exr *e)
         return damaged(e);
     uint32_t version = exr_u32(e->data + 4);
     e->at = 8;
-    e->tiled = (version & TILED) != 0;
-    return (version & ~(uint32_t)(TILED | LONG_NAMES)) == VERSION ||
-           error_set(e->err, "OpenEXR files of several parts, deep ones and other versions than 2 are not read (this "
-                             "is of kind %lx); save it as one flat picture", (unsigned long)version);
+    return (version & ~(uint32_t)LONG_NAMES) == VERSION ||
+           error_set(e->err, "OpenEXR files in tiles or several parts, deep ones and other versions than 2 are not read "
+                             "(this is of kind %lx); save it as one flat picture in rows", (unsigned long)version);
 }
 
 /* The next text before `end`, stepping over it; NULL if it has no end. */
@@ -88,8 +87,6 @@ static bool read_value(struct exr *e, const char *name, size_t n)
     if ((window == e->data_window || strcmp(name, "displayWindow") == 0) && n == 16)
         for (size_t i = 0; i < 4; i++)
             window[i] = exr_i32(p + 4 * i);
-    for (size_t i = 0; i < 2 && e->tiled && strcmp(name, "tiles") == 0 && n == 9; i++)
-        e->block[i] = exr_u32(p + 4 * i);
     return true;
 }
 
@@ -127,15 +124,9 @@ static bool read_header(struct exr *e)
         return false;
     e->width = (size_t)width;
     e->height = (size_t)height;
-    if (!e->tiled) {
-        e->block[0] = e->width;
-        e->block[1] = e->compression == EXR_ZIP ? EXR_ZIP_ROWS : e->compression == EXR_PIZ ? EXR_PIZ_ROWS : 1;
-    }
-    if (e->n_channels == 0 || e->compression == EXR_READ || e->block[0] == 0 || e->block[1] == 0)
-        return damaged(e);
-    e->block[0] = e->block[0] < e->width ? e->block[0] : e->width;
-    e->block[1] = e->block[1] < e->height ? e->block[1] : e->height;
-    return true;
+    e->rows = e->compression == EXR_ZIP ? EXR_ZIP_ROWS : e->compression == EXR_PIZ ? EXR_PIZ_ROWS : 1;
+    e->rows = e->rows < e->height ? e->rows : e->height;
+    return (e->n_channels > 0 && e->compression != EXR_READ) || damaged(e);
 }
 
 /* --- compressed blocks -------------------------------------------------------------------------------- */
@@ -150,11 +141,11 @@ static void undo_differences(uint8_t *in, size_t n, uint8_t *out)
 }
 
 /* The [size] bytes of a compressed block of [n], to out; scratch is as large. False on damage. */
-static bool unpack(const struct exr *e, const uint8_t *in, size_t n, size_t width, size_t height, uint8_t *scratch,
-                   uint8_t *out, size_t size)
+static bool unpack(const struct exr *e, const uint8_t *in, size_t n, size_t rows, uint8_t *scratch, uint8_t *out,
+                   size_t size)
 {
     if (e->compression == EXR_PIZ)
-        return piz_unpack(e, in, n, width, height, out, size);
+        return piz_unpack(e, in, n, e->width, rows, out, size);
     bool ok = inflate_zlib(in, n, scratch, size, NULL);
     if (ok)
         undo_differences(scratch, size, out);
@@ -178,64 +169,38 @@ static bool find_colours(const struct exr *e, const struct exr_channel **colour)
                             e->channel[0].name);
 }
 
-/* --- where the pixels are ----------------------------------------------------------------------------- */
-
-/* A block's place in the picture, in pixels from the top left. */
-struct block {
-    size_t x, y, width, height;
-};
-
-static size_t ceil_div(size_t a, size_t b) { return (a - 1) / b + 1; } /* a > 0; no sum that could overflow */
-
-static struct block block_at(const struct exr *e, size_t i)
+/* Find the block that begins at row y by the table of offsets at e->at and unpack it: its number, its size, its data.
+ * False if it is not there, or damaged. */
+static bool read_block(const struct exr *e, size_t y, size_t rows, uint8_t *scratch, uint8_t *out)
 {
-    size_t columns = ceil_div(e->width, e->block[0]);
-    struct block b = {i % columns * e->block[0], i / columns * e->block[1], e->block[0], e->block[1]};
-    b.width = b.width < e->width - b.x ? b.width : e->width - b.x;
-    b.height = b.height < e->height - b.y ? b.height : e->height - b.y;
-    return b;
-}
-
-/* Does the head of a stored block, before its size, name this block? Rows: y. Tiles: column, row, level in x and y; the
- * blocks of level 0 come first in the table of offsets. */
-static bool names_block(const struct exr *e, const uint8_t *head, const struct block *b)
-{
-    if (!e->tiled)
-        return exr_i32(head) == e->data_window[1] + (int64_t)b->y;
-    return exr_u32(head) == b->x / e->block[0] && exr_u32(head + 4) == b->y / e->block[1] && exr_u32(head + 8) == 0 &&
-           exr_u32(head + 12) == 0;
-}
-
-/* Find block i by the table of offsets at e->at and unpack it. False if it is not there, or damaged. */
-static bool read_block(const struct exr *e, size_t i, const struct block *b, uint8_t *scratch, uint8_t *out)
-{
-    uint64_t offset = bits_of_bytes(e->data + e->at + 8 * i, 8, false);
-    size_t head = e->tiled ? 20 : 8, bytes = b->width * b->height * e->pixel_bytes;
-    if (offset > e->size || e->size - offset < head)
+    uint64_t offset = bits_of_bytes(e->data + e->at + 8 * (y / e->rows), 8, false);
+    size_t bytes = e->width * rows * e->pixel_bytes;
+    if (offset > e->size || e->size - offset < 8)
         return false;
     const uint8_t *p = e->data + offset;
-    size_t n = exr_u32(p + head - 4), left = e->size - (size_t)offset - head;
-    if (!names_block(e, p, b) || n > left || n > bytes || (n < bytes && e->compression == EXR_NONE))
+    size_t n = exr_u32(p + 4), left = e->size - (size_t)offset - 8;
+    if (exr_i32(p) != e->data_window[1] + (int64_t)y || n > left || n > bytes ||
+        (n < bytes && e->compression == EXR_NONE))
         return false;
     if (n < bytes)
-        return unpack(e, p + head, n, b->width, b->height, scratch, out, bytes);
-    memcpy(out, p + head, n);
+        return unpack(e, p + 8, n, rows, scratch, out, bytes);
+    memcpy(out, p + 8, n);
     return true;
 }
 
 /* --- pixels ------------------------------------------------------------------------------------------- */
 
-/* Put one channel of a block in its place, or leave it 0 where there is none. */
-static void place(const struct exr *e, const struct block *b, const uint8_t *bytes, const struct exr_channel *c,
+/* Put one channel of the rows from y on in its place, or leave it 0 where there is none. */
+static void place(const struct exr *e, size_t y, size_t rows, const uint8_t *bytes, const struct exr_channel *c,
                   struct image *out, size_t k)
 {
     if (c == NULL)
         return;
     size_t step = exr_type_bytes(c->type), channels = (size_t)out->channels;
-    for (size_t y = 0; y < b->height; y++) {
-        const uint8_t *from = bytes + (y * e->pixel_bytes + c->start) * b->width;
-        float *to = out->f32 + ((b->y + y) * e->width + b->x) * channels + k;
-        for (size_t x = 0; x < b->width; x++) {
+    for (size_t j = 0; j < rows; j++) {
+        const uint8_t *from = bytes + (j * e->pixel_bytes + c->start) * e->width;
+        float *to = out->f32 + (y + j) * e->width * channels + k;
+        for (size_t x = 0; x < e->width; x++) {
             uint32_t bits = (uint32_t)bits_of_bytes(from + x * step, step, false);
             to[x * channels] = c->type == EXR_HALF ? half_to_float((uint16_t)bits)
                              : c->type == EXR_FLOAT ? float_of_bits(bits) : (float)bits;
@@ -243,22 +208,21 @@ static void place(const struct exr *e, const struct block *b, const uint8_t *byt
     }
 }
 
-static bool read_blocks(const struct exr *e, size_t n_blocks, const struct exr_channel *const *colour,
-                        struct image *out)
+static bool read_blocks(const struct exr *e, const struct exr_channel *const *colour, struct image *out)
 {
     bool grey = colour[RED] == NULL && colour[GREEN] == NULL && colour[BLUE] == NULL, ok = true;
-    size_t pixels = e->block[0] * e->block[1];
+    size_t pixels = e->width * e->rows;
     uint64_t blocks = 2 * (uint64_t)pixels * e->pixel_bytes;
     if (!picture_memory_ok(blocks + (uint64_t)e->width * e->height * 3 * sizeof *out->f32, e->size, e->err))
         return false;
     uint8_t *bytes = mem_alloc(pixels, e->pixel_bytes), *scratch = mem_alloc(pixels, e->pixel_bytes);
     picture_alloc_f32(out, e->width, e->height, grey ? 1 : 3);
-    for (size_t i = 0; ok && i < n_blocks; i++) {
-        struct block b = block_at(e, i);
-        ok = read_block(e, i, &b, scratch, bytes) ||
-             error_set(e->err, "the file is incomplete, truncated or damaged in block %lu", (unsigned long)i);
+    for (size_t y = 0; ok && y < e->height; y += e->rows) {
+        size_t rows = e->rows < e->height - y ? e->rows : e->height - y;
+        ok = read_block(e, y, rows, scratch, bytes) ||
+             error_set(e->err, "the file is incomplete, truncated or damaged in row %lu", (unsigned long)y);
         for (size_t k = 0; ok && k < (size_t)out->channels; k++)
-            place(e, &b, bytes, grey ? colour[GREY] : colour[k], out, k);
+            place(e, y, rows, bytes, grey ? colour[GREY] : colour[k], out, k);
     }
     free(scratch);
     free(bytes);
@@ -275,11 +239,11 @@ static bool read_picture(struct exr *e, struct image *out)
     if (!read_header(e) || !find_colours(e, colour))
         return false;
     size_t left = e->size - e->at;
-    uint64_t blocks = (uint64_t)ceil_div(e->width, e->block[0]) * ceil_div(e->height, e->block[1]);
+    uint64_t blocks = (e->height - 1) / e->rows + 1;
     uint64_t bytes = (uint64_t)e->width * e->height * e->pixel_bytes;
     if (blocks > left / 8 || bytes / INFLATE_MAX_RATIO > left || bytes > SIZE_MAX / 2)
         return picture_truncated((unsigned long)e->width, (unsigned long)e->height, e->err);
-    return read_blocks(e, (size_t)blocks, colour, out);
+    return read_blocks(e, colour, out);
 }
 
 /* The data window within the display window, unless that is empty or far away. */

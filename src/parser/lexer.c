@@ -44,69 +44,14 @@ static bool is_separator(char c)
     return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\0' || c == '[' || c == ']' || c == '"' || c == '#';
 }
 
-/* Powers of ten that a double holds exactly. */
-static const double EXACT_POWER[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-
-/* A number as it is read: digits times 10^scale. */
-struct decimal {
-    uint64_t digits; /* the first 19 */
-    int64_t scale;
-    int n_digits; /* all but leading zeros */
-};
-
-/* Digits before (step 0) or behind (step -1) the point; returns where they end. */
-static const char *scan_digits(const char *p, int step, struct decimal *d)
-{
-    for (; is_digit(*p); p++) {
-        if (d->n_digits < 19)
-            d->digits = d->digits * 10 + (uint64_t)(*p - '0');
-        d->n_digits += d->digits != 0;
-        d->scale += step;
-    }
-    return p;
-}
-
-/* What follows an e: [+-] digits. NULL if there is none. */
-static const char *scan_exponent(const char *p, struct decimal *d)
-{
-    int power = 0;
-    bool negative = *p == '-';
-    p += *p == '-' || *p == '+';
-    if (!is_digit(*p))
-        return NULL;
-    for (; is_digit(*p); p++)
-        power = power < 10000 ? power * 10 + (*p - '0') : power; /* far beyond what a double holds is enough */
-    d->scale += negative ? -power : power;
-    return p;
-}
-
-/* Read [+-] digits [. digits] [e [+-] digits] at p; returns the end of the number, or NULL if there is none.
- * Digits and power of ten that are both exact in a double give a correctly rounded quotient or product in one
- * operation [Clinger 1990]; all others go to strtod. */
+/* Read [+-] digits [. digits] [e [+-] digits] at p; returns the end of the number, or NULL if there is none. strtod knows
+ * other numbers, too, which have other letters. */
 static const char *scan_number(const char *p, double *out)
 {
-    struct decimal d = {0, 0, 0};
-    const char *begin = p, *first = *p == '-' || *p == '+' ? p + 1 : p;
-    p = scan_digits(first, 0, &d);
-    bool is_number = p > first;
-    if (*p == '.') {
-        first = p + 1;
-        p = scan_digits(first, -1, &d);
-        is_number |= p > first;
-    }
-    if (is_number && (*p == 'e' || *p == 'E'))
-        p = scan_exponent(p + 1, &d);
-    if (!is_number || p == NULL)
-        return NULL;
-    if (d.n_digits > 18 || d.digits > (uint64_t)1 << 53 || d.scale < -22 || d.scale > 22) {
-        *out = strtod(begin, NULL);
-    } else {
-        double value = (double)d.digits;
-        value = d.scale < 0 ? value / EXACT_POWER[-d.scale] : value * EXACT_POWER[d.scale];
-        *out = *begin == '-' ? -value : value;
-    }
-    return p;
+    char *end;
+    size_t n = strspn(p, "+-.0123456789eE");
+    *out = strtod(p, &end);
+    return n > 0 && end == p + n ? end : NULL;
 }
 
 bool lexer_number(struct lexer *l, double *out)

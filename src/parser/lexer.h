@@ -1,8 +1,7 @@
 /* lexer.h: a scene file as a row of tokens: words, quoted strings, numbers and brackets.
  *
  * Blanks and comments (from # to the end of the line) separate tokens; brackets and quotes may touch their
- * neighbours. Speed matters here: a large scene is millions of numbers. They are read by an exact short path and
- * by strtod where that does not apply.
+ * neighbours.
  * Tests: test_parser.c. */
 #ifndef ASBDPT_LEXER_H
 #define ASBDPT_LEXER_H

@@ -117,9 +117,9 @@ struct parser {
     struct shape_list *object; /* [objects.n], owned */
     struct {
         struct symbols known;           /* -> scene->media.medium[], from 1; 0: nothing */
+        bool seen;                      /* by the integrator, once the world begins */
         struct source_position used_at; /* the last that a MediumInterface names; no file: none */
-        struct source_position bad_at;  /* why they cannot be rendered; no file: they can */
-        char bad[ERROR_TEXT_SIZE / 2];
+        struct source_position bare_light_at; /* an area light without a material; no file: there is none */
     } media;
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     uint64_t copied_bytes; /* of all instances */
@@ -177,11 +177,11 @@ int parse_fourier_table(struct parser *p, const char *field);
 bool parse_make_material(struct parser *p, struct material_source *out);
 int parse_changed_material(struct parser *p);
 
-/* parse_media_not: this keeps media from being rendered, should they have to be. parse_medium: the number of the medium
- * inside (0) or outside (1) of what stands here, looked up by its name, as pbrt-v3 does. parse_settle_media: the world
- * is complete: are there media, and can they be rendered? False with a message. */
+/* parse_begin_media: the world begins: are media to be seen? parse_medium: the number of the medium inside (0) or outside
+ * (1) of what stands here, looked up by its name, as pbrt-v3 does; 0 with a message if it cannot be rendered.
+ * parse_settle_media: the world is complete. False with a message. */
+void parse_begin_media(struct parser *p);
 int parse_medium(struct parser *p, int side);
-void parse_media_not(struct parser *p, struct source_position at, const char *format, ...);
 bool parse_settle_media(struct parser *p);
 
 /* parse_state_reset: the transform as a file or its world begins. parse_name_system: name a coordinate system.

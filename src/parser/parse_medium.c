@@ -1,7 +1,6 @@
 /* parse_medium.c: participating media, with pbrt-v3's parameters and defaults [pbrt-v3 core/api.cpp]. See parse.h. */
 #include "parser/parse.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -76,17 +75,6 @@ static bool medium_preset(const char *name, rgb *sigma_s, rgb *sigma_a)
 
 enum { MEDIUM_UNKNOWN = INT32_MAX }; /* in place of the number of one of another type than ours */
 
-void parse_media_not(struct parser *p, struct source_position at, const char *format, ...)
-{
-    va_list args;
-    if (p->media.bad_at.file != NULL)
-        return;
-    p->media.bad_at = at;
-    va_start(args, format);
-    vsnprintf(p->media.bad, sizeof p->media.bad, format, args);
-    va_end(args);
-}
-
 static void add_medium(struct parser *p, const char *name, const struct medium *m, double g)
 {
     struct medium_set *media = &p->scene->media;
@@ -150,14 +138,14 @@ static bool medium_interface(struct parser *p)
 int parse_medium(struct parser *p, int side)
 {
     const struct token *name = &p->state.medium[side];
-    if (name->text[0] == '\0')
+    if (name->text[0] == '\0' || !p->media.seen)
         return 0;
     int medium = symbols_find(&p->media.known, name->text);
     if (medium == MEDIUM_UNKNOWN)
-        parse_media_not(p, name->position, "medium \"%.60s\" is not \"homogeneous\": others are not known",
-                        name->text);
+        source_error(&p->messages, name->position, "medium \"%.60s\" is not \"homogeneous\": others are not known",
+                     name->text);
     if (medium < 0)
-        parse_media_not(p, name->position, "there is no medium \"%.60s\"", name->text);
+        source_error(&p->messages, name->position, "there is no medium \"%.60s\"", name->text);
     return medium < 0 || medium == MEDIUM_UNKNOWN ? 0 : medium;
 }
 
@@ -171,19 +159,23 @@ static bool is_blind(const char *integrator)
     return integrator == NULL;
 }
 
+void parse_begin_media(struct parser *p)
+{
+    p->media.seen = !is_blind(p->integrator != NULL ? p->integrator : p->scene->integrator);
+}
+
 bool parse_settle_media(struct parser *p)
 {
-    struct scene *s = p->scene;
-    struct source_position used = p->media.used_at;
-    bool seen = !is_blind(p->integrator != NULL ? p->integrator : s->integrator);
-    if (used.file == NULL || !seen) { /* none is anywhere, or is to be seen */
-        s->media.n = 0;
+    struct source_position used = p->media.used_at, bare = p->media.bare_light_at;
+    if (used.file == NULL || !p->media.seen) { /* none is anywhere, or is to be seen */
+        p->scene->media.n = 0;
         if (used.file != NULL)
             source_warn(&p->messages, used, "media are left out, as by pbrt-v3's \"path\"");
         return true;
     }
-    s->camera.medium = parse_medium(p, 1); /* pbrt-v3 makes the camera last */
-    return p->media.bad_at.file == NULL || source_error(&p->messages, p->media.bad_at, "%s", p->media.bad);
+    p->scene->camera.medium = parse_medium(p, 1); /* pbrt-v3 makes the camera last */
+    return bare.file == NULL || source_error(&p->messages, bare, "where media are an area light needs a material: give "
+                                             "it one before this shape");
 }
 
 const struct directive MEDIUM_DIRECTIVES[] = {{"MediumInterface", ANYWHERE, medium_interface, NULL},

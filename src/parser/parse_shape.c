@@ -205,7 +205,7 @@ static bool add_shape(struct parser *p, const struct shape_item *item, struct tr
     if (item->area.on)
         add_lights(s, id, n, &item->area);
     if (item->area.on && group.material == MATERIAL_NONE)
-        parse_media_not(p, at, "where media are an area light needs a material: give it one before this shape");
+        p->media.bare_light_at = at;
     return true;
 }
 

@@ -17,6 +17,7 @@ static bool world_begin(struct parser *p)
 {
     p->phase = IN_WORLD;
     parse_state_reset(p);
+    parse_begin_media(p);
     parse_name_system(p, "world", transform_identity());
     return true;
 }

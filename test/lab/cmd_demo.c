@@ -59,7 +59,7 @@ static int run(void *options)
     p->reference_spp = REFERENCE_TIMES * o->spp;
     if (!plan_set_methods(p, o->methods, &err) || !plan_set_spp(p, o->spp, o->spp, &err))
         return usage_error(&command_demo, "--methods: %s", err.text);
-    if (!outputs_open(&o->output, NULL, PARTS_NONE, &out, &err))
+    if (!outputs_open(&o->output, NULL, false, &out, &err))
         return fail(&err);
     bool ok = measure(p, &results, &err);
     if (ok) {

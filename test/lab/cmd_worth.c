@@ -34,7 +34,7 @@ static int run(void *options)
         o->job.integrator = "asbdpt";
     if (o->job.crop[1] > 0)
         return usage_error(&command_worth, "--cropwindow has no place here: the whole film is shown");
-    if (!outputs_open(&o->job.output, NULL, PARTS_NONE, &out, &err))
+    if (!outputs_open(&o->job.output, NULL, false, &out, &err))
         return fail(&err);
     int status = job_load(&o->job, &scene, &integrator);
     if (status == EXIT_OK) {
