@@ -82,7 +82,8 @@ static bool check_ranges(const struct merge *m, long first, long end, bool gaps,
         if (p->first > *reached && !gaps)
             ok = wrong_range("", "missing are", *reached, p->first);
         if (i > 0 && p->first < *reached && p->done > 0)
-            ok = wrong_range(m->part[i].path, ": other parts have", p->first, part_end < *reached ? part_end : *reached);
+            ok = wrong_range(m->part[i].path, ": other parts have", p->first,
+                             part_end < *reached ? part_end : *reached);
         *reached = part_end > *reached ? part_end : *reached;
     }
     if (*reached < end && !gaps)

@@ -1,7 +1,7 @@
 /* exr.h: what the files about OpenEXR share: exr_read.c, piz.c, exr_write.c.
  *
- * A file is a magic number, a version, a header of attributes, a table of offsets, and blocks of rows of the picture. In
- * a block come row after row; in a row channel after channel, in the order of the header, all samples
+ * A file is a magic number, a version, a header of attributes, a table of offsets, and blocks of rows of the picture.
+ * In a block come row after row; in a row channel after channel, in the order of the header, all samples
  * of one before the next; every number is little-endian. Blocks are compressed one by one; where that saves nothing,
  * they are stored as they are. [OpenEXR]
  * Tests: test_hdr.c (files of another program, round trips, damaged files, all 65536 halfs). */

@@ -44,8 +44,8 @@ static bool is_separator(char c)
     return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\0' || c == '[' || c == ']' || c == '"' || c == '#';
 }
 
-/* Read [+-] digits [. digits] [e [+-] digits] at p; returns the end of the number, or NULL if there is none. strtod knows
- * other numbers, too, which have other letters. */
+/* Read [+-] digits [. digits] [e [+-] digits] at p; returns the end of the number, or NULL if there is none. strtod
+ * knows other numbers, too, which have other letters. */
 static const char *scan_number(const char *p, double *out)
 {
     char *end;

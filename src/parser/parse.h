@@ -177,8 +177,8 @@ int parse_fourier_table(struct parser *p, const char *field);
 bool parse_make_material(struct parser *p, struct material_source *out);
 int parse_changed_material(struct parser *p);
 
-/* parse_begin_media: the world begins: are media to be seen? parse_medium: the number of the medium inside (0) or outside
- * (1) of what stands here, looked up by its name, as pbrt-v3 does; 0 with a message if it cannot be rendered.
+/* parse_begin_media: the world begins: are media to be seen? parse_medium: the number of the medium inside (0) or
+ * outside (1) of what stands here, looked up by its name, as pbrt-v3 does; 0 with a message if it cannot be rendered.
  * parse_settle_media: the world is complete. False with a message. */
 void parse_begin_media(struct parser *p);
 int parse_medium(struct parser *p, int side);
