@@ -174,12 +174,7 @@ static void agree(struct test *t, const char *path, const char *one, const char 
         return;
     struct batches a = render_batches(t, &scene, set_method(&scene, one), 4, spp, 12, 4, 11);
     struct batches b = render_batches(t, &scene, set_method(&scene, other), 4, spp, 12, 4, shared ? 11 : 12);
-    double ratio, p = (shared ? batches_paired_p : batches_p)(&a, &b, &ratio);
-    TEST_ACCEPT(t, p, "%s: %s against %s: ratio %.4f", path, one, other, ratio);
-    batches_scale(&a, 1.15);
-    p = (shared ? batches_paired_p : batches_p)(&a, &b, &ratio);
-    TEST_REJECT(t, p, "%s: %s made 15 %% brighter", path, one);
-    batches_free(&a);
+    check_agree(t, &a, &b, shared, 0.15, "%s: %s against %s", path, one, other);
     batches_free(&b);
     scene_free(&scene);
 }

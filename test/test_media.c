@@ -40,15 +40,8 @@ static struct batches render(struct test *t, struct scene *scene, int i, const c
 static void compare(struct test *t, struct scene *scene, int i, const char *way, const struct batches *right,
                     const struct effort *e)
 {
-    double ratio, planted = SCENES[i].planted;
     struct batches b = render(t, scene, i, way, e);
-    double p = batches_p(&b, right, &ratio);
-    TEST_ACCEPT(t, p, "%s: %s against bdpt, ratio %.4f", SCENES[i].name, way, ratio);
-    batches_scale(&b, 1 + planted);
-    p = batches_p(&b, right, &ratio);
-    if (!is_chain(way))
-        TEST_REJECT(t, p, "%s: %s made %.0f %% brighter", SCENES[i].name, way, 100 * planted);
-    batches_free(&b);
+    check_agree(t, &b, right, false, is_chain(way) ? 0 : SCENES[i].planted, "%s: %s against bdpt", SCENES[i].name, way);
 }
 
 /* The first `n` scenes by these ways, which end with NULL. */

@@ -326,7 +326,6 @@ static void test_crop(struct test *t)
     static const char *const methods[] = {"bdpt", "lt"};
     for (int m = 0; m < 2; m++) {
         int spp = m == 0 ? 8 : 16;
-        double ratio;
         struct batches full = render_batches(t, &scene, methods[m], 3, spp, 12, 12, 31);
         scene.crop[0] = scene.crop[2] = 0.5;
         struct batches part = render_batches(t, &scene, methods[m], 3, 2 * spp, 12, 12, 33);
@@ -334,10 +333,8 @@ static void test_crop(struct test *t)
         for (int i = 0; i < full.n_batches; i++) /* keep only the last of the 2x2 tiles of the full frame */
             memcpy(&full.value[3 * i], &full.value[12 * i + 9], 3 * sizeof *full.value);
         full.n = 3;
-        double p = batches_p(&part, &full, &ratio);
-        TEST_ACCEPT(t, p, "a crop window against the full frame, %s: ratio %.4f", methods[m], ratio);
+        check_agree(t, &part, &full, false, 0, "a crop window against the full frame, %s", methods[m]);
         batches_free(&full);
-        batches_free(&part);
     }
     scene_free(&scene);
 }

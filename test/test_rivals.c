@@ -17,26 +17,13 @@ struct plan {
     uint64_t seed;
 };
 
-static void agree(struct test *t, struct scene *scene, const char *what, const char *way, struct plan plan,
+/* By the plan of the other, the same eye sub-paths: what they bring in common has no part in the difference. */
+static void agree(struct test *t, struct scene *scene, const char *what, const char *way, struct plan plan, bool paired,
                   const struct batches *expected)
 {
     const char *integrator = set_method(scene, way);
     struct batches x = render_batches(t, scene, integrator, 4, plan.spp, plan.batches, plan.tile, plan.seed);
-    double ratio, p = batches_p(&x, expected, &ratio);
-    TEST_ACCEPT(t, p, "%s: %s, ratio %.4f", what, way, ratio);
-    batches_free(&x);
-}
-
-/* The same by the same plan as the other's, of whose samples it then has the eye sub-paths: what they bring in common
- * has no part in the difference. */
-static void agree_paired(struct test *t, struct scene *scene, const char *what, const char *way, struct plan plan,
-                         const struct batches *expected)
-{
-    const char *integrator = set_method(scene, way);
-    struct batches x = render_batches(t, scene, integrator, 4, plan.spp, plan.batches, plan.tile, plan.seed);
-    double ratio, p = batches_paired_p(&x, expected, &ratio);
-    TEST_ACCEPT(t, p, "%s: %s, ratio %.4f", what, way, ratio);
-    batches_free(&x);
+    check_agree(t, &x, expected, paired, 0, "%s: %s", what, way);
 }
 
 /* These ways, ended by NULL, against another that is right, which takes samples by a plan of its own or the same. */
@@ -45,7 +32,7 @@ static void all_agree(struct test *t, struct scene *scene, const char *what, con
 {
     struct batches expected = render_batches(t, scene, other, 4, right.spp, right.batches, right.tile, right.seed);
     for (; *ways != NULL; ways++)
-        (right.seed == plan.seed ? agree_paired : agree)(t, scene, what, *ways, plan, &expected);
+        agree(t, scene, what, *ways, plan, right.seed == plan.seed, &expected);
     batches_free(&expected);
 }
 
@@ -153,7 +140,7 @@ static void test_bias(struct test *t, int more)
         return;
     struct batches pt = render_batches(t, &scene, "pt", 4, 48 * more, 16, 4, 211);
     const struct plan plan = {48 * more, 16, 4, 212};
-    agree(t, &scene, "rooms, against pt", "pathgraph radius=.1", plan, &pt);
+    agree(t, &scene, "rooms, against pt", "pathgraph radius=.1", plan, false, &pt);
     struct batches far = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.5 cluster=64"), 4, plan.spp,
                                         plan.batches, plan.tile, plan.seed);
     double ratio, p = batches_p(&far, &pt, &ratio);
