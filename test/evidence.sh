@@ -118,7 +118,7 @@ notes() {
             }' "$file")
         if old "$file" "$name"; then
             was=$(head_of "$file" estimator)
-            echo "$name **Measured with an older version of the program (estimator $was, now $estimator).** $said"
+            echo "$name **Measured with an older version of the program (estimator $was).** $said"
             echo "$name+ (older version)"
         else
             echo "$name $said"
@@ -162,6 +162,7 @@ filled() {
         }
         {
             line = $0; out = ""
+            if (line ~ /^ *<!-- measured: [a-z0-9.-]+ -->./) fail("a mark in a text begins its line, which Markdown takes for HTML")
             while (match(line, /<!-- measured: [a-z0-9.-]+ -->[^<]*<!-- end -->/)) {
                 mark = substr(line, RSTART, RLENGTH); text = section(mark)
                 if (text == "") text = "(not measured yet)"
