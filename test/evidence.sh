@@ -162,7 +162,7 @@ filled() {
         }
         {
             line = $0; out = ""
-            if (line ~ /^ *<!-- measured: [a-z0-9.-]+ -->./) fail("a mark in a text begins its line, which Markdown takes for HTML")
+            if (line ~ /^ *<!-- measured: [a-z0-9.-]+ -->./) fail("a mark that begins a line of text is HTML")
             while (match(line, /<!-- measured: [a-z0-9.-]+ -->[^<]*<!-- end -->/)) {
                 mark = substr(line, RSTART, RLENGTH); text = section(mark)
                 if (text == "") text = "(not measured yet)"
