@@ -54,7 +54,7 @@ static const struct test_entry ENTRIES[] = {
     {"streams", test_streams, false},
     {"scenes", test_scenes, false},   {"reference", test_references, false},
     {"structure", test_structure, false}, {"random", test_random, false}, {"random-long", test_random_long, true},
-    {"lights-long", test_lights_long, true}, {"halves-long", test_halves_long, true},
+    {"halves-long", test_halves_long, true},
     {"asbdpt-long", test_asbdpt_long, true}, {"family-long", test_family_long, true},
     {"rivals-long", test_rivals_long, true},
     {"chains-long", test_chains_long, true},

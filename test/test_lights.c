@@ -1,7 +1,6 @@
 /* Lights apart, and what the lens does not see. The planes of all lights are the picture, to the bit, by every method;
- * each is what a render by that light alone expects. Alpha: 0 of an empty scene, 1 of a closed one,
- * else what is covered; a light that is hidden is missing where the lens meets it first, and nowhere else. The
- * slow suite measures what many lights cost. */
+ * each is what a render by that light alone expects. Alpha: 0 of an empty scene, 1 of a closed one, else what is
+ * covered; a light that is hidden is missing where the lens meets it first, and nowhere else. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +10,6 @@
 #include "foggy.h"
 #include "lab/methods.h"
 #include "helpers.h"
-#include "random_writer.h"
 #include "tests.h"
 
 enum { SIDE = 16, PIXELS = SIDE * SIDE, SUMS = 3 * PIXELS };
@@ -285,66 +283,12 @@ static void test_unseen(struct test *t)
 
 /* --- what many lights cost ---------------------------------------------------------------------------- */
 
-/* A ball under two skies beside a mesh that shines, or as many lights without extent.
- *   n  triangles or lights */
-static bool scene_beside(struct test *t, enum light_kind kind, int n, struct scene *out)
-{
-    static const char *const NAMES[] = {"", "point", "spot", "goniometric", "projection", "distant"};
-    struct writer w = {.top = ""};
-    put(&w, "LookAt 0 0 -5 0 0 0 0 1 0 Camera \"perspective\" PixelFilter \"box\"\n"
-            "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 WorldBegin\n"
-            "LightSource \"infinite\" LightSource \"infinite\" Shape \"sphere\"\n");
-    if (kind == LIGHT_AREA)
-        put(&w, "AreaLightSource \"diffuse\" Shape \"trianglemesh\" \"point P\" [0 2 0 1 2 0 0 2 1]\n"
-                "\"integer indices\" [");
-    for (int i = 0; i < n; i++)
-        if (kind == LIGHT_AREA)
-            put(&w, "0 1 2 ");
-        else
-            put(&w, "LightSource \"%s\" ", NAMES[kind]);
-    put(&w, kind == LIGHT_AREA ? "]\nWorldEnd" : "WorldEnd");
-    bool ok = scene_from_text(t, w.text, out);
-    free(w.text);
-    return ok;
-}
-
-/* CPU seconds of a render. */
-static double cost_of(struct test *t, const struct scene *scene, const struct render_options *o)
-{
-    struct film film;
-    double start = os_cpu_seconds();
-    render_film(t, scene, o, &film);
-    double seconds = os_cpu_seconds() - start;
-    film_free(&film);
-    return seconds;
-}
-
-/* A ray that leaves the scene asks the skies, not all lights: a hundred times as many are not four times as dear. Were
- * all asked they would be dozens of times as dear, each time; what else a machine does is dear once in a while. So one
- * good pair of several is enough, the two being rendered one right after the other. */
-static void check_many(struct test *t, int kind, const char *integrator)
-{
-    enum { FEW, MANY, PAIRS = 8 };
-    struct scene scene[2];
-    const struct render_options o = {.integrator = integrator, .end = 64, .max_depth = 3, .n_threads = 1};
-    double cost[2] = {0, INFINITY};
-    for (int i = FEW; i <= MANY; i++)
-        if (!scene_beside(t, (enum light_kind)kind, i == FEW ? 100 : 10000, &scene[i]))
-            return;
-    for (int k = 0; k < PAIRS && !(cost[MANY] < 4 * cost[FEW]); k++)
-        for (int i = FEW; i <= MANY; i++)
-            cost[i] = cost_of(t, &scene[i], &o);
-    CHECK(t, cost[MANY] < 4 * cost[FEW], "%s: %.4f s beside 10000 lights of kind %d, %.4f s beside 100", integrator,
-          cost[MANY], kind, cost[FEW]);
-    for (int i = FEW; i <= MANY; i++)
-        scene_free(&scene[i]);
-}
-
-/* The quick suite has no clock: who asks for the light of a direction asks the skies of the list, and no others. */
+/* Who asks for the light of a direction asks the skies of the list, and no others. */
 static void test_skies(struct test *t)
 {
     struct scene scene;
-    if (!scene_beside(t, LIGHT_POINT, 2, &scene))
+    if (!scene_from_text(t, "WorldBegin LightSource \"infinite\" LightSource \"infinite\" LightSource \"point\"\n"
+                         "LightSource \"point\" Shape \"sphere\" WorldEnd", &scene))
         return;
     struct light_set one = scene.lights;
     const vec3 up = vec(0, 1, 0);
@@ -356,14 +300,6 @@ static void test_skies(struct test *t)
           "the radiance of one sky of two is not half");
     CHECK(t, fabs(light_pdf_environment(&one, up) - density / 2) < 1e-9 * density, "the density of one is not half");
     scene_free(&scene);
-}
-
-void test_lights_long(struct test *t)
-{
-    for (int kind = LIGHT_AREA; kind <= LIGHT_DISTANT; kind++) {
-        check_many(t, kind, "pt");
-        check_many(t, kind, "bdpt");
-    }
 }
 
 void test_lights(struct test *t)

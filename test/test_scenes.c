@@ -301,18 +301,6 @@ static void test_mirrored(struct test *t, int spp)
     }
 }
 
-static void test_agreement(struct test *t, int spp)
-{
-    static const char *const scenes[] = {"all-materials", "alpha", "bump",     "instances",     "mirror-glass",
-                                         "negative-scale", "patterns", "quadrics", "smooth-normals", "thin-lens"};
-    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
-        struct batches pt = render(t, scenes[i], "pt", 24, 2 * spp, 851),
-                       bdpt = render(t, scenes[i], "bdpt", 24, spp, 852);
-        check_agree(t, &pt, &bdpt, false, 0, "%s: pt against bdpt", scenes[i]);
-        batches_free(&bdpt);
-    }
-}
-
 /* A scene by four integrators: were a strategy lost in one of them, their weights would no longer add up to 1 for all.
  * A fault of `planted` must be seen. */
 static void test_four(struct test *t, const char *name, int spp, double planted)
@@ -346,11 +334,10 @@ void test_scenes(struct test *t)
     test_noisy(t, 4, 16, 2, 0.1);
 }
 
-/* Other cameras, too, which test_strategies.c has for the quick suite, and surfaces that test_random.c has. */
+/* Other cameras, too, which test_strategies.c has for the quick suite, and a mirrored world. */
 void test_scenes_long(struct test *t)
 {
     test_mirrored(t, 400);
-    test_agreement(t, 200);
     test_noisy(t, 200, 400, 1, 0.05);
     test_four(t, "orthographic", 400, 0.05);
     test_four(t, "environment", 400, 0.05);

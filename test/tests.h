@@ -37,7 +37,6 @@ void test_learning(struct test *t);
 void test_light(struct test *t);
 void test_light_sent(struct test *t); /* part of test_light */
 void test_lights(struct test *t);
-void test_lights_long(struct test *t);
 void test_lobe(struct test *t);
 void test_material(struct test *t);
 void test_maths(struct test *t);
