@@ -75,7 +75,7 @@ refuse 'needs a scene' --quick # no command: render
 refuse 'unknown option --sppp; try asbdpt render --help' render "$box" --sppp 3
 refuse '[-]-samples has no effect without -o' render "$box" --samples 0:1
 expect 2 '[-]-res: 65536 x 65536 pixels are too many' "$program" render "$box" --res 65536
-refuse 'x.jpg: pictures are written as .pfm, .exr' render "$box" $small -o x.jpg
+refuse 'x.jpg: images are written as .pfm, .exr' render "$box" $small -o x.jpg
 refuse 'there is no integrator asbdtp; known are: pt lt' render "$box" $small --integrator=asbdtp
 refuse 'no integrator has a parameter "selct"; asbdpt help' render "$box" -P selct=bins
 refuse 'delta' render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
@@ -307,7 +307,7 @@ expect 2 'known are albedo' "$program" render "$box" $small --aov albedo,norml -
 expect 1 'few.variance.pfm: not written: one sample' "$program" render "$box" --spp 2 --samples 0:1 --res 8x8 --quiet \
     --aov variance -o few.png
 check [ -s few.png -a ! -e few.variance.pfm ]
-expect 2 'a picture with a name' "$program" render "$box" $small --aov depth -o -
+expect 2 'an image with a name' "$program" render "$box" $small --aov depth -o -
 mkdir taken.depth.pfm
 expect 1 'taken.depth.pfm' "$program" render "$box" $small --aov albedo,depth -o taken.png
 check [ ! -e taken.png -a ! -e taken.albedo.pfm ]
@@ -448,7 +448,7 @@ printf 'PF\n1 1\n-1\n\000\120\303\107\000\000\200\077\000\120\303\307' >far.pfm 
 expect 0 'far.exr: 2 values are beyond 65504, .* ends in .float.exr' "$program" convert far.pfm -o far.exr
 expect 0 '^wrote far.float.exr$' "$program" convert far.pfm -o far.float.exr
 check [ "$(grep -c warning stderr.txt)" = 0 ]
-expect 1 'is 16x16, the pictures before it 24x16|whole.pfm is ' "$program" convert a.pfm whole.pfm -o b.pfm
+expect 1 'is 16x16, the images before it 24x16|whole.pfm is ' "$program" convert a.pfm whole.pfm -o b.pfm
 {
     echo WorldBegin
     for i in 0 1 2 3 4 5 6 7 8 9 a b c; do
@@ -456,7 +456,7 @@ expect 1 'is 16x16, the pictures before it 24x16|whole.pfm is ' "$program" conve
     done
     echo WorldEnd
 } >many.pbrt
-expect 2 'lights: 65 pictures, one for each light, and 64 are the most' \
+expect 2 'lights: 65 images, one for each light, and 64 are the most' \
     "$program" render many.pbrt --res 2x2 --spp 1 --quiet --lights many -o b.pfm
 expect 0 '' "$program" render many.pbrt --res 2x2 --spp 1 --quiet --alpha -o b.pfm
 expect 2 'alpha: the samples of mmlt are a chain' "$lab" render lamps.pbrt --integrator mmlt --alpha -o b.png
@@ -625,7 +625,7 @@ expect 0 '' "$program" convert x.exr -o x2.exr
 check cmp -s x.exr x2.exr
 expect 0 '' "$program" convert x.ppm -o y.PNG
 check cmp -s light.png y.PNG
-expect 2 'x.tga: pictures are written as' "$program" convert light.pfm -o x.tga
+expect 2 'x.tga: images are written as' "$program" convert light.pfm -o x.tga
 "$program" convert - -o - --quiet <light.pfm >through.pfm
 check cmp -s light.pfm through.pfm
 close() { # A B MOST: their relative mean squared error, of all values, is at most so large
@@ -672,7 +672,7 @@ check test -n "$(cmp light.png y.png 2>&1)"
 expect 0 '' "$program" convert light.pfm -o y.png --exposure 0 --tonemap none
 check cmp -s light.png y.png
 expect 2 'known are none, filmic' "$program" convert light.pfm -o y.png --tonemap film
-expect 2 'for 8-bit pictures' "$program" convert light.pfm -o y.exr --exposure 1
+expect 2 'for 8-bit images' "$program" convert light.pfm -o y.exr --exposure 1
 
 # ImageMagick, where it is installed, reads the same bytes of pixels from our files.
 if command -v convert >/dev/null && convert -version | grep -q ImageMagick; then

@@ -65,7 +65,7 @@ check "$program" render $lit --alpha -o sum.png --resume sum.part
 same whole.png sum.png "alpha resumed"
 same whole.pfm lit/light01_key.pfm "a light in parts"
 check "$program" render $lit --samples 32:70 -o 32:70.part
-expect 1 'another picture: it has "size 8 12, planes 3 0", not "size 8 12, planes 3 1"' \
+expect 1 'another image: it has "size 8 12, planes 3 0", not "size 8 12, planes 3 1"' \
     "$program" merge -o sum.png 0:32.part 32:70.part
 
 # ---- a picture is gone on with, parts are of one whole: each learns the same, and has the same bytes ----
@@ -113,16 +113,16 @@ expect 1 'missing are the samples 0:3' "$program" merge -o x.pfm b.part
 expect 1 'missing are the samples 3:8' "$program" merge -o x.pfm a.part
 expect 1 'c.part: other parts have the samples 5:8' "$program" merge -o x.pfm a.part b.part c.part
 expect 1 'a.part: other parts have the samples 0:3' "$program" merge -o x.pfm a.part b.part a.part
-expect 1 'other.part: a part of another picture: it has "seed 1", not "seed 0"' \
+expect 1 'other.part: a part of another image: it has "seed 1", not "seed 0"' \
     "$program" merge -o x.pfm a.part other.part
 expect 1 'stdout.txt: this is no part' "$program" merge -o x.pfm a.part b.part stdout.txt
 expect 1 'gone.part: cannot be opened' "$program" merge -o x.pfm a.part gone.part
-expect 2 "merge needs a picture to write" "$program" merge a.part b.part
+expect 2 "merge needs an image or .part to write" "$program" merge a.part b.part
 expect 2 'merge needs a part' "$program" merge -o x.pfm
 expect 0 '' "$program" merge --partial -o partial.pfm a.part
 check [ ! -e x.pfm ]
 "$program" render changed.pbrt $tiny --res 8x8 --spp 8 --samples 3:8 -o foreign.part
-expect 1 'foreign.part: a part of another picture: it has "scene' "$program" merge -o x.pfm a.part foreign.part
+expect 1 'foreign.part: a part of another image: it has "scene' "$program" merge -o x.pfm a.part foreign.part
 LC_ALL=C sed 's/^version .*/version asbdpt 0.0/' b.part >old.part # its check of the lines no longer fits
 expect 1 'old.part: this is no part, or its beginning is damaged' "$program" merge -o x.pfm a.part old.part
 head -c 700 b.part >cut.part

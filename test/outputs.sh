@@ -42,8 +42,8 @@ refused 1 'state: there is such a file already' render --checkpoint ./state --re
 refused 2 'it needs a file' render --checkpoint /dev/null -o new.pfm
 refused 2 'it needs a file' render --checkpoint - -o new.pfm
 # What is to be written comes after -o: a shell's *.pfm may be many.
-refused 2 'needs a picture' "$program" convert a.pfm b.pfm
-refused 2 'needs a picture' "$program" merge b.part c.part
+refused 2 'needs an image' "$program" convert a.pfm b.pfm
+refused 2 'needs an image' "$program" merge b.part c.part
 # An empty name is a variable that is not set.
 for option in -o --checkpoint --resume --stats --lights --aov; do
     refused 2 "${option#-}.*: its value is empty" render $option ''

@@ -188,7 +188,7 @@ static void test_unreadable(struct test *t)
     } CASES[] = {
         {"empty.png", "", "signature"},          {"empty.pfm", "", "not a PFM"},
         {"empty.ppm", "", "not a PPM"},          {"empty.tga", "", "truncated"},
-        {"what.jpg", "JFIF", "unknown picture"}, {"env.exr", "v/1\1", "header is damaged or truncated"},
+        {"what.jpg", "JFIF", "unknown image"}, {"env.exr", "v/1\1", "header is damaged or truncated"},
         {"p.png", "P3 1 1 7 ", "do not fit"},
     };
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {

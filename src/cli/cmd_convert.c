@@ -20,13 +20,13 @@ struct convert_options {
 #define AT(member) offsetof(struct convert_options, member)
 static const struct option OPTIONS[] = {
     {"IN", NULL, OPTION_TEXTS, AT(in), 1,
-     .help = "a picture to read: .exr .pfm .hdr .pic .png .tga .ppm .pgm; several are added up"},
-    {"--weights", "LIST", OPTION_TEXT, AT(weights), .help = "what they are multiplied by, as 1,0.5,2 (default: 1)"},
+     .help = "an image to read: .exr .pfm .hdr .pic .png .tga .ppm .pgm; several are added up"},
+    {"--weights", "LIST", OPTION_TEXT, AT(weights), .help = "factor of each image, as 1,0.5,2 (default: 1)"},
     {"-o", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "--outfile", .written = true,
-     .help = "a picture to write: linear .pfm .exr, sRGB .png .ppm; repeatable"},
+     .help = "an image to write: linear .pfm or .exr, sRGB .png or .ppm; repeatable"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
-    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not say what was written"}, {.name = NULL}};
+    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not print what was written"}, {.name = NULL}};
 
 /* A weight of the list at *text, which moves behind it. */
 static bool next_weight(const char **text, bool last, double *out)
@@ -56,7 +56,7 @@ static bool add_picture(const char *path, double weight, double **sum, int *widt
         (*sum)[i] += weight * (double)pixels[i];
     free(pixels);
     if (!fits)
-        return error_set(err, "%s is %dx%d, the pictures before it %dx%d", path, w, h, *width, *height);
+        return error_set(err, "%s is %dx%d, the images before it %dx%d", path, w, h, *width, *height);
     *width = w;
     *height = h;
     return true;
@@ -104,6 +104,7 @@ static int run(void *options)
 }
 
 const struct command command_convert = {
-    "convert", "a picture in other formats, or the weighted sum of several", {"IN... -o FILE... [options]"}, OPTIONS,
+    "convert", "write an image in other formats, or the weighted sum of several",
+    {"IN... -o FILE... [options]"}, OPTIONS,
     sizeof(struct convert_options), run, false,
-    "convert picture.exr -o picture.png --exposure 1 --tonemap filmic"};
+    "convert image.exr -o image.png --exposure 1 --tonemap filmic"};

@@ -16,13 +16,13 @@ struct merge_options {
 
 #define AT(member) offsetof(struct merge_options, member)
 static const struct option OPTIONS[] = {
-    {"PART", NULL, OPTION_TEXTS, AT(part), 1, .help = "a part of a picture"},
+    {"PART", NULL, OPTION_TEXTS, AT(part), 1, .help = "a part of an image"},
     {"-o", "FILE", OPTION_TEXTS, AT(output), 1, .alias = "--outfile", .written = true,
-     .help = "a picture to write, or .part; repeatable"},
-    {"--partial", NULL, OPTION_ON, AT(partial), .help = "make a picture even where samples are missing"},
+     .help = "an image or .part to write; repeatable"},
+    {"--partial", NULL, OPTION_ON, AT(partial), .help = "make an image even if samples are missing"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
-    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not say what was written"}, {.name = NULL}};
+    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not print what was written"}, {.name = NULL}};
 
 struct named {
     const char *path;
@@ -149,7 +149,7 @@ static int run(void *options)
     for (int i = 0; i < o->output.n; i++)
         n_pictures += !outputs_is_part(o->output.item[i]);
     if (o->partial && n_pictures < o->output.n)
-        return usage_error(&command_merge, "--partial is for pictures; a part has one range of samples");
+        return usage_error(&command_merge, "--partial is for images; a part has one range of samples");
     if (!outputs_open(&o->output, &o->tone, true, &out, &err))
         return fail(&err);
     bool ok = merge(o, &m, n_pictures > 0, &out, &err);
@@ -161,6 +161,6 @@ static int run(void *options)
 }
 
 const struct command command_merge = {
-    "merge", "add up parts of a picture's samples", {"PART... -o FILE... [options]"}, OPTIONS,
+    "merge", "add up parts of an image's samples", {"PART... -o FILE... [options]"}, OPTIONS,
     sizeof(struct merge_options), run, false,
-    "merge 0.part 1.part -o picture.exr"};
+    "merge 0.part 1.part -o image.exr"};

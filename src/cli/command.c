@@ -61,8 +61,8 @@ static void print_integrators(void)
 {
     const char *before = "";
     printf("Integrators (--integrator NAME) and their parameters with defaults: -P NAME=VALUE, or in the\n"
-           "scene's Integrator directive. Of what is given twice, an option like --maxdepth counts before -P,\n"
-           "and -P before the scene.\n\nall\n");
+           "scene's Integrator directive. If one is given twice, an option such as --maxdepth overrides -P, and\n"
+           "-P overrides the scene.\n\nall\n");
     print_parameters(parameters_common());
     for (const struct method *const *m = method_rows; *m != NULL; before = (*m++)->name) {
         if (strcmp((*m)->name, before) != 0)
@@ -84,12 +84,12 @@ static void print_help(void)
         printf("    %-12s ", (*c)->name);
         print_wrapped((*c)->help, 17, 17);
     }
-    printf("\n%s COMMAND --help        its options, their defaults, an example\n"
-           "%s help integrators      integrators and their parameters\n", program.name, program.name);
+    printf("\n%s COMMAND --help        show its options, their defaults and an example\n"
+           "%s help integrators      show the integrators and their parameters\n", program.name, program.name);
     if (program.unnamed != NULL)
         printf("%s SCENE.pbrt ...        the same as %s %s SCENE.pbrt ...\n", program.name, program.name,
                program.unnamed->name);
-    printf("exit status: 0 success, 1 the job failed, 2 wrong usage, 128 and the number of a signal\n");
+    printf("exit status: 0 success, 1 the job failed, 2 wrong usage, 128 + N stopped by signal N\n");
 }
 
 /* All that there is, as for a man page. */

@@ -13,28 +13,29 @@
 
 #define AT(member) offsetof(struct job_options, member)
 const struct option RUN_OPTIONS[] = {
-    {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
-    {"--seed", "N", OPTION_SEED, AT(seed), .fallback = "0", .help = "another set of random numbers"},
+    {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j",
+     .help = "number of threads (default: one for each processor)"},
+    {"--seed", "N", OPTION_SEED, AT(seed), .fallback = "0", .help = "choose another set of random numbers"},
     {.others = JOB_OPTIONS},
 };
 
 const struct option JOB_OPTIONS[] = {
     {"--integrator", "NAME", OPTION_TEXT, AT(integrator),
-     .help = "see asbdpt help integrators (default: the scene's, else bdpt)"},
+     .help = "rendering method, see asbdpt help integrators (default: the scene's, else bdpt)"},
     {"-P", "NAME=VALUE", OPTION_PAIRS, AT(overrides), .help = "set a parameter of the integrator; repeatable"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 30, .help = "samples per pixel (default: the scene's, else 16)"},
     {"--quick", NULL, OPTION_ON, AT(quick),
-     .help = "as pbrt's: a quarter of the width and height (but --res), one sample per pixel (but --spp)"},
+     .help = "a quarter of the width and height unless --res is given, one sample per pixel unless --spp is given"},
     {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, PATH_MAX_DEPTH,
-     .help = "longest path, 1 = direct light (default: the scene's, else 5)"},
+     .help = "longest path, where 1 is direct light (default: the scene's, else 5)"},
     {"--res", "WIDTH[xHEIGHT]", OPTION_WIDTH, AT(res), 1, 65536,
-     .help = "pixels of the film; a width keeps its shape (default: the scene's)"},
+     .help = "size of the film in pixels; a width alone keeps its shape (default: the scene's)"},
     {"--filter", "NAME", OPTION_TEXT, AT(filter),
-     .help = "of pixels: box, triangle, gaussian, mitchell or sinc (default: the scene's)"},
+     .help = "pixel filter: box, triangle, gaussian, mitchell or sinc (default: the scene's)"},
     {"--cropwindow", "X0 X1 Y0 Y1", OPTION_WINDOW, AT(crop), 0, 1,
-     .help = "render a part of the film, as fractions (default: the scene's)"},
-    {"--strict", NULL, OPTION_ON, AT(strict), .help = "warnings of the scene are errors"},
-    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "no progress, no warnings"}, {.name = NULL}};
+     .help = "render only this part of the film, in fractions from 0 to 1 (default: the scene's)"},
+    {"--strict", NULL, OPTION_ON, AT(strict), .help = "treat warnings about the scene as errors"},
+    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "print no progress and no warnings"}, {.name = NULL}};
 
 static void print_warning(void *context, const char *text)
 {

@@ -19,7 +19,7 @@ static bool resumes_its_own(const struct keep_options *o)
 bool keep_check(const struct keep_options *o, struct error *err)
 {
     if (o->samples[1] > 0 && keep_asks_noise(o))
-        return error_usage(err, "--noise is that of the whole picture; --samples takes a part of it");
+        return error_usage(err, "--noise is that of the whole image; --samples takes a part of it");
     if (o->checkpoint == NULL)
         return true;
     enum os_kind kind = os_kind_of(o->checkpoint);

@@ -30,7 +30,7 @@ static bool read_tone(const struct tone_options *t, const struct texts *names, s
         shown = shown || image_is_8_bit(names->item[i]);
     *out = tone;
     return shown || tone_is_plain(&tone) ||
-           error_usage(err, "--exposure and --tonemap are for 8-bit pictures (.png, .ppm); none is written");
+           error_usage(err, "--exposure and --tonemap are for 8-bit images (.png, .ppm); none is written");
 }
 
 bool outputs_is_part(const char *name)
@@ -43,7 +43,7 @@ bool outputs_add(struct outputs *out, const char *name, bool is_part, struct err
 {
     struct output o = {.is_part = is_part};
     if (!is_part && !image_writable(name))
-        return error_usage(err, "-o %s: pictures are written as " IMAGE_WRITTEN "; end the name in one of these", name);
+        return error_usage(err, "-o %s: images are written as " IMAGE_WRITTEN "; end the name in one of these", name);
     if (is_part ? !file_create(name, &o.file, err) : !image_create(name, &o.file, err))
         return false;
     out->item = mem_append(out->item, (size_t)out->n, sizeof *out->item);

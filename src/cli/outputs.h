@@ -40,8 +40,8 @@ struct tone_options {
     double exposure;
     const char *curve; /* NULL: none */
 };
-#define EXPOSURE_HELP "8-bit pictures: brighter by so many stops, of a factor of two each"
-#define TONEMAP_HELP "8-bit pictures: none, or the curve of film: filmic"
+#define EXPOSURE_HELP "make 8-bit images brighter by EV stops, a factor of 2 each"
+#define TONEMAP_HELP "tone curve of 8-bit images: none or filmic (default none)"
 
 /* outputs_is_part: does the name end in .part? outputs_possible: can a file of this name be made? False with a
  * message. */

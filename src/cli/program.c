@@ -5,6 +5,6 @@ static const struct command *const COMMANDS[] = {&command_render, &command_merge
 
 const struct program program = {
     "asbdpt", "Alias Sampled Bidirectional Path Tracing, a reference implementation",
-    "Renders scenes of pbrt-v3 with path tracing, light tracing, bidirectional path tracing and its alias sampled kin; "
-    "adds up and converts pictures. What describes, compares, explains and measures is asbdpt-lab.", COMMANDS,
+    "Renders scenes of pbrt-v3 by path tracing, light tracing, and bidirectional path tracing with and without alias "
+    "sampling. Adds up and converts images. asbdpt-lab describes, compares, explains and measures.", COMMANDS,
     &command_render};

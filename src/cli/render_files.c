@@ -62,7 +62,7 @@ bool aov_open(struct aov_files *f, bool layers, const struct outputs *pictures, 
     for (int i = 0; ok && i < N_AOVS; i++) {
         const char *picture = pictures->item[0].file.path;
         if (f->wanted[i] && strcmp(picture, "-") == 0)
-            return error_usage(err, "--aov needs a picture with a name (-o), to write beside it");
+            return error_usage(err, "--aov needs an image with a name (-o), to write next to it");
         ok = !f->wanted[i] || open_one(picture, (enum aov)i, &f->out, err);
     }
     return ok;
@@ -143,7 +143,7 @@ bool lights_open(const char *directory, const struct scene *scene, struct output
     if (directory == NULL)
         return true;
     if (lights->n_groups > LIGHT_MAX_GROUPS)
-        return error_usage(err, "--lights: %d pictures, one for each light, and %d are the most here; lights with the "
+        return error_usage(err, "--lights: %d images, one for each light, and %d are the most here; lights with the "
                            "same \"string group\" are one", lights->n_groups, LIGHT_MAX_GROUPS);
     bool ok = true;
     os_make_directory(directory); /* if that fails, creating a file says why */

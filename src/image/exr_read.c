@@ -31,7 +31,7 @@ static bool read_version(struct exr *e)
     e->at = 8;
     return (version & ~(uint32_t)LONG_NAMES) == VERSION ||
            error_set(e->err, "OpenEXR files in tiles or several parts, deep ones and other versions than 2 are not "
-                             "read (this is of kind %lx); save it as one flat picture in rows", (unsigned long)version);
+                             "read (this is of kind %lx); save it as one flat image in rows", (unsigned long)version);
 }
 
 /* The next text before `end`, stepping over it; NULL if it has no end. */

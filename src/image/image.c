@@ -54,7 +54,7 @@ static bool read_bytes(const char *path, const uint8_t *data, size_t size, struc
     if (format == NULL)
         format = format_by_name(path);
     if (format == NULL)
-        return error_set(err, "unknown picture format; convert it to PFM, OpenEXR, Radiance, PNG, PPM or TGA");
+        return error_set(err, "unknown image format; convert it to PFM, OpenEXR, Radiance, PNG, PPM or TGA");
     return format->read(data, size, out, err);
 }
 
@@ -95,7 +95,7 @@ bool image_writable(const char *path) { return format_to_write(path) != NULL; }
 bool image_create(const char *path, struct file_output *out, struct error *err)
 {
     if (!image_writable(path))
-        return error_set(err, "%s: pictures are written as " IMAGE_WRITTEN "; end the name in one of these", path);
+        return error_set(err, "%s: images are written as " IMAGE_WRITTEN "; end the name in one of these", path);
     return file_create(path, out, err);
 }
 

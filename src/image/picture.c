@@ -11,7 +11,7 @@
 bool picture_size_ok(uint64_t width, uint64_t height, struct error *err)
 {
     if (width == 0 || height == 0)
-        return error_set(err, "the picture is empty (%llu x %llu)", (unsigned long long)width,
+        return error_set(err, "the image is empty (%llu x %llu)", (unsigned long long)width,
                          (unsigned long long)height);
     if (width > PICTURE_MAX_PIXELS / height)
         return error_set(err, "%llu x %llu pixels are too many (at most %d)", (unsigned long long)width,

@@ -63,12 +63,12 @@ static bool read_header(struct rgbe *r, struct error *err)
         if (!next_line(r, line, sizeof line))
             return error_set(err, "the Radiance header has no end");
         if (strncmp(line, "FORMAT=", 7) == 0 && strcmp(line + 7, "32-bit_rle_rgbe") != 0)
-            return error_set(err, "Radiance pictures of format \"%s\" are not read (known: 32-bit_rle_rgbe)", line + 7);
+            return error_set(err, "Radiance images of format \"%s\" are not read (known: 32-bit_rle_rgbe)", line + 7);
     } while (line[0] != '\0');
     const char *p = line;
     if (!next_line(r, line, sizeof line) || !next_count(&p, "-Y ", &r->height) || !next_count(&p, " +X ", &r->width) ||
         *p != '\0')
-        return error_set(err, "the size \"%s\" of the Radiance picture is not read (known: -Y HEIGHT +X WIDTH)", line);
+        return error_set(err, "the size \"%s\" of the Radiance image is not read (known: -Y HEIGHT +X WIDTH)", line);
     return picture_size_ok(r->width, r->height, err);
 }
 
@@ -115,7 +115,7 @@ bool rgbe_read(const uint8_t *data, size_t size, struct image *out, struct error
 {
     struct rgbe r = {.data = data, .size = size};
     if (!rgbe_matches(data, size))
-        return error_set(err, "not a Radiance picture: it does not begin with #?RADIANCE");
+        return error_set(err, "not a Radiance image: it does not begin with #?RADIANCE");
     if (!read_header(&r, err))
         return false;
     if (r.width * r.height / MOST_PIXELS_PER_BYTE > size - r.at)

@@ -106,7 +106,7 @@ bool parse_picture(struct params *q, struct source_position at, const struct ima
     if (image == NULL || (is_new && !scene_files_picture(q->files, image, tables, why)))
         return params_fail(q, at, "%s", why->text);
     if (image->replaced > 0)
-        source_warn(q->messages, at, "%ld numbers of this picture are not finite, or negative light; 0 instead",
+        source_warn(q->messages, at, "%ld numbers of this image are not finite, or negative light; 0 instead",
                     image->replaced);
     return true;
 }

@@ -105,7 +105,7 @@ static void slide_light(struct parser *p, void *object)
     l->tan_half = m_tan(item->fov * PI / 360);
     l->cos_total = slide_cos_corner(l->slide, l->tan_half);
     if (!(l->cos_total < 1))
-        type_error(&p->params, "\"fov\" is %g degrees: a picture without inside", item->fov);
+        type_error(&p->params, "\"fov\" is %g degrees: an image without inside", item->fov);
 }
 
 static void infinite_light(struct parser *p, void *object)

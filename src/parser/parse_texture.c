@@ -65,7 +65,7 @@ static void imagemap(struct parser *p, void *object)
     t->wrap = (enum texture_wrap)params_choice(q, "wrap", WRAPS);
     char *path = params_file(q, "filename", &at);
     if (path == NULL) {
-        type_error(q, "an imagemap needs its picture: add \"string filename\" \"...\"");
+        type_error(q, "an imagemap needs its image: add \"string filename\" \"...\"");
         return;
     }
     t->gamma = params_bool(q, "gamma", file_has_extension(path, ".tga") || file_has_extension(path, ".png"));

@@ -86,7 +86,7 @@ bool scene_files_picture(struct scene_files *f, const struct image *img, uint64_
     f->unpacked += taken > paid ? taken - paid : 0;
     f->full |= f->unpacked > MAX_UNPACKED;
     if (f->full)
-        return error_set(err, "this and other pictures of so small files take more than %d MB; store them as PFM",
+        return error_set(err, "this and other images of so small files take more than %d MB; store them as PFM",
                          MAX_UNPACKED >> 20);
     return count(f, img->content, img->file_size, taken, err);
 }

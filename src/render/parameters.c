@@ -20,12 +20,12 @@ static const char *const STRATEGIES[] = {"spatial", "power", "uniform", NULL};
 #define AT(member) offsetof(struct common, member)
 static const struct field COMMON[] = {
     {"maxdepth", FIELD_INTEGER, AT(max_depth), DEFAULT_MAX_DEPTH, 0, PATH_MAX_DEPTH,
-     "edges of a path less one", NULL},
-    {"heuristic", FIELD_WORD, AT(heuristic), 0, 0, 0, "of the weights: balance or power", HEURISTICS},
+     "longest path, in edges minus one", NULL},
+    {"heuristic", FIELD_WORD, AT(heuristic), 0, 0, 0, "heuristic of the weights: balance or power", HEURISTICS},
     {"rrthreshold", FIELD_NUMBER, AT(rr_threshold), DEFAULT_RR_THRESHOLD, 0, 1e6,
-     "relative throughput at which Russian roulette begins, 0: never; asbdpt's bins: 0", NULL},
+     "relative throughput below which Russian roulette begins, 0: never; for bins 0", NULL},
     {"lightsamplestrategy", FIELD_WORD, AT(strategy), 0, 0, 0,
-     "asbdpt: s = 1 picks lights by what is seen, or by power", STRATEGIES},
+     "asbdpt chooses the light of s = 1 by what is seen, or by power", STRATEGIES},
     {.name = NULL}};
 
 const struct field *parameters_common(void) { return COMMON; }

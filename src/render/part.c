@@ -314,7 +314,7 @@ bool part_same(const struct part *p, const char *path, const struct part *wanted
         size_t n = strcspn(a, "\n"), m = strcspn(b, "\n");
         same = n == m && strncmp(a, b, n) == 0;
         if (!same)
-            error_set(err, "%s: a part of another picture: it has \"%.*s\", not \"%.*s\"", path, (int)n, a, (int)m, b);
+            error_set(err, "%s: a part of another image: it has \"%.*s\", not \"%.*s\"", path, (int)n, a, (int)m, b);
         a += n + (a[n] == '\n');
         b += m + (b[m] == '\n');
     }

@@ -119,7 +119,7 @@ static int run(void *options)
     if (o->most > 0 && o->percentile > 0)
         return usage_error(&command_compare, "--max and --percentile exclude each other");
     if (o->heatmap != NULL && !image_writable(o->heatmap))
-        return usage_error(&command_compare, "--heatmap %s: pictures are written as " IMAGE_WRITTEN, o->heatmap);
+        return usage_error(&command_compare, "--heatmap %s: images are written as " IMAGE_WRITTEN, o->heatmap);
     return compare_files(o, &err) ? EXIT_OK : fail(&err);
 }
 
