@@ -108,9 +108,9 @@ struct sheet pictures_sheet(const struct scene_results *s)
                 s->height, k * scale);
     for (int v = 0; v < p->n_compared; v++) {
         const struct run *last = &s->run[v][0][plan_last_step(p)];
-        snprintf(text, sizeof text, "%ld spp, %.1f s; in 8x8 %.1f", last->spp, last->value[Q_SECONDS],
+        snprintf(text, sizeof text, "%ld spp, %.1f s; 8x8 means %.1f", last->spp, last->value[Q_SECONDS],
                  pictures_blocks(s, v));
-        draw_column(&sheet, v, p->methods.item[v].label, "error", last->value[Q_RMSE8], text, s->image[v], width,
+        draw_column(&sheet, v, p->methods.item[v].label, "rmse8", last->value[Q_RMSE8], text, s->image[v], width,
                     height, k);
     }
     if (scale == 1)
