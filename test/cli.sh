@@ -591,6 +591,9 @@ check [ "$(grep -c ', seed ' stderr.txt)" = 0 ]
 # Its means and intervals can be computed again from its runs; another number is found out.
 evidence=$scenes/../test/evidence
 awk -f "$evidence/family.awk" family/family.md >family.txt
+for section in choice choice-8x8 choice-claims services services-claims bring; do
+    check grep -qx "== $section" family.txt
+done
 expect 0 '' awk -f "$evidence/recompute.awk" family/runs.csv family.txt
 sed '/^| pt/s/\[/[9/' family.txt >planted.txt
 expect 1 '' awk -f "$evidence/recompute.awk" family/runs.csv planted.txt

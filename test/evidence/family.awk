@@ -8,7 +8,7 @@ function begin(name) { section = name; open = 0 }
 /^Squared error over that of/ { begin(half) }
 /^(rmse8|relmse|8x8): squared error over/ { measure = $1; sub(/:/, "", measure); begin(half "-" measure) }
 /^Claims:/ { begin(half "-claims") }
-/^What services bring/ { begin("bring") }
+/^What shared techniques contribute/ { begin("bring") }
 /^\|/ && section == "choice" { split($0, cell, / *\| */); alone[cell[2]] = cell[4] " | " cell[5] " | " cell[6] }
 /^\|/ && section == "bring" {
     split($0, cell, / *\| */)

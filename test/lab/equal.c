@@ -8,7 +8,6 @@
 #include "base/alias.h"
 #include "base/maths.h"
 #include "base/number.h"
-#include "base/progress.h"
 
 enum { MOST_SAMPLES = 1 << 20, MOST_SCENES = 64 };
 
@@ -143,27 +142,23 @@ double equal_seeds_wanted(struct interval r, int n)
     return ceil(n * sqr((m_log(r.high) - m_log(r.low)) / (2 * m_log(r.value))));
 }
 
-/* "0.8 (95 %: 0.6 to 1.1): undecided; --seeds 12 may decide, some 40 s of CPU more". What is marked has less
- * error, but no gain. */
+/* "0.8 (95 %: 0.6 to 1.1): undecided; --seeds 12 may decide". What is marked has less error, but no gain. */
 static void say(FILE *f, const struct results *all, struct interval r, bool marked)
 {
-    bool decided = r.high < 1 || r.low > 1;
-    int n = all->plan->n_seeds;
-    double seeds = equal_seeds_wanted(r, n), seconds = 0;
-    char more[32];
+    double seeds = equal_seeds_wanted(r, all->plan->n_seeds);
     if (!isfinite(r.value)) {
         fputs("unknown, as the time is too short for it: more --spp.\n", f);
         return;
     }
-    fprintf(f, "%.3g (95 %%: %.3g to %.3g): %s", r.value, r.low, r.high,
-            !decided ? "undecided" : r.low > 1 ? "a loss" : marked ? "less error, but see above" : "a gain");
-    for (int i = 0; i < all->plan->n_scenes; i++)
-        seconds += equal_seconds(&all->scene[i]);
-    if (!decided && seeds <= PLAN_MAX_SEEDS) {
-        progress_duration((seeds - n) * seconds, more, sizeof more);
-        fprintf(f, "; --seeds %.0f may decide, some %s of CPU more", seeds, more);
-    } else if (!decided)
-        fputs("; it is so near 1 that only a larger --res, or more --spp, will tell", f);
+    fprintf(f, "%.3g (95 %%: %.3g to %.3g): ", r.value, r.low, r.high);
+    if (r.high < 1 || r.low > 1)
+        fputs(r.low > 1 ? "a loss" : marked ? "less error, but see above" : "a gain", f);
+    else if (all->plan->n_scenes > 1)
+        fputs("undecided; more scenes may decide", f);
+    else if (seeds <= PLAN_MAX_SEEDS)
+        fprintf(f, "undecided; --seeds %.0f may decide", seeds);
+    else
+        fputs("undecided; it is so near 1 that only a larger --res, or more --spp, will tell", f);
     fputs(".\n", f);
 }
 

@@ -62,7 +62,7 @@ double equal_seconds(const struct scene_results *s);
 double equal_seeds_wanted(struct interval r, int n);
 
 /* equal_verdict: is the first method beaten? Two lines for each other, and one; where that is undecided, what would
- * decide it and how long that takes. Before these a line for each scene where a method is marked, which has no gain. */
+ * decide it. Before these a line for each scene where a method is marked, which has no gain. */
 void equal_verdict(FILE *f, const struct results *r);
 
 #endif
