@@ -14,7 +14,7 @@
 #include "base/mem.h"
 #include "base/os.h"
 #include "image/image.h"
-#include "lab/image_write.h"
+#include "lab/files.h"
 #include "parser/scene_files.h"
 #include "tests.h"
 

@@ -16,7 +16,7 @@
 #include "image/image.h"
 #include "base/mem.h"
 #include "base/rng.h"
-#include "lab/image_write.h"
+#include "lab/files.h"
 #include "lab/numbers.h"
 #include "helpers.h"
 #include "tests.h"

@@ -23,7 +23,7 @@
 #include "fuzz/hostile.h"
 #include "fuzz/targets.h"
 #include "image/image.h"
-#include "lab/image_write.h"
+#include "lab/files.h"
 #include "lab/numbers.h"
 #include "helpers.h"
 #include "random_scene.h"

@@ -10,7 +10,7 @@
 #include "base/warp.h"
 #include "caustics/lamp.h"
 #include "image/image.h"
-#include "lab/image_write.h"
+#include "lab/files.h"
 #include "lab/stats.h"
 #include "helpers.h"
 #include "tests.h"

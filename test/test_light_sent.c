@@ -8,7 +8,7 @@
 #include "base/warp.h"
 #include "caustics/lamp.h"
 #include "image/image.h"
-#include "lab/image_write.h"
+#include "lab/files.h"
 #include "lab/numbers.h"
 #include "lab/stats.h"
 #include "helpers.h"

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "image/image.h"
-#include "lab/image_write.h"
+#include "lab/files.h"
 #include "lab/plan_scene.h"
 #include "tests.h"
 

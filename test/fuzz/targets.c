@@ -17,7 +17,7 @@
 #include "image/formats.h"
 #include "image/image.h"
 #include "image/zlib.h"
-#include "lab/image_write.h"
+#include "lab/files.h"
 #include "lab/store.h"
 #include "parser/parser.h"
 #include "render/parameters.h"

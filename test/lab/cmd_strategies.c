@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "cli/job_options.h"
-#include "lab/directory.h"
+#include "lab/files.h"
 #include "lab/commands.h"
 #include "lab/pyramid.h"
 #include "lab/sheet.h"

@@ -8,9 +8,8 @@
 #include "cli/job_options.h"
 #include "image/image.h"
 #include "lab/compare.h"
-#include "lab/directory.h"
+#include "lab/files.h"
 #include "lab/commands.h"
-#include "lab/image_write.h"
 #include "lab/paths.h"
 #include "lab/sheet.h"
 

@@ -54,17 +54,6 @@ int compare_block(int width, int height)
     return least < COMPARE_BLOCK ? least : COMPARE_BLOCK;
 }
 
-/* Of means over blocks. */
-static struct difference between_blocks(const float *x, const float *r, int width, int height)
-{
-    int k = compare_block(width, height);
-    float *mean_x = sheet_shrink(x, width, height, k), *mean_r = sheet_shrink(r, width, height, k);
-    struct difference d = compare_pixels(mean_x, mean_r, 3L * (width / k) * (height / k));
-    free(mean_x);
-    free(mean_r);
-    return d;
-}
-
 static double relative_square(const float *x, const float *y, const float *r, long n)
 {
     double sum = 0;
@@ -95,10 +84,17 @@ void compare_squares(const float *x, const float *y, const float *r, int width, 
 
 double compare_shown_blocks(const float *x, const float *r, int width, int height)
 {
-    float *shown_x = clipped(x, 3L * width * height), *shown_r = clipped(r, 3L * width * height);
-    double rmse8 = between_blocks(shown_x, shown_r, width, height).rmse8;
-    free(shown_x);
-    free(shown_r);
+    int k = compare_block(width, height);
+    const float *picture[2] = {x, r};
+    float *mean[2];
+    for (int i = 0; i < 2; i++) {
+        float *shown = clipped(picture[i], 3L * width * height);
+        mean[i] = sheet_shrink(shown, width, height, k);
+        free(shown);
+    }
+    double rmse8 = compare_pixels(mean[0], mean[1], 3L * (width / k) * (height / k)).rmse8;
+    free(mean[0]);
+    free(mean[1]);
     return rmse8;
 }
 

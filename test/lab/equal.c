@@ -137,29 +137,17 @@ double equal_seconds(const struct scene_results *s)
     return sum * s->seconds;
 }
 
-double equal_seeds_wanted(struct interval r, int n)
-{
-    return ceil(n * sqr((m_log(r.high) - m_log(r.low)) / (2 * m_log(r.value))));
-}
-
-/* "0.8 (95 %: 0.6 to 1.1): undecided; --seeds 12 may decide". What is marked has less error, but no gain. */
+/* "0.8 (95 %: 0.6 to 1.1): undecided; more seeds may decide". What is marked has less error, but no gain. */
 static void say(FILE *f, const struct results *all, struct interval r, bool marked)
 {
-    double seeds = equal_seeds_wanted(r, all->plan->n_seeds);
     if (!isfinite(r.value)) {
         fputs("unknown, as the time is too short for it: more --spp.\n", f);
         return;
     }
-    fprintf(f, "%.3g (95 %%: %.3g to %.3g): ", r.value, r.low, r.high);
-    if (r.high < 1 || r.low > 1)
-        fputs(r.low > 1 ? "a loss" : marked ? "less error, but see above" : "a gain", f);
-    else if (all->plan->n_scenes > 1)
-        fputs("undecided; more scenes may decide", f);
-    else if (seeds <= PLAN_MAX_SEEDS)
-        fprintf(f, "undecided; --seeds %.0f may decide", seeds);
-    else
-        fputs("undecided; it is so near 1 that only a larger --res, or more --spp, will tell", f);
-    fputs(".\n", f);
+    fprintf(f, "%.3g (95 %%: %.3g to %.3g): %s.\n", r.value, r.low, r.high,
+            r.low > 1 ? "a loss" : r.high < 1 ? (marked ? "less error, but see above" : "a gain") :
+            all->plan->n_scenes > 1 ? "undecided; more scenes may decide" :
+                                      "undecided; more --seeds or a larger --res may decide");
 }
 
 void equal_verdict(FILE *f, const struct results *r)

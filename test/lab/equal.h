@@ -57,10 +57,6 @@ struct interval equal_over_best(const struct results *r, int method, const int *
 /* equal_seconds: CPU seconds of one seed of all methods, by their prices. */
 double equal_seconds(const struct scene_results *s);
 
-/* equal_seeds_wanted: how many seeds may make the interval of r, which has n, leave 1: it shrinks as one over the
- * root. */
-double equal_seeds_wanted(struct interval r, int n);
-
 /* equal_verdict: is the first method beaten? Two lines for each other, and one; where that is undecided, what would
  * decide it. Before these a line for each scene where a method is marked, which has no gain. */
 void equal_verdict(FILE *f, const struct results *r);

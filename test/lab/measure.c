@@ -10,7 +10,7 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/progress.h"
-#include "lab/directory.h"
+#include "lab/files.h"
 #include "lab/equal.h"
 #include "lab/plan_scene.h"
 #include "lab/sheet.h"
@@ -51,13 +51,10 @@ static void compare_picture(struct subject *s, int method, int seed, int step)
     struct run *to = &out->run[method][seed - 1][step];
     const float *x = s->picture[method][seed - 1];
     struct difference d = compare_pixels(x, ref->pixels, 3L * out->width * out->height);
-    to->value[Q_RMSE] = d.rmse;
     to->value[Q_RMSE8] = d.rmse8;
-    to->value[Q_RELMSE] = d.relmse;
     to->value[Q_MEAN_ERROR] = d.mean_ratio - 1;
     to->nonfinite += d.nonfinite;
     compare_squares(x, ref->pixels, ref->pixels, out->width, out->height, to->square);
-    to->value[Q_BLOCKS] = to->square[SQUARE_BLOCKS];
     for (int k = 0; k < N_SQUARES; k++)
         to->square[k] -= ref->noise[k];
 }

@@ -13,7 +13,7 @@
 #include "base/rng.h"
 #include "caustics/caustic.h"
 #include "image/image.h"
-#include "lab/directory.h"
+#include "lab/files.h"
 #include "lab/methods.h"
 #include "lab/sheet.h"
 #include "lab/sides.h"

@@ -11,7 +11,7 @@
 static const char NOTES[] =
     "## Notes\n\n"
     "- RMSE is the root mean square difference to the reference of all 8-bit sRGB values, 0 to 255, the\n"
-    "  dissertation's scale; runs.csv also has it on linear values, and the relative squared error.\n"
+    "  dissertation's scale; runs.csv also has squared errors: of these values, relative, and of 8x8 pixels.\n"
     "- Seconds are CPU seconds of all threads together, with the method's own preparation, without loading the scene.\n"
     "- A squared error falls as one over the time, so squared error times seconds is what a method spends on its\n"
     "  precision; the squared error of the reference itself is subtracted where known. `equal-time` gives all the\n"

@@ -11,7 +11,7 @@
 #include "base/maths.h"
 #include "lab/stats.h"
 
-static const char *const NAMES[N_QUANTITIES] = {"seconds", "rmse", "rmse8", "relmse", "relmse8x8", "mean_error"};
+static const char *const NAMES[N_QUANTITIES] = {"seconds", "rmse8", "mean_error"};
 
 void results_free(struct results *r)
 {
@@ -103,15 +103,6 @@ struct estimate results_mean(const struct scene_results *s, int method, int step
     int n = plan_seeds(s->plan, method);
     for (int i = 0; i < n; i++)
         x[i] = s->run[method][i][step].value[q];
-    return mean_of(x, n);
-}
-
-struct estimate results_square(const struct scene_results *s, int method, int step, enum square k)
-{
-    double x[PLAN_MAX_SEEDS];
-    int n = plan_seeds(s->plan, method);
-    for (int i = 0; i < n; i++)
-        x[i] = s->run[method][i][step].square[k];
     return mean_of(x, n);
 }
 

@@ -18,10 +18,7 @@
 
 enum quantity {
     Q_SECONDS,    /* of CPU so far, pre-pass included, scene loading not */
-    Q_RMSE,       /* linear */
     Q_RMSE8,      /* 8-bit sRGB */
-    Q_RELMSE,     /* relative squared error */
-    Q_BLOCKS,     /* the same of means over blocks of 8x8 pixels, see compare.h */
     Q_MEAN_ERROR, /* mean of image over mean of reference, less 1 */
     N_QUANTITIES
 };
@@ -79,9 +76,8 @@ struct estimate {
     int n;              /* seeds; 0: mean is NaN */
 };
 
-/* results_mean: of a value; results_square: of a square. */
+/* results_mean: of a value. */
 struct estimate results_mean(const struct scene_results *s, int method, int step, enum quantity q);
-struct estimate results_square(const struct scene_results *s, int method, int step, enum square k);
 
 /* A ratio of two means with its 95 % confidence interval; NaN where it cannot be told. */
 struct interval {

@@ -9,7 +9,7 @@
 #include "base/number.h"
 #include "base/mem.h"
 #include "image/image.h"
-#include "lab/image_write.h"
+#include "lab/files.h"
 
 static float *pixel_at(struct sheet *s, int x, int y)
 {

@@ -16,7 +16,7 @@
 #include "image/image.h"
 #include "lab/timed.h"
 #include "lab/compare.h"
-#include "lab/image_write.h"
+#include "lab/files.h"
 
 enum {
     PIXELS = 1024,    /* of the pictures, unless somebody says otherwise */

@@ -10,7 +10,7 @@
 #include "base/os.h"
 #include "image/image.h"
 #include "image/zlib.h"
-#include "lab/image_write.h"
+#include "lab/files.h"
 
 enum { PATH_SIZE = 4096 };
 

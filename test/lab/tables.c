@@ -60,10 +60,8 @@ static struct table begin_rows(FILE *f, const char *first)
 {
     static const char *const heads[] = {"method", "RMSE", "over the first's [95 %]", "printed", "seconds",
                                         "cost over the first's [95 %]", "mean off by, %", "tested"};
-    struct table t =
-        table_begin(f, "RMSE on the 8-bit scale, mean over seeds and its standard error; the same over that of the "
-                    "first method; the dissertation's RMSE, of its own model of the scene; seconds of CPU; squared "
-                    "error times seconds, over the first's, below 1 is a gain; signed error of the picture's mean");
+    struct table t = table_begin(f, "RMSE on the 8-bit scale, mean over seeds and its standard error; printed: the "
+                                 "dissertation's; cost: squared error times seconds of CPU");
     table_column(&t, "%s", first);
     add_columns(&t, heads, 8);
     return t;

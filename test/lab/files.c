@@ -1,10 +1,18 @@
-/* directory.c: see directory.h. */
-#include "lab/directory.h"
+/* files.c: see files.h. */
+#include "lab/files.h"
 
 #include <stdlib.h>
 
 #include "base/mem.h"
 #include "base/os.h"
+#include "image/image.h"
+
+bool image_write(const char *path, int width, int height, const float *pixels, struct error *err)
+{
+    struct file_output f;
+    const struct raster r = {{0, 0, 0, 0}, width, height, pixels, NULL, 0};
+    return image_create(path, &f, err) && image_finish(&f, &r, err);
+}
 
 bool file_make_directory(const char *path, struct error *err)
 {
