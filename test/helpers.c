@@ -207,6 +207,19 @@ bool films_equal(const struct film *a, const struct film *b)
     return true;
 }
 
+bool same_picture(struct test *t, struct scene *scene, const char *one, const char *other, struct render_options o)
+{
+    struct film film[2];
+    for (int i = 0; i < 2; i++) {
+        o.integrator = set_method(scene, i == 0 ? one : other);
+        render_film(t, scene, &o, &film[i]);
+    }
+    bool same = films_equal(&film[0], &film[1]);
+    film_free(&film[0]);
+    film_free(&film[1]);
+    return same;
+}
+
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed)
 {

@@ -74,6 +74,9 @@ void render_film(struct test *t, const struct scene *scene, const struct render_
 /* films_equal: the sums of all pixels of two films of one size, to the last bit. */
 bool films_equal(const struct film *a, const struct film *b);
 
+/* same_picture: do two ways (set_method) make the same film, to the last bit, with these options? */
+bool same_picture(struct test *t, struct scene *scene, const char *one, const char *other, struct render_options o);
+
 /* render_batches: render `n_batches` times with `spp` samples, times the effort, and average over square tiles of
  * `tile` pixels. Powers of two are best: low-discrepancy points lie evenly then. Batches are parts of one long render,
  * so far apart that their numbers have nothing in common (sampler.h), by what was learnt before it, once. */

@@ -6,19 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/os.h"
 #include "base/rng.h"
 #include "helpers.h"
-#include "parser/lexer.h"
-#include "parser/parse.h"
 #include "parser/parser.h"
 #include "parser/scene_files.h"
-#include "parser/spectrum.h"
 #include "parser/symbols.h"
 #include "parser_parts.h"
-#include "tests.h"
 
 /* What is no parameter of a shape is none of its material either, of whatever kind that is: no copy is made. What is
  * one makes one. */

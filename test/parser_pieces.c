@@ -5,20 +5,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include "base/os.h"
 #include "base/rng.h"
 #include "helpers.h"
 #include "parser/lexer.h"
-#include "parser/parse.h"
 #include "parser/parser.h"
-#include "parser/scene_files.h"
 #include "parser/spectrum.h"
 #include "parser/symbols.h"
 #include "parser_parts.h"
-#include "tests.h"
 
 /* More names than chains: all are found, the newest first, and forgotten again. */
 static void check_symbols(struct test *t)

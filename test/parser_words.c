@@ -7,7 +7,6 @@
 #include "base/mem.h"
 #include "parser/parse.h"
 #include "parser_parts.h"
-#include "tests.h"
 
 /* A scene in words, as far as these tests look at it. */
 struct words {

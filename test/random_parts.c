@@ -1,7 +1,6 @@
 /* random_parts.c: see random_parts.h. */
 #include "random_parts.h"
 
-#include <math.h>
 
 #include "base/maths.h"
 

@@ -95,30 +95,25 @@ static void test_constant_pool(struct test *t)
 
 /* Until something is older than `maxage` iterations nobody could tell whether it would be replaced; then pictures
  * differ, as they do from where the bins are thrown away. */
+#define BINS "asbdpt select=bins "
 static void test_age(struct test *t)
 {
     static const struct {
         const char *a, *b;
         int same; /* iterations */
-    } cases[] = {{"maxage=24 restart=0", "maxage=0 restart=0", 25}, {"maxage=3 restart=0", "maxage=0 restart=0", 4},
-                 {"maxage=5 restart=0", "maxage=7 restart=0", 6}, {"maxage=0 restart=8", "maxage=0 restart=0", 8}};
+    } cases[] = {{BINS "maxage=24 restart=0", BINS "maxage=0 restart=0", 25},
+                 {BINS "maxage=3 restart=0", BINS "maxage=0 restart=0", 4},
+                 {BINS "maxage=5 restart=0", BINS "maxage=7 restart=0", 6},
+                 {BINS "maxage=0 restart=8", BINS "maxage=0 restart=0", 8}};
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 12, 12, &scene))
         return;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         for (int more = 0; more < 2; more++) {
-            struct film film[2];
-            for (int k = 0; k < 2; k++) {
-                char way[64];
-                snprintf(way, sizeof way, "asbdpt select=bins %s", k == 0 ? cases[i].a : cases[i].b);
-                struct render_options o = {.integrator = set_method(&scene, way), .end = cases[i].same + more,
-                                           .max_depth = 4, .n_threads = 1};
-                render_film(t, &scene, &o, &film[k]);
-            }
-            CHECK(t, films_equal(&film[0], &film[1]) == (more == 0), "bins, %s and %s: after %d iterations pictures %s",
-                  cases[i].a, cases[i].b, cases[i].same + more, more == 0 ? "differ" : "are the same");
-            film_free(&film[0]);
-            film_free(&film[1]);
+            struct render_options o = {.end = cases[i].same + more, .max_depth = 4, .n_threads = 1};
+            CHECK(t, same_picture(t, &scene, cases[i].a, cases[i].b, o) == (more == 0),
+                  "%s and %s: after %d iterations pictures %s", cases[i].a, cases[i].b, cases[i].same + more,
+                  more == 0 ? "differ" : "are the same");
         }
     scene_free(&scene);
 }
@@ -149,19 +144,12 @@ static void test_few_light_paths(struct test *t)
 /* And with two sub-paths it is something else. */
 static void test_one_path(struct test *t)
 {
-    static const char *const ways[] = {"bdpt", "cbdpt connections=1", "cbdpt connections=2"};
+    const struct render_options o = {.end = 20, .max_depth = 4};
     struct scene scene;
-    struct film film[3];
     if (!scene_from_file(t, "scenes/test/light-kinds.pbrt", 40, 24, &scene))
         return;
-    for (int i = 0; i < 3; i++) {
-        struct render_options o = {.integrator = set_method(&scene, ways[i]), .end = 20, .max_depth = 4};
-        render_film(t, &scene, &o, &film[i]);
-    }
-    CHECK(t, films_equal(&film[0], &film[1]), "cbdpt with M = 1 is not bdpt");
-    CHECK(t, !films_equal(&film[0], &film[2]), "cbdpt with M = 2 is bdpt");
-    for (int i = 0; i < 3; i++)
-        film_free(&film[i]);
+    CHECK(t, same_picture(t, &scene, "bdpt", "cbdpt connections=1", o), "cbdpt with M = 1 is not bdpt");
+    CHECK(t, !same_picture(t, &scene, "bdpt", "cbdpt connections=2", o), "cbdpt with M = 2 is bdpt");
     scene_free(&scene);
 }
 

@@ -7,7 +7,6 @@
 #include "caustics/lamp.h"
 #include "chains/mlt.h"
 #include "chain_bench.h"
-#include "helpers.h"
 #include "tests.h"
 
 /* --- paths made again -------------------------------------------------------------------------------- */

@@ -18,7 +18,6 @@
 #include "base/rng.h"
 #include "lab/stats.h"
 #include "material/fourier_table.h"
-#include "material/fresnel.h"
 #include "tests.h"
 
 enum {

@@ -361,19 +361,12 @@ static void test_no_rival(struct test *t)
                  {"scenes/test/caustic-lens.pbrt", "caustics with=pt longest=2", "pt", false},
                  {"scenes/test/caustic-ball.pbrt", "caustics with=bdpt longest=2", "bdpt", false}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const struct render_options o = {.end = 8, .max_depth = 4, .n_threads = 1};
         struct scene scene;
-        struct film film[2];
         if (!scene_from_file(t, cases[i].scene, 16, 16, &scene))
             return;
-        for (int k = 0; k < 2; k++) {
-            struct render_options o = {.integrator = set_method(&scene, k > 0 ? cases[i].with : cases[i].without),
-                                       .end = 8, .max_depth = 4, .n_threads = 1};
-            render_film(t, &scene, &o, &film[k]);
-        }
-        CHECK(t, films_equal(&film[0], &film[1]) == cases[i].same, "%s: %s %s the picture", cases[i].scene,
-              cases[i].with, cases[i].same ? "changes" : "does not change");
-        film_free(&film[0]);
-        film_free(&film[1]);
+        CHECK(t, same_picture(t, &scene, cases[i].without, cases[i].with, o) == cases[i].same, "%s: %s %s the picture",
+              cases[i].scene, cases[i].with, cases[i].same ? "changes" : "does not change");
         scene_free(&scene);
     }
 }

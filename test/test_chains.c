@@ -1,8 +1,6 @@
 /* test_chains.c: Markov chains: states are bdpt's samples, chains stay where they should, pictures are bdpt's.
  * test_balance.c has what they accept. */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/alias.h"

@@ -13,7 +13,6 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/os.h"
-#include "image/image.h"
 #include "lab/files.h"
 #include "parser/scene_files.h"
 #include "tests.h"

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/mem.h"
 #include "base/number.h"
 #include "base/rng.h"
 #include "base/vec.h"
@@ -12,7 +11,6 @@
 #include "transport/pixel_sample.h"
 #include "tests.h"
 
-#include <stdlib.h>
 
 static const char *const NAMES[] = {"box", "triangle", "gaussian", "mitchell", "sinc"};
 enum { N_FILTERS = 5 };

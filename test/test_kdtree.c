@@ -40,12 +40,6 @@ static void add_triangle(struct mesh *s, vec3 a, vec3 b, vec3 c)
     add_face(s, ia, ib, ic);
 }
 
-static struct shape_group plain_group(void)
-{
-    struct shape_group g = {.alpha = -1, .shadow_alpha = -1, .first_light = -1};
-    return g;
-}
-
 /* Move the mesh into a geometry. */
 static struct geometry geometry_of(struct test *t, struct mesh *s)
 {
@@ -53,7 +47,7 @@ static struct geometry geometry_of(struct test *t, struct mesh *s)
     struct transform id = transform_identity();
     struct error err;
     if (s->n_triangles > 0)
-        CHECK(t, shape_add_mesh(&geo, s, &id, plain_group(), false, &err) == 0, "%s", err.text);
+        CHECK(t, shape_add_mesh(&geo, s, &id, group_of(0, -1), false, &err) == 0, "%s", err.text);
     mesh_free(s);
     return geo;
 }
@@ -144,7 +138,7 @@ static void add_quadrics(struct geometry *geo, struct rng *r, int n)
         q.p2 = vec(0.1, 0.2, 0.15);
         if (q.kind == QUADRIC_DISK)
             q.zmin = q.zmax = 0.1;
-        shape_add_quadric(geo, q, plain_group(), false, NULL);
+        shape_add_quadric(geo, q, group_of(0, -1), false, NULL);
     }
 }
 
@@ -425,7 +419,7 @@ static void check_alpha(struct test *t, struct rng *r)
     int asked = 0, *counter = &asked, lit = 0;
     for (int i = 0; i < 2; i++) {
         struct mesh s = {0};
-        struct shape_group g = plain_group();
+        struct shape_group g = group_of(0, -1);
         g.alpha = i == 0 ? 0 : -1;
         make_random(&s, r, 200, 0.5, vec(0, 0, 0));
         CHECK(t, shape_add_mesh(&geo, &s, &id, g, false, &err) == i, "%s", err.text);

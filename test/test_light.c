@@ -2,14 +2,11 @@
  * choice among lights; powers; where the texels of their pictures go. test_light_sent.c goes on. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
-#include "base/mem.h"
 #include "base/os.h"
 #include "base/rng.h"
 #include "base/warp.h"
 #include "caustics/lamp.h"
-#include "image/image.h"
 #include "lab/files.h"
 #include "lab/stats.h"
 #include "helpers.h"

@@ -7,7 +7,6 @@
 #include "base/rng.h"
 #include "base/warp.h"
 #include "caustics/lamp.h"
-#include "image/image.h"
 #include "lab/files.h"
 #include "lab/numbers.h"
 #include "lab/stats.h"

@@ -1,6 +1,5 @@
 /* test_probe.c: what is found out before a render: where light sub-paths are worth their time, and where nothing else
  * finds the light; credits for what hardly varies; what numbers and credits become in the weights. */
-#include <math.h>
 #include <stdio.h>
 
 #include "helpers.h"

@@ -1,9 +1,7 @@
 /* test_scenes.c: the scenes of scenes/test: known radiance, pairs of light kinds, mirrored worlds, all integrators. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
-#include "lab/stats.h"
 #include "helpers.h"
 #include "tests.h"
 

@@ -4,9 +4,7 @@
 #include "lab/stats.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-#include "base/mem.h"
 #include "base/number.h"
 #include "base/rng.h"
 #include "lab/numbers.h"

@@ -8,10 +8,8 @@
  * by a hundredth.
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/mem.h"
 #include "base/os.h"
 #include "lab/stats.h"
 #include "lab/strategies.h"

@@ -14,7 +14,6 @@
 #include "lab/numbers.h"
 #include "material/noise.h"
 #include "material/texture.h"
-#include "parser/parser.h"
 #include "tests.h"
 
 static bool near(double a, double b) { return fabs(a - b) <= 1e-6 * (1 + fabs(b)); }
