@@ -341,7 +341,7 @@ check cmp -s noise1.pfm noise3.pfm
 check "$program" render "$box" $noisy --spp 128 -o noise0.pfm --quiet
 check cmp -s noise1.pfm noise0.pfm
 expect 0 'at 64 samples per pixel: more than' "$program" render "$box" $noisy --spp 70 --noise 0.001 -o a.pfm
-expect 0 'noise is not known' "$program" render "$box" $noisy --spp 60 --noise 0.5 -o a.pfm
+expect 0 'noise is unknown' "$program" render "$box" $noisy --spp 60 --noise 0.5 -o a.pfm
 expect 2 'noise is that of the whole' "$program" render "$box" $noisy --spp 60 --noise 0.5 --samples 0:4 -o a.part
 expect 2 'are a chain' "$lab" render "$box" $small --integrator mmlt --noise 0.1 -o a.pfm
 # It goes on from a checkpoint to the same end, also from the end itself; one without halves is refused.

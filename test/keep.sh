@@ -131,7 +131,7 @@ for resumed in b.part stdout.txt cut.part; do
     expect 1 "^asbdpt: $resumed: " "$program" render "$box" $tiny --res 8x8 --spp 8 --resume $resumed -o x.pfm
 done
 expect 1 'it is for the samples 0:3, not 0:2' "$program" render "$box" $tiny --res 8x8 --spp 2 --resume a.part -o x.pfm
-expect 1 'there is such a file already' "$program" render "$box" $tiny --checkpoint a.part -o x.pfm
+expect 1 'the file exists already' "$program" render "$box" $tiny --checkpoint a.part -o x.pfm
 expect 1 'cannot be created' "$program" render "$box" $tiny --checkpoint no/such/state -o x.pfm
 check [ ! -e x.pfm ]
 no_temporaries "after errors"

@@ -38,7 +38,7 @@ expect 0 '' "$program" convert a.pfm -o a.pfm --quiet
 expect 0 '' render --checkpoint state --resume state -o new.pfm
 expect 0 '' render --checkpoint state --resume state -o new.pfm
 expect 0 '' render --stats /dev/null -o new.pfm --quiet
-refused 1 'state: there is such a file already' render --checkpoint ./state --resume state -o new.pfm
+refused 1 'state: the file exists already' render --checkpoint ./state --resume state -o new.pfm
 refused 2 'it needs a file' render --checkpoint /dev/null -o new.pfm
 refused 2 'it needs a file' render --checkpoint - -o new.pfm
 # What is to be written comes after -o: a shell's *.pfm may be many.

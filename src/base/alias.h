@@ -51,7 +51,7 @@ double alias_pmf(const struct alias_table *t, int i);
  * a low-discrepancy sequence. */
 
 /* cumulative_find: the last i in [0, n) with before[i] <= target; 0 if there is none.
- *   before  [n] rising: before[i] is the sum of what stands before i. n >= 1 */
+ *   before  [n] rising: before[i] is the sum of all before i. n >= 1 */
 static inline int cumulative_find(const double *before, int n, double target)
 {
     int low = 0, high = n;

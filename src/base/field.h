@@ -1,5 +1,5 @@
 /* field.h: the parameters of a method, a material, a shape or any other object of a scene as one table, from which
- * help, scene files, -P and tests take all they know, and in which alone a default stands.
+ * help, scene files, -P and tests take all they know. Defaults are given nowhere else.
  * Tests: test_options.c, test_parser.c, test_format.c. */
 #ifndef ASBDPT_FIELD_H
 #define ASBDPT_FIELD_H
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* What a parameter is, and what stands at its place in the struct. Methods have those of the second line alone. */
+/* What a parameter is, and the type of its place in the struct. Methods have those of the second line alone. */
 enum field_kind {
     FIELD_OTHER,         /* nothing: who makes the object reads it */
     FIELD_INTEGER, FIELD_NUMBER, FIELD_WORD, /* int; double; int: which of the words */
@@ -40,7 +40,7 @@ struct field_list {
     int n;
 };
 
-#define FIELD_KEPT ((double)NAN) /* the fallback is what stands there already; of numbers, points and textures; */
+#define FIELD_KEPT ((double)NAN) /* the fallback is the value that is there already; of numbers, points and textures; */
 #define FIELD_NONE INFINITY       /* or is what no number can be */
 
 /* field_find: the one of that name in a table, which ends with one without, or NULL. field_fallback: of the three kinds

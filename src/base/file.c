@@ -13,7 +13,7 @@
 
 static const size_t PIPE_LIMIT = (size_t)1 << 28;
 
-/* A file of this length, and a zero. What stands behind it, as in one that is being written or some of the system that
+/* A file of this length, and a zero. What follows, as in a file that is being written or some of the system that
  * say they are empty and never end, does not belong to it. */
 static bool read_length(FILE *f, size_t length, uint8_t **data, size_t *size)
 {
@@ -100,7 +100,7 @@ static void release(struct file_output *out, bool remove_it)
     *out = (struct file_output){.stream = NULL};
 }
 
-/* A new file beside the target that nobody else has, with the rights of the one it is to replace. */
+/* A new file in the target's directory that nobody else has, with the rights of the one it is to replace. */
 static FILE *open_temporary(struct file_output *out)
 {
     char name[64];

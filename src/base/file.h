@@ -1,9 +1,9 @@
 /* file.h: whole files in, whole files out, and their names.
  *
  * Reading takes a file into memory at once, so that a format's parser knows the file's length before it believes
- * any size written in it. Writing goes to a temporary file beside the target that takes the target's name only when
- * every byte is on the disk: a full disk or an interrupted run leaves the old file, never half a new one. A symbolic
- * link to a file is replaced, not followed. The name - is standard input or output.
+ * any size written in it. Writing goes to a temporary file in the target's directory. That takes the target's name
+ * only when every byte is on the disk: a full disk or an interrupted run leaves the old file, never half a new one. A
+ * symbolic link to a file is replaced, not followed. The name - is standard input or output.
  * Tests: test_file.c. */
 #ifndef ASBDPT_FILE_H
 #define ASBDPT_FILE_H

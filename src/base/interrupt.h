@@ -10,8 +10,8 @@
 #ifndef ASBDPT_INTERRUPT_H
 #define ASBDPT_INTERRUPT_H
 
-/* interrupt_init: to be called once, first of all. Signals that whoever started the program has told it to ignore
- * (nohup) stay ignored; SIGXFSZ and SIGPIPE are too, so that the write that caused one fails and is reported. */
+/* interrupt_init: to be called once, first of all. Signals that the program was started to ignore (nohup)
+ * stay ignored; SIGXFSZ and SIGPIPE are too, so that the write that caused one fails and is reported. */
 void interrupt_init(void);
 
 /* interrupt_defer: from now on the first signal is only noted, and this said on stderr at once; borrowed for ever.

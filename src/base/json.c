@@ -27,7 +27,7 @@ static void quote(struct json *j, const char *text)
 
 static void new_line(struct json *j) { fprintf(j->file, "\n%*s", 2 * j->depth, ""); }
 
-/* What stands before a value: comma, line, name. */
+/* The text before a value: comma, line, name. */
 static void begin(struct json *j, const char *name)
 {
     if (j->depth > 0 && !j->empty)

@@ -15,7 +15,7 @@ static void die(size_t count, size_t size)
 
 void *mem_alloc(size_t count, size_t size)
 {
-    void *p = calloc(count > 0 ? count : 1, size > 0 ? size : 1); /* which sees to overflow */
+    void *p = calloc(count > 0 ? count : 1, size > 0 ? size : 1); /* which checks for overflow */
     if (p == NULL)
         die(count, size);
     return p;

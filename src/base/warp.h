@@ -1,4 +1,4 @@
-/* warp.h: maps from the unit square to disks, hemispheres and spheres, each beside its density.
+/* warp.h: maps from the unit square to disks, hemispheres and spheres, each with its density.
  *
  * Every warp takes (u1,u2) uniform in [0,1)^2. pdf_w is a density per steradian, pdf_a per unit area.
  * Tests: test_warp.c, chi-square of each map against its density. */

@@ -68,7 +68,7 @@ static char *default_output(const struct scene *scene)
     return out;
 }
 
-/* All that a render writes but --lights, opened before the work begins. */
+/* All files that a render writes, opened before the work begins. */
 struct files {
     struct outputs pictures;
     struct aov_files aov;

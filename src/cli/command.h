@@ -24,7 +24,7 @@ struct command {
 
 extern const struct command command_render, command_merge, command_convert;
 
-/* What is linked into an executable beside main; all that is shared asks this for names. asbdpt has its own in
+/* A program: its name and its commands. Shared code takes all names from here. asbdpt has its own in
  * program.c, the laboratory another one. */
 struct program {
     const char *name;

@@ -26,12 +26,12 @@ bool keep_check(const struct keep_options *o, struct error *err)
     if (strcmp(o->checkpoint, "-") == 0 || (kind != OS_NOTHING && kind != OS_FILE))
         return error_usage(err, "--checkpoint %s: it needs a file", o->checkpoint);
     if (kind == OS_FILE && !resumes_its_own(o))
-        return error_set(err, "%s: there is such a file already; go on with it by --resume %s, or remove it",
+        return error_set(err, "%s: the file exists already; continue it by --resume %s, or remove it",
                          o->checkpoint, o->checkpoint);
     return outputs_possible(o->checkpoint, err);
 }
 
-/* Where that is so, its absence is the beginning. */
+/* If a checkpoint that is to be resumed and written does not exist yet, the render begins. */
 static bool resume(struct keep *k, struct error *err)
 {
     const struct keep_options *o = k->options;
@@ -44,7 +44,7 @@ static bool resume(struct keep *k, struct error *err)
     if (k->film->half != NULL && !found.halves && found.done + found.passes > 0) {
         fclose(file);
         part_free(&found);
-        return error_set(err, "%s: it was made without --noise, and cannot be gone on with by it", o->resume);
+        return error_set(err, "%s: it was made without --noise and cannot be continued with it", o->resume);
     }
     struct part asked = k->part; /* the same picture, of however many samples */
     asked.planned = found.planned;
@@ -60,7 +60,8 @@ static bool resume(struct keep *k, struct error *err)
     return ok;
 }
 
-/* Samples by what was learnt in haste are for the picture at hand alone: it is gone on with from the beginning. */
+/* If learning was cut short, its samples are for this image alone: the checkpoint holds none, and a resumed render
+ * begins again. */
 static bool save_film(struct keep *k, struct error *err)
 {
     const struct film *f = k->film;
@@ -77,7 +78,7 @@ static bool save_film(struct keep *k, struct error *err)
     return file_commit(&file, err);
 }
 
-/* The share of the work, where noise ends it: its square falls with the samples. */
+/* The share of the work that is done if the noise ends it: the square of the noise falls as 1 / samples. */
 static double share_by_noise(const struct keep *k)
 {
     double share = HUGE_VAL;
@@ -107,7 +108,7 @@ static void save(struct keep *k)
 }
 
 /* In place of a bar, or without the first character. */
-static const char STOPPING[] = "\rasbdpt: stopping, and writing what there is; once more to quit without\n";
+static const char STOPPING[] = "\rasbdpt: stopping, and writing the image so far; once more to quit without it\n";
 
 /* Is the time over, and so many seconds more? */
 static bool late(const struct keep *k, double more)
@@ -187,10 +188,10 @@ static void say_noise(const struct keep *k)
     if (relative->value < INFINITY)
         fprintf(stderr, "asbdpt: noise %.3g +- %.1g of the brightness around, %.3g +- %.1g of 255 levels, at %ld "
                 "samples per pixel: %s\n", relative->value, relative->error, levels->value, levels->error,
-                f->iterations - f->iterations % every, share_by_noise(k) > 1 ? "below what was asked for"
-                                                                             : "more than was asked for");
+                f->iterations - f->iterations % every, share_by_noise(k) > 1 ? "below the limit"
+                                                                             : "above the limit");
     else
-        fprintf(stderr, "asbdpt: the noise is not known: it is estimated every %ld samples per pixel\n", every);
+        fprintf(stderr, "asbdpt: the noise is unknown: it is estimated every %ld samples per pixel\n", every);
 }
 
 bool keep_end(struct keep *k, bool ok, struct error *err)

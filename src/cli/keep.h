@@ -1,10 +1,10 @@
-/* keep.h: nothing rendered is lost: what watches over a render while it runs, stops it, saves and resumes it.
+/* keep.h: nothing rendered is lost: a render is watched, stopped, saved and resumed here.
  *
- * A render ends early when its noise is below what was asked for (render/halves.h), or when its time is over, once its
- * block of samples is complete; if its method still learns, it ends that with what it has learnt and makes one block.
- * At a signal (base/interrupt.h), and if the block takes half a second more than the time, it ends with the tile passes
- * that are complete: pixels may have different numbers of samples then.
- * Its film is saved from time to time (render/part.h), and goes on from there to the same bytes. Tests: test/keep.sh.
+ * A render ends early if its noise is below the limit (render/halves.h) or its time is over, as soon as its block of
+ * samples is complete. If its method is still learning, learning ends and one block is rendered. At a signal
+ * (base/interrupt.h), or half a second after the time is over, the render ends with the tile passes that are complete.
+ * Pixels may then have different numbers of samples. The film is saved at intervals (render/part.h); a resumed render
+ * ends with the same bytes. Tests: test/keep.sh.
  */
 #ifndef ASBDPT_KEEP_H
 #define ASBDPT_KEEP_H

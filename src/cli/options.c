@@ -72,7 +72,7 @@ static double scan_unit(const char **text)
     return unit != NULL ? SECONDS[unit - UNITS] : 1;
 }
 
-/* Kinds of numbers: how many, how many of them at least, and what stands between them. */
+/* Kinds of numbers: how many, how many of them at least, and the character between them. */
 struct numbers {
     int n, least;
     char between;
@@ -332,7 +332,7 @@ void print_wrapped(const char *text, int column, int indent)
 
 void options_print(const struct option *table)
 {
-    enum { HELP = 30 }; /* the column where the help stands */
+    enum { HELP = 30 }; /* the column where the help begins */
     for (const struct option *o = table; o != NULL; o = options_next(o)) {
         char left[80], right[300];
         bool fallback = o->fallback != NULL && o->fallback[0] != '\0';

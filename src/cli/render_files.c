@@ -176,7 +176,7 @@ static void put_value(struct json *j, const char *name, const char *text)
         json_text(j, name, text);
 }
 
-/* Those in force, whoever set them. */
+/* The values in force, from the scene, -P or the defaults. */
 static void put_table(struct json *j, const struct scene *scene, const struct field *p)
 {
     char fallback[64];

@@ -1,4 +1,4 @@
-/* render_files.h: what asbdpt render writes beside its picture: first-hit pictures, lights, how it went.
+/* render_files.h: what asbdpt render writes besides its image: first-hit images, lights, statistics.
  * Tests: test/cli.sh, test/outputs.sh. */
 #ifndef ASBDPT_RENDER_FILES_H
 #define ASBDPT_RENDER_FILES_H
@@ -7,7 +7,7 @@
 #include "cli/outputs.h"
 #include "render/aov.h"
 
-/* --aov: beside NAME.png lie NAME.albedo.pfm, NAME.normal.pfm, ..., or NAME.exr has them as layers, with the channels
+/* --aov: next to NAME.png are NAME.albedo.pfm, NAME.normal.pfm, ..., or NAME.exr has them as layers, with the channels
  * albedo.R, .G, .B, normal.X, .Y, .Z, depth.Z and so on, as compositors name them. */
 struct aov_files {
     bool wanted[N_AOVS];
@@ -19,7 +19,7 @@ struct aov_files {
 /* aov_read: names of aov_name with commas between them; NULL: none. False with a message. */
 bool aov_read(const char *list, struct aov_files *out, struct error *err);
 
-/* aov_open: begin to write them beside the first of the pictures; as layers: is one of these an .exr? False with a
+/* aov_open: begin to write them next to the first of the images; as layers: is one of these an .exr? False with a
  * message.
  *   pictures  those of the command */
 bool aov_open(struct aov_files *f, bool layers, const struct outputs *pictures, struct error *err);

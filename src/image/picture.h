@@ -29,7 +29,7 @@ struct raster {
     struct placement at;
     int width, height;
     const float *pixels;        /* [height*width*3], linear RGB, top row first */
-    const struct channel *more; /* [n_more] beside R, G, B: OpenEXR keeps all, PNG "A", the others none */
+    const struct channel *more; /* [n_more] in addition to R, G, B: OpenEXR keeps all, PNG "A", the others none */
     int n_more;
 };
 
@@ -47,7 +47,7 @@ struct image {
     long replaced;     /* samples that image_mend found and made 0 */
     uint64_t content;  /* hash_content of the file */
     size_t file_size;  /* bytes */
-    float decode[256]; /* sRGB byte -> linear light, for whoever reads u8 */
+    float decode[256]; /* sRGB byte -> linear light, for readers of u8 */
 };
 
 /* More pixels than PICTURE_MAX_PIXELS, 16384 x 16384, are taken for a damaged or hostile header. A small file may

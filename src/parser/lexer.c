@@ -85,7 +85,7 @@ static char *copy(struct lexer *l, const char *begin, const char *end)
     return text;
 }
 
-/* What stands after a backslash, or 0 if pbrt does not know it. */
+/* The character that a backslash and c stand for, or 0 if pbrt does not know it. */
 static char unescape(char c)
 {
     switch (c) {

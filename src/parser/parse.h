@@ -37,7 +37,7 @@ struct transform_state {
     bool start_active;    /* ActiveTransform: transforms act on the start of the shutter interval */
 };
 
-/* What AttributeBegin and ObjectBegin save beside that. */
+/* What AttributeBegin and ObjectBegin save in addition. */
 struct graphics_state {
     struct material_source material;
     bool reverse; /* ReverseOrientation */

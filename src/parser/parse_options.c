@@ -1,4 +1,4 @@
-/* parse_options.c: what stands before WorldBegin: camera, film, filter, sampler, integrator. Defaults are pbrt-v3's
+/* parse_options.c: the directives before WorldBegin: camera, film, filter, sampler, integrator. Defaults are pbrt-v3's
  * [pbrt-v3 cameras/, core/film.cpp, filters/]. See parse.h. */
 #include "parser/parse.h"
 

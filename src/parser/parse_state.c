@@ -30,8 +30,8 @@ static bool read_numbers(struct parser *p, double *out, int n)
     return true;
 }
 
-/* One of no use is an error only where something stands in it. This one stays what it is whatever it is multiplied
- * with. */
+/* A singular transform is an error only if a shape, light or camera uses it. This one remains singular in all
+ * products. */
 static const struct transform SINGULAR = {{{0}}, {{0}}};
 
 static bool set_ctm(struct parser *p, struct transform t)

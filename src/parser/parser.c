@@ -102,7 +102,7 @@ static void run_source(struct parser *p)
             lexer_resume(&p->lexer);
     }
     if (p->phase == AFTER_WORLD && lexer_peek(&p->lexer) != TOKEN_END)
-        source_warn(&p->messages, t->position, "what stands after WorldEnd is not read; a file describes one world");
+        source_warn(&p->messages, t->position, "the rest after WorldEnd is not read; a file describes one world");
 }
 
 /* --- files -------------------------------------------------------------------------------------------- */

@@ -1,7 +1,7 @@
 /* scene_files.h: the files that a scene names: where they are, which may be read, and how often.
  *
  * A scene is data from somebody else, and so are the names in it. Only regular files are read: a pipe may never end,
- * reading a device may do something, and standard input belongs to whoever runs the program. A few bytes can name a
+ * reading a device may do something, and standard input belongs to the user. A few bytes can name a
  * large file many times: what has been read before, under whatever name, counts.
  * Tests: test_parser.c, test_hostile.c. */
 #ifndef ASBDPT_SCENE_FILES_H

@@ -1,4 +1,4 @@
-/* source_position.h: where something stands in a scene file, and messages that say so.
+/* source_position.h: positions in scene files, and messages that begin with one.
  *
  * Every token knows its position, so every message begins with FILE:LINE:COL.
  * Tests: test_parser.c. */

@@ -7,7 +7,7 @@
  *     done N P                         the first N of them are, and P tile passes of the next block
  *     left-out K                       contributions that were not finite or too large
  *     halves N                         1: behind the sums are those of half the samples (render/halves.h); 0: not
- *     size W H, planes L A             pixels of the film's rectangle; groups of lights and alphas beside the picture
+ *     size W H, planes L A             pixels of the film's rectangle; planes of light groups and of alpha
  *     film W H, window X Y             the whole frame, and where in it the rectangle begins
  *     scale X                          by which pixels are multiplied when they are written
  *     spp N                            samples per pixel of the whole picture
@@ -24,7 +24,7 @@
  * last. The CRC-32 of these bytes follows, four bytes, the lowest first. Nothing depends on the machine's byte order.
  *
  * The same film gives the same bytes, and sums are exact, so parts added up in any order give the bytes of the whole.
- * Parts are read as a stream: whoever adds them needs the memory of one film. Files appear whole or not at all.
+ * Parts are read as a stream: adding them needs the memory of one film. Files appear whole or not at all.
  *
  * Tests: test_part.c, test/keep.sh.
  */

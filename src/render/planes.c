@@ -1,4 +1,5 @@
-/* planes.c: what films have beside the picture (scene/tile.h), by an observer: groups of lights, and alpha.
+/* planes.c: the planes that films have in addition to the image (scene/tile.h), by an observer:
+ * groups of lights, and alpha.
  *
  * Tests: test_lights.c.
  */

@@ -213,7 +213,7 @@ static bool check_range(const struct run *r, struct error *err)
     int block = r->prepared.size.block;
     if (r->film->iterations > 0 && block > 0 && o->first % block != 0)
         return error_set(err,
-                         "the film ends at sample %ld: here they come in blocks of %d, so it cannot be gone on with",
+                         "the film ends at sample %ld: here they come in blocks of %d, so it cannot be continued",
                          o->first, block);
     if (o->is_part && block > 0 && (o->first % block != 0 || (o->end % block != 0 && o->end != o->planned)))
         return error_set(err, "samples %ld:%ld: here they come in blocks of %d; begin and end with one", o->first,

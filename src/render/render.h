@@ -67,7 +67,7 @@ bool render_scene(const struct scene *scene, const struct render_options *option
 
 /* render_prepare: what comes before the first tile pass: parameters, and whatever the method learns.
  *   rect  the pixels to be rendered
- *   job   filled, but for who watches, and when it is enough
+ *   job   filled, except who watches, and when it is enough
  *   out   filled; method_release(out) afterwards
  * Returns false with a message when a parameter is bad; nothing needs release then. */
 bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,

@@ -25,8 +25,8 @@ struct envmap {
     rgb mean;                  /* average radiance over the sphere */
 };
 
-/* A texel takes 44 bytes beside the picture's. A map may have ENVMAP_FREE_TEXELS, or ENVMAP_TEXELS_PER_BYTE for each
- * byte of its file. */
+/* A texel takes 44 bytes in addition to the image's. A map may have ENVMAP_FREE_TEXELS, or ENVMAP_TEXELS_PER_BYTE for
+ * each byte of its file. */
 enum { ENVMAP_FREE_TEXELS = 1 << 22, ENVMAP_TEXELS_PER_BYTE = 2, ENVMAP_BYTES_PER_TEXEL = 44 };
 
 /* envmap_size_ok: may a map of this size be made of this file? Returns false with a message. */

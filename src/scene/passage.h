@@ -3,8 +3,8 @@
  * Of light that goes a distance d the share T = exp(-sigma_t d) is left, in each channel [PBRT3 11.1]. A walk draws how
  * far it gets: a channel, each as likely, and a distance by its sigma_t T [PBRT3 15.2]. So it is scattered after d with
  * the channels' mean of sigma_t T for a density, and gets as far as d with the mean of T. An interface is passed, and
- * behind it the draw begins anew, so that the density of a way is the product of its pieces', and the same both ways
- * but for what happens at its ends.
+ * behind it the draw begins again. So the density of a way is the product of its pieces', and the same both ways
+ * except for what happens at its ends.
  *
  * Tests: test_medium.c, test_mis.c.
  */
@@ -21,7 +21,7 @@
 struct passage {
     rgb left;          /* share of light; of a walk that is scattered at the end, times sigma_s */
     double density[2]; /* of stopping at its start, for one who comes from its end, and of stopping at its end: 1, or
-                        * 1/m where that is within a medium; of such as go on as far as possible but for media */
+                        * 1/m where that is within a medium; of walks that go on as far as possible without media */
     int medium;        /* at its end */
 };
 
