@@ -11,39 +11,11 @@
 #include "tests.h"
 
 /* Every way of rendering; restarts make bins number its light sub-paths by blocks. */
-static const struct way {
-    const char *name, *integrator, *select, *restart, *connections;
-} WAYS[] = {
-    {"pt", "pt", NULL, NULL, NULL},
-    {"lt", "lt", NULL, NULL, NULL},
-    {"bdpt", "bdpt", NULL, NULL, NULL},
-    {"pool", "asbdpt", "pool", NULL, NULL},
-    {"vertices", "asbdpt", "vertices", NULL, NULL},
-    {"subspaces", "asbdpt", "subspaces", NULL, NULL},
-    {"lvc", "lvc", NULL, NULL, NULL},
-    {"cbdpt", "cbdpt", NULL, NULL, "2"},
-    {"mbdpt", "mbdpt", NULL, NULL, NULL},
-    {"pcbdpt", "pcbdpt", NULL, NULL, "2"},
-    {"ris", "ris", NULL, NULL, NULL},
-    {"ris2", "ris2", NULL, NULL, NULL},
-    {"restir", "restir", NULL, NULL, NULL},
-    {"restirgi", "restirgi", NULL, NULL, NULL},
-    {"bins", "asbdpt", "bins", "32", NULL},
-    {"bins, restart 8", "asbdpt", "bins", "8", NULL},
-    {"bins, never restarted", "asbdpt", "bins", "0", NULL},
-};
+static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt select=pool", "asbdpt select=vertices", "asbdpt", "lvc",
+                                   "cbdpt connections=2", "mbdpt", "pcbdpt connections=2", "ris", "ris2", "restir",
+                                   "restirgi", "asbdpt select=bins", "asbdpt select=bins restart=8",
+                                   "asbdpt select=bins restart=0"};
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
-
-static void choose_way(struct scene *scene, const struct way *w)
-{
-    settings_clear(&scene->settings);
-    if (w->select != NULL)
-        settings_set(&scene->settings, "select", w->select, "test");
-    if (w->restart != NULL)
-        settings_set(&scene->settings, "restart", w->restart, "test");
-    if (w->connections != NULL)
-        settings_set(&scene->settings, "connections", w->connections, "test");
-}
 
 /* --- pairs of equal keys ----------------------------------------------------------------------------- */
 
@@ -237,14 +209,14 @@ static void test_sub_paths(struct test *t)
         return;
     for (int i = 0; i < N_WAYS; i++) {
         struct keys eye = {NULL, 0, 0}, light = {NULL, 0, 0};
-        choose_way(&scene, &WAYS[i]);
+        const char *integrator = set_method(&scene, WAYS[i]);
         for (uint64_t seed = 0; seed < 2; seed++)
-            trace_all(t, &scene, WAYS[i].integrator, test_seed(t) + seed, &eye, &light);
-        CHECK(t, eye.n + light.n > ITERATIONS, "%s: only %lu sub-paths seen", WAYS[i].name,
+            trace_all(t, &scene, integrator, test_seed(t) + seed, &eye, &light);
+        CHECK(t, eye.n + light.n > ITERATIONS, "%s: only %lu sub-paths seen", WAYS[i],
               (unsigned long)(eye.n + light.n));
         long n_eye = (long)eye.n, n_light = (long)light.n, eyes = count_equal(&eye), lights = count_equal(&light);
-        CHECK(t, eyes == 0, "%s: %ld of %ld eye sub-paths come twice", WAYS[i].name, eyes, n_eye);
-        CHECK(t, lights == 0, "%s: %ld of %ld light sub-paths come twice", WAYS[i].name, lights, n_light);
+        CHECK(t, eyes == 0, "%s: %ld of %ld eye sub-paths come twice", WAYS[i], eyes, n_eye);
+        CHECK(t, lights == 0, "%s: %ld of %ld light sub-paths come twice", WAYS[i], lights, n_light);
     }
     scene_free(&scene);
 }
