@@ -1,9 +1,8 @@
 /* cmd_bench.c: asbdpt-lab bench: how fast is each part of the program on given scenes?
  *
  * Rates are per second of CPU time of one thread: other programs on the machine disturb them less than wall time.
- * Rays are either coherent, the camera's through neighbouring pixels, or incoherent: cosine-distributed directions from
- * points all over the scene, found by following a camera ray one bounce. Peak memory is that of the process so far:
- * for a scene's own, measure it alone.
+ * Rays are incoherent: cosine-distributed directions from points all over the scene, found by following a camera ray
+ * one bounce. Peak memory is that of the process so far: for a scene's own, measure it alone.
  */
 
 #include <stdio.h>
@@ -27,8 +26,8 @@
 #include "render/render.h"
 
 enum measure {
-    LOAD, BUILD, TRIANGLES, NODES, REFERENCES, COST, CLOSEST_COHERENT, ANY_COHERENT, CLOSEST_INCOHERENT,
-    ANY_INCOHERENT, PT, BDPT, ASBDPT, WALL_1, CPU_1, WALL_N, CPU_N, MEMORY, N_MEASURES
+    LOAD, BUILD, TRIANGLES, NODES, REFERENCES, COST, CLOSEST, ANY, PT, BDPT, ASBDPT, WALL_1, CPU_1, WALL_N,
+    CPU_N, MEMORY, N_MEASURES
 };
 
 static const struct {
@@ -40,8 +39,6 @@ static const struct {
     {"nodes", "kd-tree nodes"},
     {"references", "kd-tree references"},
     {"sah_cost", "kd-tree cost, triangle tests per ray"},
-    {"closest_coherent", "closest hit, coherent, Mray/s"},
-    {"any_coherent", "any hit, coherent, Mray/s"},
     {"closest_incoherent", "closest hit, incoherent, Mray/s"},
     {"any_incoherent", "any hit, incoherent, Mray/s"},
     {"pt_paths", "pt, sample paths per s of CPU"},
@@ -96,20 +93,15 @@ static bool bounce(const struct scene *s, struct ray *ray, struct sampler *sampl
 }
 
 /* N_RAYS rays; returns fewer if the camera sees hardly anything. */
-static int make_rays(const struct scene *s, bool coherent, struct ray *out)
+static int make_rays(const struct scene *s, struct ray *out)
 {
     int n = 0;
     for (int i = 0; n < N_RAYS && i < 8 * N_RAYS; i++) {
         struct sampler sampler = sampler_start(0, RNG_TEST, (uint64_t)i, 0);
         double u[2];
         sampler_pair(&sampler, DRAW_FILM_POINT, u);
-        double x = u[0] * s->width, y = u[1] * s->height;
-        if (coherent) { /* row by row, as often as needed */
-            x = i % s->width + 0.5;
-            y = i / s->width % s->height + 0.5;
-        }
-        out[n] = camera_ray(&s->camera, x, y, 0.5, 0.5);
-        n += coherent || (bounce(s, &out[n], &sampler) && bounce(s, &out[n], &sampler));
+        out[n] = camera_ray(&s->camera, u[0] * s->width, u[1] * s->height, 0.5, 0.5);
+        n += bounce(s, &out[n], &sampler) && bounce(s, &out[n], &sampler);
     }
     return n;
 }
@@ -134,12 +126,9 @@ static double ray_rate(const struct scene *s, const struct ray *rays, int n, boo
 static void measure_rays(const struct scene *s, double *value)
 {
     struct ray *rays = mem_alloc(N_RAYS, sizeof *rays);
-    int n = make_rays(s, true, rays);
-    value[CLOSEST_COHERENT] = ray_rate(s, rays, n, false);
-    value[ANY_COHERENT] = ray_rate(s, rays, n, true);
-    n = make_rays(s, false, rays);
-    value[CLOSEST_INCOHERENT] = ray_rate(s, rays, n, false);
-    value[ANY_INCOHERENT] = ray_rate(s, rays, n, true);
+    int n = make_rays(s, rays);
+    value[CLOSEST] = ray_rate(s, rays, n, false);
+    value[ANY] = ray_rate(s, rays, n, true);
     free(rays);
 }
 
