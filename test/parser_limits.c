@@ -1,4 +1,5 @@
-/* parser_limits.c: what a scene may repeat, and how often: copies, files, pictures, errors. */
+/* parser_limits.c: the bounds of every parameter; what a scene may repeat, and how often: copies, files, pictures,
+ * errors. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -10,6 +11,7 @@
 #include "base/os.h"
 #include "base/rng.h"
 #include "helpers.h"
+#include "parser/parse.h"
 #include "parser/parser.h"
 #include "parser/scene_files.h"
 #include "parser/symbols.h"
@@ -202,8 +204,68 @@ static void check_no_files(struct test *t)
     }
 }
 
+/* --- bounds ----------------------------------------------------------------------------------------------- */
+
+/* One number, in a directive before the world or in it; is it refused for its bounds? */
+static bool refused(struct test *t, const char *directive, bool before, const char *type, const struct field *f,
+                    double value)
+{
+    char path[TEXT], text[2 * TEXT], out_of_bounds[TEXT], large[TEXT];
+    struct error err = {.text = ""};
+    struct scene s;
+    int n = snprintf(text, sizeof text, "%s%s \"%s\" \"%s %s\" [ %.17g ]\n%sWorldEnd\n", before ? "" : "WorldBegin ",
+                     directive, type, f->kind == FIELD_INTEGER ? "integer" : "float", f->name, value,
+                     before ? "WorldBegin " : "");
+    snprintf(path, sizeof path, "%s/bound.pbrt", test_tmp(t));
+    write_bytes(path, text, (size_t)n);
+    if (parse_scene(path, NULL, &s, NULL, &err))
+        scene_free(&s);
+    snprintf(out_of_bounds, sizeof out_of_bounds, "\"%s\" is ", f->name);
+    snprintf(large, sizeof large, "too large for \"%s\"", f->name); /* for any parameter */
+    return (strstr(err.text, out_of_bounds) != NULL && strstr(err.text, "it must be") != NULL) ||
+           strstr(err.text, large) != NULL;
+}
+
+/* The numbers of these types, within the bounds that the tables give them, and just beyond. Returns how many. */
+static int check_types(struct test *t, const char *directive, bool before, const struct object_type *types)
+{
+    int n = 0;
+    for (; types->name != NULL; types++)
+        for (const struct field *f = types->fields; f->name != NULL; f++) {
+            bool whole = f->kind == FIELD_INTEGER;
+            if (!(f->low < f->high) || (!whole && f->kind != FIELD_NUMBER && f->kind != FIELD_FLOAT_TEXTURE))
+                continue;
+            double below = whole ? f->low - 1 : f->low > 0 ? f->low / 2 : 1.01 * f->low - 1e-3;
+            double above = whole ? f->high + 1 : 1.01 * f->high;
+            CHECK(t, refused(t, directive, before, types->name, f, below) &&
+                         refused(t, directive, before, types->name, f, above),
+                  "%s \"%s\": \"%s\" may be %g or %g", directive, types->name, f->name, below, above);
+            CHECK(t, !refused(t, directive, before, types->name, f, f->low) &&
+                         !refused(t, directive, before, types->name, f, f->high),
+                  "%s \"%s\": \"%s\" may not be %g or %g", directive, types->name, f->name, f->low, f->high);
+            n++;
+        }
+    return n;
+}
+
+static void check_bounds(struct test *t)
+{
+    struct object_type types[MOST_TYPES];
+    int n = check_types(t, "Texture \"t\" \"spectrum\"", false, TEXTURE_TYPES);
+    for (const struct directive *d = OPTION_DIRECTIVES; d->name != NULL; d++)
+        n += d->types != NULL ? check_types(t, d->name, true, d->types) : 0;
+    for (const struct directive *d = LIGHT_DIRECTIVES; d->name != NULL; d++)
+        n += check_types(t, d->name, false, d->types);
+    parse_material_types(types);
+    n += check_types(t, "Material", false, types);
+    parse_shape_types(types);
+    n += check_types(t, "Shape", false, types);
+    CHECK(t, n > 80, "only %d bounds", n);
+}
+
 void check_parser_limits(struct test *t)
 {
+    check_bounds(t);
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 0, 0);
     check_copies(t);
     check_matrices(t, &r);

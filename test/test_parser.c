@@ -254,7 +254,7 @@ void test_parser(struct test *t)
     struct fixtures *f = mem_alloc(1, sizeof *f);
     read_fixtures(f);
     link_parts(t);
-    if (CHECK(t, f->n >= 220, "only %d scenes in test/fixtures: run the tests at the top of the tree", f->n)) {
+    if (CHECK(t, f->n >= 200, "only %d scenes in test/fixtures: run the tests at the top of the tree", f->n)) {
         for (int i = 0; i < f->n; i++)
             check_fixture(t, &f->scene[i]);
         check_damaged(t, f, 2000);
