@@ -1,6 +1,8 @@
 /* bsdf.c: sums over lobes, see bsdf.h. One lobe's formulas are in lobe.c. */
 #include "material/bsdf.h"
 
+#include "base/warp.h"
+
 void bsdf_make(struct bsdf *b, struct lobe *lobe, int n)
 {
     const double even = 0.125;
@@ -53,31 +55,47 @@ static const struct lobe *choose_lobe(const struct bsdf *b, double *u)
     return l;
 }
 
-bool bsdf_sample(const struct bsdf *b, vec3 wo, const double u[3], enum transport mode, struct bsdf_sample *out)
+/* A direction from a smooth lobe. False if the facet drawn sends nothing on. */
+static bool sample_smooth(const struct bsdf *b, const struct lobe *l, vec3 o, const double u[3],
+                          struct bsdf_sample *out)
 {
-    vec3 o = to_local(&b->shading, wo), i;
-    if (b->n_lobes == 0 || o.z == 0)
-        return false;
-    double rest[3] = {u[0], u[1], u[2]};
-    const struct lobe *l = choose_lobe(b, &rest[0]);
-    if (lobe_is_delta(l->kind)) {
-        if (!lobe_sample_delta(l, o, rest[0], mode, out) || rgb_is_black(out->f))
-            return false;
-        out->wi = to_world(&b->shading, out->wi);
-        out->pdf *= l->choice;
-        out->pdf_rev *= l->choice;
-        return true;
-    }
-    if (!lobe_sample(l, o, to_local(&b->shading, b->ng), rest, &i))
+    vec3 i;
+    if (!lobe_sample(l, o, to_local(&b->shading, b->ng), u, &i))
         return false;
     out->wi = to_world(&b->shading, i);
+    out->eta = 1;
+    if (l->kind == LOBE_MICROFACET_TRANSMISSION)
+        out->eta = o.z > 0 ? l->eta_b / l->eta_a : l->eta_a / l->eta_b;
+    return true;
+}
+
+bool bsdf_sample(const struct bsdf *b, vec3 wo, const double u[3], enum transport mode, struct bsdf_sample *out)
+{
+    if (b->diffuse) { /* the same as below, in the world */
+        vec3 wi = to_world(&b->shading, warp_cos_hemisphere(u[1], u[2]));
+        out->wi = dot(wi, b->ng) * dot(wo, b->ng) > 0 ? wi : neg(wi);
+        out->eta = 1;
+    } else {
+        vec3 o = to_local(&b->shading, wo);
+        if (b->n_lobes == 0 || o.z == 0)
+            return false;
+        double rest[3] = {u[0], u[1], u[2]};
+        const struct lobe *l = choose_lobe(b, &rest[0]);
+        if (lobe_is_delta(l->kind)) {
+            if (!lobe_sample_delta(l, o, rest[0], mode, out) || rgb_is_black(out->f))
+                return false;
+            out->wi = to_world(&b->shading, out->wi);
+            out->pdf *= l->choice;
+            out->pdf_rev *= l->choice;
+            return true;
+        }
+        if (!sample_smooth(b, l, o, rest, out))
+            return false;
+    }
     struct bsdf_value v = bsdf_eval(b, wo, out->wi, mode);
     out->f = v.f;
     out->pdf = v.pdf;
     out->pdf_rev = v.pdf_rev;
     out->delta = false;
-    out->eta = 1;
-    if (l->kind == LOBE_MICROFACET_TRANSMISSION)
-        out->eta = o.z > 0 ? l->eta_b / l->eta_a : l->eta_a / l->eta_b;
     return v.pdf > 0;
 }

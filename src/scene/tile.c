@@ -113,9 +113,8 @@ bool tile_add_splat(struct tile *t, double px, double py, rgb value, int lights)
 /* First pixel whose filter covers the raster coordinate p on one axis, and the one after the last. */
 static void filter_span(double p, double radius, int low, int high, int *first, int *end)
 {
-    double a = floor(p - radius + 0.5), b = floor(p + radius - 0.5); /* |p - (i + 0.5)| <= radius */
-    if (2 * radius == 1) /* half-open: a point belongs to exactly one pixel */
-        a = b = floor(p);
+    bool one = 2 * radius == 1; /* half-open: a point belongs to exactly one pixel */
+    double a = floor(one ? p : p - radius + 0.5), b = one ? a : floor(p + radius - 0.5); /* |p - (i + 0.5)| <= radius */
     *first = int_within(a, low, high); /* a NaN covers nothing */
     *end = int_within(b + 1, low, high);
 }

@@ -12,7 +12,7 @@ struct scatter {
     double pdf, pdf_rev;
 };
 
-static struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum transport mode)
+static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum transport mode)
 {
     struct bsdf_value b = bsdf_eval(&v->bsdf, v->wo, wi, mode);
     struct scatter s = {{0, 0, 0}, b.pdf, b.pdf_rev};

@@ -142,13 +142,18 @@ void pixel_splat(struct pixel_sample *sample, const struct connection *c, int s,
         return;
     int group = sample->scene->lights.light[y[1 - s].light].group;
     for (int i = 0, n = seen ? camera_images(&sample->scene->camera, radius) : 1; i < n; i++) {
-        struct connection image = *c;
+        double px = c->px, py = c->py;
         if (seen)
-            camera_image(&sample->scene->camera, radius, i, &image.px, &image.py);
-        const struct joined path = {s, 1, y, NULL, &image, 1, scale, added};
-        tell_joined(sample, &path);
+            camera_image(&sample->scene->camera, radius, i, &px, &py);
+        if (sample->observer != NULL) {
+            struct connection image = *c;
+            image.px = px;
+            image.py = py;
+            const struct joined path = {s, 1, y, NULL, &image, 1, scale, added};
+            tell_joined(sample, &path);
+        }
         if (seen)
-            tile_add_splat(sample->tile, image.px, image.py, added, group);
+            tile_add_splat(sample->tile, px, py, added, group);
     }
 }
 
