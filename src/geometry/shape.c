@@ -186,7 +186,8 @@ static void load_corners(const float *v, const uint32_t index[3], vec3 corner[3]
         corner[i] = load3(v, index[i]);
 }
 
-static void load_triangle(const struct geometry *geo, const struct shape_group *group, int prim, struct triangle *tri)
+static inline void load_triangle(const struct geometry *geo, const struct shape_group *group, int prim,
+                                 struct triangle *tri)
 {
     static const double default_uv[3][2] = {{0, 0}, {1, 0}, {1, 1}};
     const uint32_t *index = &geo->index[3 * (size_t)prim];

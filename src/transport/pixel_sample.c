@@ -74,6 +74,8 @@ void pixel_add(struct pixel_sample *sample, const struct connection *c, int s, i
                const struct vertex *z, struct choice choice)
 {
     bool black = rgb_is_black(c->value);
+    if (black && sample->observer == NULL)
+        return;
     double scale = choice.scale * sample->filter_weight;
     rgb added = black ? rgb_black() : rgb_scale(rgb_scale(c->value, scale), c->weight);
     if (!black && !rgb_is_finite(added)) { /* the whole sample would be lost */
