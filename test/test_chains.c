@@ -126,7 +126,7 @@ static void follow(struct bench *b, bool by_I, double *more)
  * pixel's light, and its batches are far from normal; these are counts. */
 static void test_stays(struct test *t, const char *integrator)
 {
-    enum { BATCHES = 24 };
+    enum { BATCHES = 32 };
     struct scene scene;
     if (!bench_room(t, 16, 16, "", "box", &scene))
         return;
