@@ -73,7 +73,7 @@ refuse 'unknown command rendr; try asbdpt --help' rendr
 refuse 'needs a scene' render
 refuse 'needs a scene' --quick # no command: render
 refuse 'unknown option --sppp; try asbdpt render --help' render "$box" --sppp 3
-refuse '[-]-samples has no effect without -o' render "$box" --samples 0:1
+refuse '[-]-samples needs -o NAME.part' render "$box" --samples 0:1
 expect 2 '[-]-res: 65536 x 65536 pixels are too many' "$program" render "$box" --res 65536
 refuse 'x.jpg: images are written as .pfm, .exr' render "$box" $small -o x.jpg
 refuse 'there is no integrator asbdtp; known are: pt lt' render "$box" $small --integrator=asbdtp

@@ -88,7 +88,7 @@ rm -f state short bins.state
 expect 1 'samples 0:40: here they come in blocks of 32' \
     "$program" render "$box" $size --integrator asbdpt -P select=bins --samples 0:40 -o x.part
 expect 2 'there are 70 per pixel' "$program" render "$box" $size --samples 0:71 -o x.part
-expect 2 '[-]-samples has no effect without -o' "$program" render "$box" $size --samples 0:7
+expect 2 '[-]-samples needs -o NAME.part' "$program" render "$box" $size --samples 0:7
 
 # ---- parts that do not fit ----
 tiny="--integrator pt --maxdepth 2 --quiet"

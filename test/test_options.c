@@ -31,7 +31,7 @@ static const struct option TABLE[] = {
     {"--on", NULL, OPTION_ON, offsetof(struct target, on), .help = "on"},
     {"--integer", "N", OPTION_INTEGER, offsetof(struct target, integer), 2, 1 << 30, .alias = "-i", .help = "integer"},
     {"--number", "X", OPTION_NUMBER, offsetof(struct target, number), -0.5, 2, .fallback = "1.5", .help = "a number"},
-    {"--time", "TIME", OPTION_TIME, offsetof(struct target, time), 0.5, 7200, .with = "--on", .help = "a duration"},
+    {"--time", "TIME", OPTION_TIME, offsetof(struct target, time), 0.5, 7200, .help = "a duration"},
     {"--window", "X0 X1 Y0 Y1", OPTION_WINDOW, offsetof(struct target, window), 0, 1, .help = "a window"},
     {"--range", "FIRST:END", OPTION_RANGE, offsetof(struct target, range), 0, 100, .help = "a range"},
     {"--size", "WIDTH[xHEIGHT]", OPTION_WIDTH, offsetof(struct target, size), 1, 65536, .help = "a size"},
@@ -108,7 +108,6 @@ static void check_refused(struct test *t)
         {"--number nan", "expected a number"},
         {"--on --time 3h", "--time 3h: expected a number from 0.5 to 7200, of seconds, or with a unit: 90s, 5m, 1h"},
         {"--on --time 3d", "expected a number"},
-        {"--time 3", "--time has no effect without --on"},
         {"--number inf", "expected a number"},
         {"--number 1e999", "expected a number"},
         {"--number x", "expected a number"},
@@ -193,8 +192,7 @@ static void check_row(struct test *t, const struct command *c, const struct opti
     char line[256] = "", words[256], value[64];
     size_t size = target_size(row, value, sizeof value);
     for (const struct option *o = c->options; o != NULL; o = options_next(o))
-        if ((o != row && o->low == 1 && (o->kind == OPTION_TEXT || o->kind == OPTION_TEXTS)) ||
-            (row->with != NULL && strcmp(row->with, o->name) == 0))
+        if (o != row && o->low == 1 && (o->kind == OPTION_TEXT || o->kind == OPTION_TEXTS))
             strcat(strcat(line, o->name[0] == '-' ? o->name : ""), o->kind == OPTION_ON ? " " : " x ");
     for (int alias = 0; alias < (row->alias != NULL ? 2 : 1); alias++) {
         char whole[512];

@@ -25,9 +25,9 @@ const struct option RENDER_OPTIONS[] = {
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {"--aov", "LIST", OPTION_TEXT, AT(aov),
      .help = "also write NAME.albedo.pfm and so on: some of albedo,normal,depth,position,variance"},
-    {"--layers", NULL, OPTION_ON, AT(layers), .with = "--aov",
+    {"--layers", NULL, OPTION_ON, AT(layers),
      .help = "write the images of --aov as layers of the .exr"},
-    {"--seen", NULL, OPTION_ON, AT(seen), .with = "--aov",
+    {"--seen", NULL, OPTION_ON, AT(seen),
      .help = "albedo and normal show what is seen in mirrors and through glass, for denoisers"},
     {"--lights", "DIR", OPTION_TEXT, AT(lights),
      .help = "write into DIR an image for each light, or each \"string group\" of lights; convert --weights adds them"},
@@ -41,10 +41,10 @@ const struct option RENDER_OPTIONS[] = {
      .help = "stop when the noise is below X of the 255 levels of 8-bit images; with --noise, when both hold"},
     {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .written = true,
      .help = "save the render in FILE at intervals, and when a signal stops it"},
-    {"--interval", "TIME", OPTION_TIME, AT(keep.interval), 0, 1e9, .with = "--checkpoint", .fallback = "60",
+    {"--interval", "TIME", OPTION_TIME, AT(keep.interval), 0, 1e9, .fallback = "60",
      .help = "time between checkpoints in seconds"},
     {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .help = "continue the render that a checkpoint holds"},
-    {"--samples", "FIRST:END", OPTION_RANGE, AT(keep.samples), 0, 1 << 30, .with = "-o",
+    {"--samples", "FIRST:END", OPTION_RANGE, AT(keep.samples), 0, 1 << 30,
      .help = "render only the samples FIRST to END-1 of each pixel, for merge: -o NAME.part"},
     {"--stats", "FILE", OPTION_TEXT, AT(stats), .written = true,
      .help = "write parameters, times and memory as JSON"},
@@ -91,6 +91,8 @@ static void abandon(struct files *f)
 static bool check_options(const struct job_options *o, struct files *f, struct error *err)
 {
     memset(f, 0, sizeof *f);
+    if (o->keep.samples[1] > 0 && o->output.n == 0)
+        return error_usage(err, "--samples needs -o NAME.part");
     if (!aov_read(o->aov, &f->aov, err))
         return false;
     if (o->keep.resume != NULL && f->aov.wanted[AOV_VARIANCE])

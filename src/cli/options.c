@@ -18,8 +18,6 @@ struct reader {
     char **argv;
     const char *attached; /* the option's value if it came in the same argument and is not used yet, else NULL */
     const struct option *option;
-    const struct option **seen; /* [n_seen], those given; owned */
-    int n_seen;
     struct error *err;
 };
 
@@ -219,7 +217,7 @@ static bool read_option(struct reader *r, void *target)
     const struct option *o = find(r->table, argument, length);
     if (o == NULL)
         return error_set(r->err, "unknown option %s", argument);
-    r->option = r->seen[r->n_seen++] = o;
+    r->option = o;
     r->attached = argument[length] == '\0' ? NULL : argument + length + (argument[length] == '=');
     if (!read_value(r, target_of(o, target)))
         return false;
@@ -255,23 +253,12 @@ static bool read_operand(struct reader *r, void *target)
     return read_value(r, target_of(o, target));
 }
 
-static bool was_seen(const struct reader *r, const char *name)
-{
-    bool seen = false;
-    for (int i = 0; i < r->n_seen; i++)
-        seen = seen || strcmp(r->seen[i]->name, name) == 0;
-    return seen;
-}
-
-/* Is everything there that must be, and that other options need? */
+/* Is everything there that must be? */
 static bool is_complete(const struct reader *r, void *target)
 {
     for (const struct option *o = r->table; o != NULL; o = options_next(o))
         if ((is_texts(o) || o->kind == OPTION_TEXT) && o->low > 0 && !is_given(o, target))
             return error_set(r->err, "%s needs %s (%s)", r->argv[0], o->help, o->name);
-    for (int i = 0; i < r->n_seen; i++)
-        if (r->seen[i]->with != NULL && !was_seen(r, r->seen[i]->with))
-            return error_set(r->err, "%s has no effect without %s", r->seen[i]->name, r->seen[i]->with);
     return true;
 }
 
@@ -279,7 +266,6 @@ bool options_read(const struct option *table, int argc, char **argv, void *targe
 {
     struct reader r = {.table = table, .argc = argc, .argv = argv, .err = err};
     bool ok = true;
-    r.seen = mem_alloc((size_t)argc, sizeof *r.seen);
     for (const struct option *o = table; ok && o != NULL; o = options_next(o)) {
         r.option = o;
         r.attached = o->fallback;
@@ -287,9 +273,7 @@ bool options_read(const struct option *table, int argc, char **argv, void *targe
     }
     for (r.at = 1; ok && r.at < argc; r.at++)
         ok = looks_like_option(argv[r.at]) ? read_option(&r, target) : read_operand(&r, target);
-    ok = ok && is_complete(&r, target);
-    free(r.seen);
-    return ok;
+    return ok && is_complete(&r, target);
 }
 
 void options_written(const struct option *table, void *target, struct texts *names)

@@ -51,7 +51,6 @@ struct option {
     const char *fallback;        /* text of the default; NULL: the target stays zero */
     const char *help;            /* where one must be given: what it is, with an article */
     bool written;                /* its texts name files that are written */
-    const char *with;            /* the option without which this one has no effect, or NULL */
     const struct option *others; /* in the row without a name: the table that goes on, or NULL */
 };
 

@@ -85,46 +85,15 @@ static char *copy(struct lexer *l, const char *begin, const char *end)
     return text;
 }
 
-/* The character that a backslash and c stand for, or 0 if pbrt does not know it. */
-static char unescape(char c)
-{
-    switch (c) {
-    case 'b': return '\b';
-    case 'f': return '\f';
-    case 'n': return '\n';
-    case 'r': return '\r';
-    case 't': return '\t';
-    case '\\':
-    case '\'':
-    case '"': return c;
-    default: return 0;
-    }
-}
-
 static bool next_string(struct lexer *l, struct token *out)
 {
-    const char *begin = l->at + 1, *p = begin;
-    bool escaped = false;
-    for (; *p != '"'; p++) {
-        if (*p == '\n' || *p == '\0')
-            return source_error(l->messages, out->position, "this string does not end on its line; close it with \"");
-        if (*p == '\\') {
-            escaped = true;
-            p++;
-            if (unescape(*p) == 0)
-                return source_error(l->messages, position_of(l, p - 1),
-                                   "unknown escape; after \\ only b f n r t \\ ' \" may stand");
-        }
-    }
-    char *text = copy(l, begin, p);
-    if (escaped) {
-        char *to = text;
-        for (const char *from = text; *from != '\0'; from++)
-            *to++ = *from == '\\' ? unescape(*++from) : *from;
-        *to = '\0';
-    }
-    out->text = text;
-    l->at = p + 1;
+    const char *end = l->at + 1;
+    while (*end != '"' && *end != '\n' && *end != '\0')
+        end++;
+    if (*end != '"')
+        return source_error(l->messages, out->position, "this string does not end on its line; close it with \"");
+    out->text = copy(l, l->at + 1, end);
+    l->at = end + 1;
     return true;
 }
 

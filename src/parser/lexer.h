@@ -15,7 +15,7 @@ enum token_kind { TOKEN_END, TOKEN_WORD, TOKEN_STRING, TOKEN_NUMBER, TOKEN_OPEN,
 
 struct token {
     enum token_kind kind;
-    const char *text;   /* word or string (without quotes, escapes resolved), zero-terminated; else "" */
+    const char *text;   /* word or string (without quotes), zero-terminated; else "" */
     double number;      /* of TOKEN_NUMBER, finite */
     struct source_position position; /* of its first character */
 };
@@ -34,7 +34,7 @@ struct lexer {
  * long as the arena. */
 struct lexer lexer_start(const struct source_file *file, struct arena *arena, struct messages *messages);
 
-/* lexer_next: take one token. False with a message on an unterminated string, an unknown escape or character, or a
+/* lexer_next: take one token. False with a message on an unterminated string, an unknown character, or a
  * malformed or too large number; the rest of the line is then passed over. At the end of the file: TOKEN_END, again and
  * again. lexer_peek: the kind of the next token, judged by its first character, without taking it. */
 bool lexer_next(struct lexer *l, struct token *out);

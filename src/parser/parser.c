@@ -140,9 +140,6 @@ static bool include(struct parser *p)
     struct error inner;
     char *path = scene_files_path(&p->named, name.text, &inner);
     bool ok = path != NULL || source_error(&p->messages, name.position, "%s", inner.text);
-    for (int i = 0; i < p->n_sources && ok; i++)
-        if (strcmp(p->source[i]->path, path) == 0)
-            ok = source_error(&p->messages, name.position, "this file is being read already; it cannot include itself");
     if (ok && !run_file(p, path, &inner))
         ok = source_error(&p->messages, name.position, "%s", inner.text);
     free(path);
