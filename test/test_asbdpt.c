@@ -29,11 +29,11 @@ static void test_bias(struct test *t)
                                        "asbdpt select=vertices connections=2",
                                        "asbdpt select=subspaces",
                                        "asbdpt select=subspaces connections=2",
-                                       "asbdpt guide=off emission=1 credit=off tile=16 spread=1",
-                                       "asbdpt select=pool emission=0.2 credit=on",
-                                       "asbdpt select=vertices emission=0.2 credit=on tile=32",
-                                       "mbdpt emission=0.2 credit=on spread=2",
-                                       "cbdpt connections=3 emission=0.2 credit=on",
+                                       "asbdpt guide=off emission=1 credit=1 tile=16 spread=1",
+                                       "asbdpt select=pool emission=0.2 credit=4",
+                                       "asbdpt select=vertices emission=0.2 credit=4 tile=32",
+                                       "mbdpt emission=0.2 credit=4 spread=2",
+                                       "cbdpt connections=3 emission=0.2 credit=4",
                                        "lvc connections=1",
                                        "cbdpt connections=3"};
     struct scene scene;
@@ -223,9 +223,9 @@ static void test_every_scene(struct test *t, size_t n)
 /* --- services ----------------------------------------------------------------------------------------- */
 
 /* Each alone, on a method whose choice learns nothing; and what rivals have of them. */
-static const char *const ALONE[] = {"lvc guide=on", "lvc emission=0.2", "lvc credit=on",
-                                    "lvc tile=5 spread=3", "asbdpt select=pool guide=off credit=on", NULL};
-static const char *const RIVALS[] = {"pcbdpt guide=on emission=0.2 credit=on tile=9 spread=2 records=.05",
+static const char *const ALONE[] = {"lvc guide=on", "lvc emission=0.2", "lvc credit=4",
+                                    "lvc tile=5 spread=3", "asbdpt select=pool guide=off credit=4", NULL};
+static const char *const RIVALS[] = {"pcbdpt guide=on emission=0.2 credit=4 tile=9 spread=2 records=.05",
                                      "ris emission=0.2 tile=9 spread=2 records=.05",
                                      "ris2 emission=0.2 tile=9 spread=2 records=.05",
                                      "restir guide=on emission=0.2 tile=9 spread=2", NULL};

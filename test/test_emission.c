@@ -158,7 +158,7 @@ static void test_expectation(struct test *t, const struct scene *s)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 32, 0);
     struct tables known = {.emission = random_table(s, &r, 0.2)};
-    struct mis_counts plain = {.hit = {1, 1}}, aimed = {.hit = {1, 1}, .direct_delta = {1, 1}, .tables = &known};
+    struct mis_counts plain = {.hit = {1, 1}}, aimed = {.hit = {1, 1}, .tables = &known};
     double mean[2][PARTS], variance[2][PARTS];
     long n = 200000L * test_effort(t);
     carry(s, &plain, test_seed(t), 0, n, mean[0], variance[0]);

@@ -248,12 +248,12 @@ static void compare_paths(struct comparison *c, int n_paths)
 void test_mis(struct test *t)
 {
     const double bound = 1e-9;
-    /* hit, direct, delta, connect, splat */
-    const struct mis_counts all = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, .splat = 1024};
-    const struct mis_counts pt = {{1, 1}, {1, 1}, .direct_delta = {1, 1}}, lt = {.splat = 1024};
-    const struct mis_counts power = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, 1024, .power = true};
-    const struct mis_counts uneven = {{3, 1}, {6, 1.5}, {9, 2}, {8, 0.7}, .splat = 300};
-    const struct mis_counts both = {{3, 1}, {6, 1.5}, {9, 2}, {8, 0.7}, .splat = 300, .power = true};
+    /* hit, direct, connect, splat */
+    const struct mis_counts all = {{1, 1}, {1, 1}, {1, 1}, .splat = 1024};
+    const struct mis_counts pt = {.hit = {1, 1}, .direct = {1, 1}}, lt = {.splat = 1024};
+    const struct mis_counts power = {{1, 1}, {1, 1}, {1, 1}, .splat = 1024, .power = true};
+    const struct mis_counts uneven = {{3, 1}, {6, 1.5}, {8, 0.7}, .splat = 300};
+    const struct mis_counts both = {{3, 1}, {6, 1.5}, {8, 0.7}, .splat = 300, .power = true};
     const struct {
         const char *name;
         const struct mis_counts *counts;

@@ -11,7 +11,7 @@
 #include "transport/connect.h"
 #include "transport/mis.h"
 
-static const struct mis_counts ALL = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, .splat = 1024};
+static const struct mis_counts ALL = {{1, 1}, {1, 1}, {1, 1}, .splat = 1024};
 enum { MAX = 12, ALBEDO_PERCENT = 30 };
 
 /* A closed box of six matte sides, and what %s adds; the lens in its middle. The ceiling gives light and reflects. */

@@ -249,7 +249,7 @@ static void test_bridges(struct test *t, const char *name, const char *text, uin
 {
     struct scene scene;
     static struct bridges made[BRIDGE_BATCHES];
-    const struct mis_counts counts = {{1, 1}, {1, 1}, {1, 1}, {1, 1}, .splat = 144};
+    const struct mis_counts counts = {{1, 1}, {1, 1}, {1, 1}, .splat = 144};
     if (!scene_from_text(t, text, &scene))
         return;
     filter_default("box", &scene.filter);

@@ -25,8 +25,9 @@ struct method;
 
 /* What makes any choice among a tile's light sub-paths better, whichever it is: parameters (services.h). */
 struct services {
-    int guide, credit;        /* off or on */
+    int guide;                /* off or on */
     double emission;          /* share of light sub-paths that start by power alone; 1: all */
+    double credit;            /* of direct light, see struct credits */
     int tile, spread;         /* of struct pass_size */
 };
 

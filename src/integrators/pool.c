@@ -81,7 +81,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
     const struct learn_options own = {.importance = s->metric == METRIC_IMPORTANCE, .light_cells = s->grid,
                                       .levels = 1};
     services_learn(job, out, own);
-    services_settle(job, out, NO_CREDITS);
+    services_settle(job, out, 1);
 }
 
 #define AT(member) offsetof(struct pool_state, member)
@@ -89,7 +89,7 @@ static const struct field PARAMETERS[] = {
     {"metric", FIELD_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light sub-path is chosen by", METRICS},
     {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
     {"grid", FIELD_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
-    SERVICES(true, 1, false, DEFAULT_TILE_SIZE, POOL_SPREAD),
+    SERVICES(true, 1, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_pool = {

@@ -67,13 +67,11 @@ bool services_trace_paths(const struct render_job *job, struct preparation *out)
     return true;
 }
 
-void services_settle(const struct render_job *job, struct preparation *out, struct credits credits)
+void services_settle(const struct render_job *job, struct preparation *out, double draw)
 {
     struct frozen *f = out->state;
-    double draw = credits.draw;
-    if (f->services.credit)
-        credits = credit_measure(job, &f->tables);
-    credits.draw = draw;
+    double direct = f->services.credit > 0 ? f->services.credit : 1; /* 0: the method has no such parameter */
+    const struct credits credits = {direct, draw};
     frozen_count(job, f, credits);
     tell(out);
 }

@@ -11,7 +11,7 @@
  * region e would need all vertices. The sums of a region e need only the regions that have any.)
  *
  * The MIS weights take this into account: the strategies count as 2 C h(e(z), l(y)) samples, a function of the two
- * surface points at the ends of the edge. 2 is the credit of a draw (struct credits).
+ * surface points at the ends of the edge. 2 is the credit of a draw (DRAW_CREDIT).
  * [Su 2022] has subspaces of eye and light sub-paths and a matrix of probabilities between them. Here the regions are
  * cells of grids, and the table is learnt from trial connections.
  *
@@ -139,10 +139,10 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 
 /* --- preparing --------------------------------------------------------------------------------------- */
 
-enum { LIGHT_CELLS = 16 }; /* number of light regions along the diagonal */
-
-/* Stratified draws have less variance than independent ones. */
-static const struct credits CREDITS = {.hit = 1, .direct = 1, .direct_delta = 1, .draw = 2};
+enum {
+    LIGHT_CELLS = 16, /* number of light regions along the diagonal */
+    DRAW_CREDIT = 2   /* stratified draws have less variance than independent ones */
+};
 
 static void prepare(const struct render_job *job, struct preparation *out)
 {
@@ -152,7 +152,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
     if (s->probe && services_trace_paths(job, out))
         return;
     services_learn(job, out, own);
-    services_settle(job, out, CREDITS);
+    services_settle(job, out, DRAW_CREDIT);
     s->frozen.counts.most = fmin(sqr(out->size.tile), pixel_light_count(job)) / s->frozen.numbers.path_pixels;
 }
 
@@ -167,7 +167,7 @@ static const struct field PARAMETERS[] = {
     {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore what was learnt", NULL},
     {"probe", FIELD_WORD, AT(probe), true, 0, 0,
      "check first whether light sub-paths are worth their time, and trace paths if they are not", OFF_ON},
-    SERVICES(true, 0.2, true, MAX_TILE_SIZE, POOL_SPREAD),
+    SERVICES(true, 0.2, 4, MAX_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_subspaces = {

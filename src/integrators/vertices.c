@@ -13,7 +13,7 @@
  *
  * The MIS weights take this into account: strategies s >= 2, t >= 2 with their light end at x take about n(x) samples
  * per pixel. n is a function of the surface point alone, so all strategies of a path compute the same n (mis.h). The
- * factor 2 is a credit, which s = 1 has, too (see CREDITS). Any count that does not change is unbiased.
+ * factor 2 is a credit for stratified draws. Any count that does not change is unbiased.
  *
  * Tests: test_asbdpt.c.
  */
@@ -81,10 +81,6 @@ static void draw(void *scratch, const void *state, struct pooled_pixel *p, const
 
 /* --- preparing --------------------------------------------------------------------------------------- */
 
-/* Draws are stratified over a table, and the point on the light of s = 1 comes from a low-discrepancy sequence. Both
- * count as two independent samples. */
-static const struct credits CREDITS = {.hit = 1, .direct = 2, .direct_delta = 2, .draw = 2};
-
 /* h(l) = (1 - delta) E(l) / mean + delta, the same for all eye vertices. */
 static struct pairs pairs_from_importance(const struct tables *t, double delta)
 {
@@ -103,7 +99,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
     f->numbers.draws[LATER_HIT] = f->numbers.draws[FIRST_HIT];
     if (f->tables.importance.mean > 0)
         f->tables.pairs = pairs_from_importance(&f->tables, s->delta);
-    services_settle(job, out, CREDITS);
+    services_settle(job, out, 2);
 }
 
 #define AT(member) offsetof(struct vertices_state, member)
@@ -113,7 +109,7 @@ static const struct field PARAMETERS[] = {
     {"pathpixels", FIELD_INTEGER, AT(frozen.numbers.path_pixels), 2, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path", NULL},
     {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
-    SERVICES(true, 1, false, DEFAULT_TILE_SIZE, POOL_SPREAD),
+    SERVICES(true, 1, 2, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_vertices = {

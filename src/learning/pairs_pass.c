@@ -72,23 +72,21 @@ static void fill_pool(const struct pass *p, struct trial_pool *pool, long chunk)
     }
 }
 
-/* Connect z to a few light vertices. The worth of a pair falls as 1/d^2, so a mean would consist of the nearest pairs
- * alone. We therefore add the square of a quarter of a region's width to d^2. */
+/* Connect z to a few light vertices. */
 static void try_vertex(const struct pass *p, const struct trial_pool *pool, const struct vertex *z,
                        struct sampler *sampler, struct findings *out)
 {
     const struct tables *tables = p->counts.tables;
-    double near2 = sqr(0.25 / tables->eye.per_metre), beta = rgb_luminance(z->beta);
+    double beta = rgb_luminance(z->beta);
     for (int i = 0; i < TRIALS && pool->n > 0 && beta > 0; i++) {
         double u = (i + sampler_number(sampler, DRAW_LIGHT_END)) / TRIALS;
         const struct end *end = &pool->end[cumulative_find(pool->before, pool->n, u * pool->total)];
         const struct vertex *y = end->y;
         struct connection found = connect_pair(p->training->job->scene, &p->counts, y, z);
-        double d2 = length2(sub(y->p, z->p));
         struct finding f = {.kind = TRIAL, .w = beta / end->useful};
         f.eye = regions_key(&tables->eye, z->p, vertex_side(z));
         f.light = regions_key(&tables->light, y->p, vertex_side(y));
-        f.x = rgb_luminance(found.value) / (beta * end->L) * (d2 > 0 ? d2 / (d2 + near2) : 0);
+        f.x = rgb_luminance(found.value) / (beta * end->L);
         findings_add(out, f);
     }
 }

@@ -51,7 +51,7 @@ struct pass {
 };
 static inline struct mis_counts any_counts(const struct tables *known)
 {
-    return (struct mis_counts){.direct = {1, 1}, .direct_delta = {1, 1}, .tables = known};
+    return (struct mis_counts){.direct = {1, 1}, .tables = known};
 }
 
 /* pass_run: run the whole pass, unless patience ends. */

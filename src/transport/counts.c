@@ -5,11 +5,10 @@ struct mis_counts counts_of(struct numbers n, struct credits c, double pixels)
 {
     struct mis_counts m = {.splat = n.path_pixels > 0 ? pixels / n.path_pixels : 0};
     for (int end = 0; end < EYE_ENDS; end++) {
-        struct credits worth = end == FIRST_HIT ? c : NO_CREDITS;
+        double direct = end == FIRST_HIT ? c.direct : 1;
         int points = !n.path_tracing ? 0 : end == FIRST_HIT ? n.light_points : 1;
-        m.hit[end] = n.path_tracing ? worth.hit : 0;
-        m.direct[end] = points * worth.direct;
-        m.direct_delta[end] = points * worth.direct_delta;
+        m.hit[end] = n.path_tracing ? direct : 0;
+        m.direct[end] = points * direct;
         m.connect[end] = n.path_pixels > 0 ? n.draws[end] * c.draw : 0;
     }
     return m;

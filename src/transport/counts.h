@@ -18,12 +18,10 @@ struct numbers {
 
 /* How many independent samples one sample counts as (see struct mis_counts). */
 struct credits {
-    double hit;          /* s = 0, if the edge before the light begins at a first hit */
-    double direct;       /* s = 1 at a first hit, to lights that s = 0 can find */
-    double direct_delta; /* s = 1 at a first hit, to delta lights, which s = 0 cannot find */
-    double draw;         /* s >= 2, t >= 2 */
+    double direct; /* direct light at a first hit: s = 1, and s = 0 if the edge before the light begins there */
+    double draw;   /* s >= 2, t >= 2 */
 };
-static const struct credits NO_CREDITS = {1, 1, 1, 1};
+static const struct credits NO_CREDITS = {1, 1};
 
 /* counts_of: the counts in the weights: numbers times credits.
  *   pixels  number of pixels of the film; a light sub-path may reach each of them */
@@ -47,8 +45,7 @@ static inline double n_connect(const struct mis_counts *c, int l, int e, enum ey
 static inline double n_direct(const struct mis_counts *c, const struct light_set *lights, int e, enum eye_end end,
                               int cell, vec3 w)
 {
-    bool delta = cell >= 0 && light_is_delta(&lights->light[lights->light_of_cell[cell]]);
-    double n = (delta ? c->direct_delta : c->direct)[end];
+    double n = c->direct[end];
     return n > 0 ? n * guide_density(&counts_tables(c)->guide, lights, e, cell, w) : 0;
 }
 

@@ -63,8 +63,7 @@ enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
  * lobes, where no strategy ends. */
 struct mis_counts {
     double hit[EYE_ENDS];     /* s = 0, t >= 3: the eye walk meets a light; by the kind of z_{t-2} */
-    double direct[EYE_ENDS];  /* s = 1: connection to a new point on a light that s = 0 can find */
-    double direct_delta[EYE_ENDS]; /* s = 1: connection to a delta light, of one point or one direction */
+    double direct[EYE_ENDS];  /* s = 1: connection to a new point on a light */
     double connect[EYE_ENDS]; /* s >= 2, t >= 2: connection to light vertices */
     double most;              /* bound of n_connect: the number of sub-paths that share a pool; 0: no bound */
     double splat;             /* s >= 2, t = 1: light sub-paths joined to the lens, those of all pixels of the film */

@@ -123,7 +123,7 @@ void methods_all(char out[METHODS_TEXT])
 /* Services are parameters that several methods have, some all of them: how they are off and on. */
 static const struct {
     const char *name, *value[N_HALVES];
-} SERVICES[] = {{"guide", {"off", "on"}}, {"emission", {"1", "0.2"}}, {"credit", {"off", "on"}},
+} SERVICES[] = {{"guide", {"off", "on"}}, {"emission", {"1", "0.2"}}, {"credit", {"1", "4"}},
                 {"tile", {"16", "32"}},     {"spread", {"1", "4"}}};
 
 const char *const HALVES[N_HALVES] = {"The choice alone", "With all services"};

@@ -63,7 +63,7 @@ static const struct field PARAMETERS[] = {
     {"connections", FIELD_INTEGER, AT(connections), 8, 1, 1024, "light sub-paths for each pixel", NULL},
     {"pathpixels", FIELD_INTEGER, AT(frozen.numbers.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path", NULL},
-    SERVICES(false, 1, false, DEFAULT_TILE_SIZE, 1),
+    SERVICES(false, 1, 1, DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
 const struct method method_cbdpt = {

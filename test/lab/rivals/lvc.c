@@ -68,7 +68,7 @@ static const struct field PARAMETERS[] = {
      "light vertices drawn for each eye vertex; 0, as in the paper: as many as a light sub-path has on average", NULL},
     {"pathpixels", FIELD_INTEGER, AT(frozen.numbers.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path", NULL},
-    SERVICES(false, 1, false, DEFAULT_TILE_SIZE, 1),
+    SERVICES(false, 1, 1, DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
 const struct method method_lvc = {

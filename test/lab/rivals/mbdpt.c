@@ -111,7 +111,7 @@ static const struct field PARAMETERS[] = {
     {"pathpixels", FIELD_INTEGER, offsetof(struct frozen, numbers.path_pixels), 1, 1,
      DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE, "pixels for each light sub-path", NULL},
     {"key", FIELD_WORD, offsetof(struct mbdpt_state, throughput), 0, 0, 0, "what sub-paths are sorted by", KEYS},
-    SERVICES(false, 1, false, DEFAULT_TILE_SIZE, 1),
+    SERVICES(false, 1, 1, DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
 static void render(const struct preparation *m, const struct tile_pass *pass)

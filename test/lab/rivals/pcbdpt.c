@@ -58,7 +58,7 @@ static const struct field PARAMETERS[] = {
     {"records", FIELD_NUMBER, AT(ris.records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
     {"normals", FIELD_NUMBER, AT(normals), 0.5, 0, 1e6, "weight of normals relative to places when records are sought",
      NULL},
-    SERVICES(false, 1, false, RECORDS_TILE, 1),
+    SERVICES(false, 1, 1, RECORDS_TILE, 1),
     {.name = NULL}};
 
 const struct method method_pcbdpt = {

@@ -9,7 +9,7 @@ static inline void plain_prepare(const struct render_job *job, struct preparatio
 {
     const struct learn_options nothing = {.light_cells = 64, .levels = 1};
     services_learn(job, out, nothing);
-    services_settle(job, out, NO_CREDITS);
+    services_settle(job, out, 1);
 }
 
 #endif

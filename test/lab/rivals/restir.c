@@ -122,7 +122,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
 {
     struct restir_state *s = out->state;
     plain_prepare(job, out);
-    s->frozen.counts.direct[FIRST_HIT] = s->frozen.counts.direct_delta[FIRST_HIT] = s->credit;
+    s->frozen.counts.direct[FIRST_HIT] = s->credit;
 }
 
 #define AT(member) offsetof(struct restir_state, member)
