@@ -84,7 +84,7 @@ bool alias_build(struct alias_table *t, const double *weight, int n)
     if (unit < 0)
         return false;
     make_room(t, (size_t)n);
-    double sum = sum_in_units(weight, n, unit); /* in [1,n]: neither overflows nor loses digits */
+    double sum = sum_in_units(weight, n, unit); /* in [1,n]: no overflow, no digits lost */
     t->n = n;
     t->total = sum * unit;
     for (int i = 0; i < n; i++) {

@@ -1,4 +1,4 @@
-/* maths.c: see maths.h. Everywhere the same three steps: bring the argument near 0 by something exact, sum the Taylor
+/* maths.c: see maths.h. Everywhere the same three steps: move the argument near 0 by an exact step, sum the Taylor
  * series there, undo the first step. Where the result must not lose the bits that rounding cuts off on the way, they
  * are carried along as the low part of a pair.
  *

@@ -21,7 +21,7 @@ double m_cos(double x);
 double m_tan(double x);
 
 /* m_atan2: the angle of the point (x,y), in [-pi,pi], as C99 defines it for zeros; 1.7 ulp. x and y are finite, and
- * neither so small nor so large that their sum or quotient is subnormal or infinite; (0,0) gives 0 or pi. */
+ * such that their sum and quotient are not subnormal or infinite; (0,0) gives 0 or pi. */
 double m_atan2(double y, double x);
 
 /* m_acos: the angle in [0,pi] whose cosine is x, 3 ulp; NaN outside [-1,1]. */

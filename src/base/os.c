@@ -282,7 +282,7 @@ void os_open_standard(void)
 {
     for (int fd = 0; fd <= 2; fd++)
         if (fcntl(fd, F_GETFD) == -1 && errno == EBADF && open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY) < 0)
-            return; /* nothing to be had: the next could not take the right number */
+            return; /* none is left: the next could not take the right number */
 }
 
 void os_binary(FILE *f) { (void)f; }

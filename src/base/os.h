@@ -44,7 +44,7 @@ void os_limit_memory(void);
 
 /* ---- signals ---- */
 
-/* os_catch_signals: call `handler` for those that ask the program to end, unless whoever started it has told it to
+/* os_catch_signals: call `handler` for those that ask the program to end, unless its parent has told it to
  * ignore them; ignore those that a failed write causes, so that the write is reported. Without signals: nothing. */
 void os_catch_signals(void (*handler)(int number));
 const char *os_signal_name(int number); /* "SIGINT" and so on */

@@ -4,12 +4,12 @@
  * single number. What a stream gives for a decision the k-th time depends on nothing that other decisions have drawn:
  * roulette or a lens cannot shift a direction's numbers.
  *
- * Over the iterations of a pixel the first SAMPLER_TIMES points of each decision, and single numbers where that pays,
- * are of low discrepancy: Sobol' points, Owen-scrambled by hashing, visited in an order of each one's own [Burley
- * 2020]. Any 2^k iterations from a multiple of 2^k on have exactly one of 2^k points in every elementary interval of
- * area 2^-k: they are a (0,k,2)-net. All else comes from the pixel's generator. Each number alone is exactly uniform,
- * and over pixels and seeds all are independent, so nothing is biased. Within one pixel a weak correlation between two
- * decisions may remain, since the order is a hash.
+ * Over the iterations of a pixel the first SAMPLER_TIMES points of each decision, and single numbers where that is
+ * worth its cost, are of low discrepancy: Sobol' points, Owen-scrambled by hashing, visited in an order of each one's
+ * own [Burley 2020]. Any 2^k iterations from a multiple of 2^k on have exactly one of 2^k points in every elementary
+ * interval of area 2^-k: they are a (0,k,2)-net. All else comes from the pixel's generator. Each number alone is
+ * exactly uniform, and over pixels and seeds all are independent, so nothing is biased. Within one pixel a weak
+ * correlation between two decisions may remain, since the order is a hash.
  *
  * Any other number of samples is made of several nets, 48 of those of 32 and 16, and is about as good as independent
  * ones: 20 samples of a smooth integrand (x y) have twice the squared error of 16, 40 of 32. Choose powers of two.

@@ -36,7 +36,7 @@ static bool is_inverse(const struct transform *t, int columns)
  * pivot is not quite 0. */
 static bool invert(struct transform *t)
 {
-    double a[4][8]; /* the matrix, and beside it the identity, which becomes the inverse */
+    double a[4][8]; /* the matrix, and to its right the identity, which becomes the inverse */
     for (int i = 0; i < 32; i++)
         a[i / 8][i % 8] = i % 8 < 4 ? t->m[i / 8][i % 8] : i % 8 - 4 == i / 8;
     for (int c = 0; c < 4; c++) {

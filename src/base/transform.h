@@ -23,7 +23,7 @@ struct transform transform_rotate(double degrees, vec3 axis);       /* which nee
 /* transform_look_at: world-to-camera as pbrt's LookAt. Returns false when up is parallel to the view. */
 bool transform_look_at(vec3 eye, vec3 look, vec3 up, struct transform *out);
 
-/* transform_compose: first b, then a (the matrix product a b). transform_inverse: the way back. */
+/* transform_compose: first b, then a (the matrix product a b). transform_inverse: the inverse. */
 struct transform transform_compose(struct transform a, struct transform b);
 struct transform transform_inverse(struct transform t);
 
@@ -41,8 +41,8 @@ double transform_determinant(const struct transform *t);
 bool transform_swaps_handedness(const struct transform *t);
 
 /* transform_is_usable: are all numbers finite, those that directions meet at most NUMBER_MAX, and is `inv` the inverse
- * in fact and not only in name? Then a direction stays a direction, both ways. Where points come to lie, whoever
- * places them has to look at (is_place). */
+ * in fact and not only in name? Then a direction stays a direction, both ways. A caller that places points has
+ * to check where they lie (is_place). */
 bool transform_is_usable(const struct transform *t);
 
 #endif

@@ -70,7 +70,7 @@ static inline vec3 normalize(vec3 a)
 static inline vec3 faceforward(vec3 n, vec3 v) { return dot(n, v) < 0 ? neg(n) : n; }
 
 /* is_place: can something of the scene be at p? A kd-tree's planes are as thick as 1e-14 of the scene (kdtree.c):
- * beside something farther away than this, what is of everyday size could not be told apart. */
+ * with something farther away than this, things of everyday size could not be distinguished. */
 static inline bool is_place(vec3 p)
 {
     const double limit = 1e12;

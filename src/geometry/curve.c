@@ -164,7 +164,7 @@ static bool mesh(const void *fields, struct mesh_task *task, struct mesh *out)
     if (!make(c, segments, task, out))
         return false;
     if (c->type == FLAT)
-        task->warn(task, "a flat curve turns to whoever looks, which no surface does: it is drawn as the tube that "
+        task->warn(task, "a flat curve turns to the viewer, which no surface does: it is drawn as the tube that "
                    "looks as wide");
     return true;
 }

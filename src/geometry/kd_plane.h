@@ -45,7 +45,7 @@ double kd_half_area(const struct box *b);
  * guesses of the processor; found by measurement. */
 #define KD_VISIT_COST 1.5
 
-/* kd_leaf_cost: the cost of a leaf with n items, likewise. */
+/* kd_leaf_cost: the same for a leaf with n items. */
 double kd_leaf_cost(size_t n);
 
 /* kd_best_plane: the cheapest cut of a cell with n items, axis -1 if none is cheaper than a leaf. */

@@ -151,14 +151,14 @@ struct traversal {
     struct kd_visit stack[KD_MAX_DEPTH];
 };
 
-/* A component this small moves the ray by nothing within any scene: it stands in for 0 to keep 1/d finite. */
+/* A component this small moves the ray by nothing within any scene. It replaces 0 to keep 1/d finite. */
 static double inverse_of(double d)
 {
     const double least = 1e-30;
     return 1 / (d + copysign(least, d));
 }
 
-/* What fmax and fmin do, but for NaN, without a call. */
+/* What fmax and fmin do, except for NaN, without a call. */
 static inline double larger(double a, double b) { return a > b ? a : b; }
 static inline double smaller(double a, double b) { return a < b ? a : b; }
 
@@ -232,7 +232,7 @@ static inline bool traversal_next(struct traversal *w, double t)
     return false;
 }
 
-/* Both kinds of rays; `shadow` is a constant where this is inlined, so that neither pays for the other. */
+/* Both kinds of rays; `shadow` is a constant where this is inlined, so that each has only its own code. */
 static inline bool traverse(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, bool shadow,
                             struct hit *hit)
 {

@@ -24,7 +24,7 @@ struct kdtree {
     double reach;       /* largest absolute coordinate of the bounds */
 };
 
-/* Which primitives: those with a material; those without, but for those that bound media and no more. */
+/* Which primitives: those with a material; those without, except those that only bound media. */
 enum kd_of { KD_SURFACES, KD_LAMPS, KD_INTERFACES };
 enum kd_of kd_kind(const struct shape_group *group);
 

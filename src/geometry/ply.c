@@ -352,7 +352,7 @@ static bool read_body(struct ply *r)
     return true;
 }
 
-/* Done at the end because faces may stand before the vertices. */
+/* Done at the end because faces may come before the vertices. */
 static bool check_mesh(struct ply *r)
 {
     struct mesh *m = r->mesh;

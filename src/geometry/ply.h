@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "geometry/shape.h"
 
-/* Elements of a file, of which two are of use, and its bytes for a triangle, which takes some 1000 as a lamp. */
+/* Elements of a file, of which two are of use, and its bytes for a triangle, which takes some 1000 as a light. */
 enum { PLY_MAX_ELEMENTS = 64, PLY_BYTES_PER_TRIANGLE = 2 };
 
 /* ply_read: read a mesh. Returns false with a message "PATH: ..." (a line of the header, or a row of an element) on a

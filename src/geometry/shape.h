@@ -36,7 +36,7 @@ struct shape_group {
     bool has_s;       /* vertex tangents given */
     bool has_uv;
     bool skip_partials; /* leave partial derivatives zero: nobody reads them (scene_prepare finds out) */
-    bool skip_uv;       /* leave all of these and u and v as they are: likewise */
+    bool skip_uv;       /* leave all of these and u and v as they are */
 };
 
 struct geometry {
@@ -103,7 +103,7 @@ void shape_vertices(const struct geometry *geo, int triangle, float v[9]);
 /* shape_bounds: world bounding box of one primitive, never inside out, conservative in float. */
 void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]);
 
-/* shape_intersect: does the ray meet this primitive within (tmin, tmax), where it neither begins nor ends on it? Fills
+/* shape_intersect: does the ray meet this primitive within (tmin, tmax), unless it begins or ends on it? Fills
  * *hit if so. Double precision, edges shared by two triangles leave no gap. Alpha is not looked at here. */
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit);
 

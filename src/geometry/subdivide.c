@@ -325,7 +325,7 @@ static const struct field FIELDS[] = {{"nlevels", FIELD_INTEGER, AT(levels), 3, 
                                       {"levels", FIELD_INTEGER, AT(levels), FIELD_KEPT, 0, .high = 30},
                                       {"P", .kind = FIELD_POINTS, .place = AT(P)},
                                       {"indices", .kind = FIELD_INDICES, .place = AT(indices)},
-                                      {"scheme", .kind = FIELD_IGNORED}, /* there is but one */
+                                      {"scheme", .kind = FIELD_IGNORED}, /* there is only one */
                                       {.name = NULL}};
 
 const struct shape_row shape_loopsubdiv = {

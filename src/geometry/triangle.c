@@ -1,4 +1,4 @@
-/* triangle.c: see triangle.h. The rules are those of [PBRT3 3.6], but for the tangents under vertex normals:
+/* triangle.c: see triangle.h. The rules are those of [PBRT3 3.6], except the tangents under vertex normals:
  * pbrt-v3 turns them by 180 degrees and makes them unit vectors, so that its bump maps come out inverted and scaled
  * there. */
 #include "geometry/triangle.h"

@@ -17,7 +17,7 @@ static float *floats(const double *number, int n)
     return out;
 }
 
-/* Data per vertex beside P: where there is less of it than of P, or of N or S more, pbrt-v3 goes on without it. */
+/* Data per vertex besides P: where there is less of it than of P, or of N or S more, pbrt-v3 goes on without it. */
 static float *vertex_data(struct mesh_task *task, const char *name, struct field_list list, int width, int n_vertices)
 {
     if (list.number == NULL)

@@ -64,7 +64,7 @@ static void lobes(struct lobe_list *list, const struct material *m)
     facets->of.tinted.normal = blend(metallic, plain, c);
     struct lobe *coat = lobe_add(list, LOBE_CLEARCOAT, limited_rgb(rgb_grey(number_at(list, d->clearcoat))), none);
     coat->of.gloss = 0.1 - (0.1 - 0.001) * fraction_at(list, d->clearcoat_gloss);
-    /* Two refractions bring the colour. Thin ones scatter less, as the index does. [Burley 2015] */
+    /* Two refractions give the colour. Thin ones scatter less, as the index does. [Burley 2015] */
     rgb T = rgb_scale(rgb_make(sqrt(c.r), sqrt(c.g), sqrt(c.b)), through);
     struct lobe *glass = lobe_dielectric(lobe_add(list, LOBE_MICROFACET_TRANSMISSION, none, T), 1, eta);
     rough(glass, list, d, d->thin ? (0.65 * eta - 0.35) * roughness : roughness);

@@ -28,7 +28,7 @@ static bool is_deep(const struct material *m, const struct texture_set *textures
     return true;
 }
 
-/* Glass has no "roughness" in pbrt-v3, nor has substrate: it passes over that, so do we. Of two indices "eta" wins. */
+/* Glass and substrate have no "roughness" in pbrt-v3: it passes over that, so do we. Of two indices "eta" wins. */
 #define AT(member) offsetof(struct glass, member)
 static const struct field GLASS[] = {
     COLOUR_FIELD("Kr", AT(Kr), 1), COLOUR_FIELD("Kt", AT(Kt), 1),

@@ -69,7 +69,7 @@ struct lobe {
         } tinted;            /* of FRESNEL_DISNEY */
         rgb coat;            /* reflectance of the layer above, of LOBE_FRESNEL_BLEND; R is of what is below */
         struct {
-            rgb flat, retro, sheen; /* the three parts beside R */
+            rgb flat, retro, sheen; /* the three parts besides R */
             double roughness;
         } disney;     /* of LOBE_DISNEY_DIFFUSE */
         double gloss; /* alpha of LOBE_CLEARCOAT's own distribution */

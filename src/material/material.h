@@ -20,7 +20,7 @@ struct material {
     const struct material_row *row;
     int bump;       /* float texture of displacement along the normal, in world units; -1: none */
     int most_lobes; /* of its BSDF, counted over all branches of nested mixes */
-    struct bsdf same; /* its BSDF but for the frame, where no texture varies; `lobe` NULL: not known to be so */
+    struct bsdf same; /* its BSDF except the frame, where no texture varies; `lobe` NULL: not known to be so */
     bool reads_uv, reads_partials; /* its BSDF depends on u and v; on dpdu, dpdv, dndu or dndv */
     struct {
         int u, v;   /* float textures, -1: it has none; v -1 where a field says so: as u */
@@ -41,7 +41,7 @@ struct material_row {
     const char *name;           /* Material "name" */
     const struct field *fields; /* ended by one without a name */
     size_t size;                /* of the struct to be filled */
-    int most_lobes;             /* that it has itself, beside those of its FIELD_MATERIALs */
+    int most_lobes;             /* that it has itself, besides those of its FIELD_MATERIALs */
     bool may_be_delta;          /* may one of these be a mirror, or smooth glass? */
     bool may_be_brushed;        /* may they depend on where u and v run, be `rough` as it may? */
     /* Add the lobes; a black one may be among them. */

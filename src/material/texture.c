@@ -199,7 +199,7 @@ static rgb noise_value(const struct texture *t, vec3 p)
                                                   : noise_waves(p));
 }
 
-/* A float texture is a grey one, but for the way in which it reads pictures. */
+/* A float texture is a grey one, except for the way in which it reads images. */
 static rgb evaluate(const struct texture_set *set, int id, const struct surface *at, texel_reader *read)
 {
     assert(id >= 0 && id < set->n_textures);

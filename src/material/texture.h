@@ -60,7 +60,7 @@ struct texture {
     int cost; /* textures that one look-up visits, itself included, and octaves of noise; set by texture_add */
     rgb constant;
     int tex1, tex2;               /* scale, mix, checkerboard, cubes, dots: texture numbers */
-    int amount;                   /* mix: likewise */
+    int amount;                   /* mix: a texture number */
     struct mapping map;           /* checkerboard, dots, imagemap, bilerp, uv */
     int space;                    /* cubes and textures of noise */
     int octaves;                  /* fbm, wrinkled, marble; else 0. The same have omega */
@@ -77,7 +77,7 @@ struct texture_set {
     struct texture *texture; /* [n_textures], owned */
     struct transform *space; /* [n_spaces], owned: the current transform where a texture was defined */
     struct image *image;     /* [n_images], owned */
-    struct fourier_table *table; /* [n_tables], owned: what materials look up beside textures */
+    struct fourier_table *table; /* [n_tables], owned: what materials look up besides textures */
     int n_textures, n_spaces, n_images, n_tables;
 };
 

@@ -1,9 +1,9 @@
-/* parse.h: what the files of the parser share: the state between two directives, the tables that say what each type of
+/* parse.h: what the files of the parser share: the state between two directives, the tables of what each type of
  * object is made of, and one function per directive.
  *
  * A directive finds its parameter list in p->params, type included, and returns false where it gives up, with an error
  * or, where pbrt-v3 goes on, a warning in p->messages. What has failed is still there under its name, as something
- * plain, so that one error does not bring others. Private to this room. */
+ * plain, so that one error does not cause others. Private to this module. */
 #ifndef ASBDPT_PARSE_H
 #define ASBDPT_PARSE_H
 
@@ -74,7 +74,7 @@ struct shape_list {
 
 enum { MAX_INCLUDE_DEPTH = 32 };
 
-/* Where a directive may stand. */
+/* Where a directive may be. */
 enum phase { BEFORE_WORLD = 1, IN_WORLD = 2, AFTER_WORLD = 4, ANYWHERE = BEFORE_WORLD | IN_WORLD };
 
 struct parser;
@@ -84,7 +84,7 @@ struct object_type {
     const char *name;
     const struct field *fields; /* ended by one without a name */
     int kind;                   /* LIGHT_POINT, or the number of a row, and so on */
-    void (*build)(struct parser *p, void *object); /* what the table cannot say, once it is read; or NULL */
+    void (*build)(struct parser *p, void *object); /* what no table can express, once it is read; or NULL */
 };
 
 struct parser {
@@ -178,7 +178,7 @@ bool parse_make_material(struct parser *p, struct material_source *out);
 int parse_changed_material(struct parser *p);
 
 /* parse_begin_media: the world begins: are media to be seen? parse_medium: the number of the medium inside (0) or
- * outside (1) of what stands here, looked up by its name, as pbrt-v3 does; 0 with a message if it cannot be rendered.
+ * outside (1) of objects here, looked up by its name, as pbrt-v3 does; 0 with a message if it cannot be rendered.
  * parse_settle_media: the world is complete. False with a message. */
 void parse_begin_media(struct parser *p);
 int parse_medium(struct parser *p, int side);

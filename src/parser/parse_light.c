@@ -130,7 +130,7 @@ static int group(struct parser *p)
     return -1;
 }
 
-/* "group" and "visible" are no parameters of pbrt-v3; its "samples" say how often it samples a light per hit. */
+/* "group" and "visible" are no parameters of pbrt-v3; its "samples" is how often it samples a light per hit. */
 #define AT(member) offsetof(struct light_item, member)
 static const struct field POINT_LIGHT[] = {
     {.name = "I"}, {.name = "scale"}, {.name = "group"}, {"from", .kind = FIELD_POINT, .place = AT(from)},
@@ -189,7 +189,7 @@ static bool light(struct parser *p)
     item.group = group(p);
     vec3 position = item.frame.position;
     if (!is_place(position))
-        type_error(q, "this light would stand at (%g %g %g); places go up to 1e12", position.x, position.y, position.z);
+        type_error(q, "this light would be at (%g %g %g); places go up to 1e12", position.x, position.y, position.z);
     if (item.light.kind == LIGHT_INFINITE && ++p->n_infinite > LIGHT_MAX_INFINITE)
         type_error(q, "more than %d infinite lights; use fewer", LIGHT_MAX_INFINITE);
     if (!parse_done(p))

@@ -64,7 +64,7 @@ static bool unknown_directive(struct parser *p)
 static bool wrong_phase(struct parser *p, const struct directive *d)
 {
     source_warn(&p->messages, p->directive.position,
-                "%s is passed over, as in pbrt-v3: it may stand only %s WorldBegin%s", d->name,
+                "%s is passed over, as in pbrt-v3: it may come only %s WorldBegin%s", d->name,
                 d->phase == IN_WORLD ? "between" : "before", d->phase == IN_WORLD ? " and WorldEnd" : "");
     return false;
 }

@@ -24,7 +24,7 @@ struct scene_files {
     uint64_t *content;      /* where the hashes of all files are combined */
     struct symbols known;   /* hashes of the files so far, as texts */
     uint64_t first, again;  /* bytes read for the first time and again */
-    uint64_t unpacked;      /* bytes of pictures beyond what their files pay for */
+    uint64_t unpacked;      /* bytes of images beyond what the size of their files allows */
     bool full;              /* it was too much: nothing more is read */
 };
 

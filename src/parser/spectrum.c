@@ -49,7 +49,7 @@ static rgb integral_rgb(const struct integral *sum)
     return spectrum_from_xyz(sum->x / sum->white, sum->y / sum->white, sum->z / sum->white);
 }
 
-/* Samples of one wavelength are put in the order of their values, so that there is but one order. */
+/* Samples of one wavelength are put in the order of their values, so that there is only one order. */
 static int by_wavelength(const void *a, const void *b)
 {
     const double *x = a, *y = b;

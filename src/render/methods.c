@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* The rows of a name, which stand side by side: the first, and how many. */
+/* The rows of a name, which are neighbours: the first, and how many. */
 static const struct method *const *rows_of(const char *name, int *n)
 {
     const struct method *const *first = method_rows;

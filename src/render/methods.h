@@ -7,7 +7,7 @@
 
 #include "integrators/method.h"
 
-/* What is linked into an executable, ended by NULL; of rows that share a name, which stand together, the first is the
+/* What is linked into an executable, ended by NULL; of rows that share a name, which are neighbours, the first is the
  * default. asbdpt has its own in rows.c, the laboratory one that is longer. */
 extern const struct method *const method_rows[];
 

@@ -43,7 +43,7 @@ struct camera {
     bool parallel;                  /* all rays run along `forward`: orthographic, without a lens */
     double x_scale, y_scale;        /* screen units per raster unit at camera z = 1 (parallel: 0); y_scale < 0.
                                      * environment: radians per raster unit */
-    double x_origin, y_origin;      /* screen position of raster (0,0), likewise */
+    double x_origin, y_origin;      /* screen position of raster (0,0), in the same units */
     double pixel_volume;            /* |x_scale y_scale| times the volume that camera_to_world makes of 1 */
     vec3 position, forward;         /* world; forward is the unit view direction */
 };

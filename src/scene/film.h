@@ -1,7 +1,7 @@
 /* film.h: where estimates of pixels are summed, and pictures are made of the sums.
  *
  * Tile passes fill tiles (tile.h), and the film takes them in. The sums are exact (exact_sum.h): they depend on which
- * values came in, not on their order, nor on how the iterations were cut into blocks or parts. What else is kept on
+ * values came in, not on their order, and not on how the iterations were cut into blocks or parts. What else is kept on
  * request is summed in a fixed order. Standard errors: eye values of different iterations are independent draws; splats
  * are many rare events, whose variance is the sum of their squares.
  *
@@ -50,7 +50,7 @@ struct film {
                                   * splats; NULL unless asked for; owned */
     long nonfinite;
     struct film_number number[FILM_NUMBERS]; /* ended by a NULL name */
-    bool learnt_short;   /* its samples are by what was learnt in haste */
+    bool learnt_short;   /* its samples use what was learnt in less than the full time */
 };
 
 /* film_init: black, for the pixels of `rect` out of a frame of full_width x full_height. Release with film_free. */

@@ -77,7 +77,7 @@ struct light {
     bool two_sided;
     bool hidden; /* from the lens: no path of two vertices has its light */
     int prim;
-    int medium;              /* that it stands in; area: unless its shape bounds media */
+    int medium;              /* around it; area: unless its shape bounds media */
     int group;               /* see light_group */
     int first_cell, n_cells; /* its cells, see below; set by light_prepare */
     rgb L;

@@ -4,7 +4,7 @@
  * of these, and nothing else.
  *
  * Where there are lights at infinity, a medium that has no bound ends on the sphere about the scene (light.h), which
- * then holds the lens, too. Beyond are these lights alone: they stand in no medium, whatever is said above them.
+ * then holds the lens, too. Beyond are these lights alone: they are in no medium, whatever a scene says before them.
  */
 #ifndef ASBDPT_MEDIUM_H
 #define ASBDPT_MEDIUM_H

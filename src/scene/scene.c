@@ -189,7 +189,7 @@ bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct
     return kd_occluded(&s->kd_lamps, &s->geo, &before);
 }
 
-/* Is a surface on the ray, or, if the light is `emitted`, a see-through lamp? */
+/* Is a surface on the ray, or, if the light is `emitted`, a see-through light? */
 static bool blocked(const struct scene *s, const struct ray *ray, bool emitted)
 {
     return kd_occluded(&s->kd, &s->geo, ray) ||

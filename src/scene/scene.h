@@ -1,13 +1,13 @@
 /* scene.h: everything a scene file describes; it owns all of it. Objects refer to each other by index.
  *
- * A see-through lamp is an area light without material. Rays pass it; light obeys one rule:
+ * A see-through light is an area light without material. Rays pass it; light obeys one rule:
  *
- *     What lights emit does not pass see-through lamps; what surfaces scatter does.
+ *     What lights emit does not pass see-through lights; what surfaces scatter does.
  *
- * So of a path only the segment from its light to the first surface, or to the lens, is stopped by such a lamp, from
+ * So of a path only the segment from its light to the first surface, or to the lens, is stopped by such a light, from
  * its dark side as well. That is a property of the path, whichever strategy makes it: scene_lit asks for s = 1,
- * scene_lamp for eye walks, which collect of each segment the first see-through lamp, in place of any light behind, and
- * go on, and scene_lamp_stops for light walks, which end at one on their first segment.
+ * scene_lamp for eye walks, which collect of each segment the first see-through light, in place of any light behind,
+ * and go on, and scene_lamp_stops for light walks, which end at one on their first segment.
  *
  * Tests: test_strategies.c, test_scenes.c.
  */
@@ -29,7 +29,7 @@
 struct scene {
     struct geometry geo;
     struct kdtree kd;       /* of the surfaces that have a material */
-    struct kdtree kd_lamps; /* of those that have none: the see-through lamps */
+    struct kdtree kd_lamps; /* of those that have none: the see-through lights */
     struct texture_set textures;
     struct material **material; /* [n_materials], owned with what they point to */
     int n_materials;
@@ -65,18 +65,18 @@ void scene_resize(struct scene *s, int width, int height);
  * the scene stays where it is in memory. */
 void scene_prepare(struct scene *s);
 
-/* scene_bounds: the box of all surfaces of a prepared scene, see-through lamps among them; the origin if there are
+/* scene_bounds: the box of all surfaces of a prepared scene, see-through lights among them; the origin if there are
  * none. */
 void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi);
 
 /* scene_intersect: first surface along the ray; false if it leaves the scene. */
 bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out);
 
-/* scene_lamp: first see-through lamp along an eye walk's ray, before the surface at *end (NULL: however far). One that
- * touches that surface shines before it, as it does for scene_lit, whose segment ends short of the lamp. */
+/* scene_lamp: first see-through light along an eye walk's ray, before the surface at *end (NULL: however far). One that
+ * touches that surface shines before it, as it does for scene_lit, whose segment ends short of the light. */
 bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surface *end, struct surface *out);
 
-/* scene_lamp_stops: is there a see-through lamp along a light's ray before the surface at *end? One that touches that
+/* scene_lamp_stops: is there a see-through light along a light's ray before the surface at *end? One that touches that
  * surface does not count, as it does not for scene_lit, whose segment begins short of the surface. */
 bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end);
 

@@ -26,7 +26,7 @@ void slide_free(struct slide *s);
 rgb slide_goniometric(const struct slide *s, vec3 w);
 
 /* slide_projection: the same where the picture is projected along z, its shorter side (without a picture both) as wide
- * as tan_half at z = 1 to either side, u growing with x and v with y. Black beside it and behind. */
+ * as tan_half at z = 1 to either side, u growing with x and v with y. Black outside and behind. */
 rgb slide_projection(const struct slide *s, double tan_half, vec3 w);
 
 /* slide_cos_corner: the cosine between the z axis and the farthest corner of such a projection. */

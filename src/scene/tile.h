@@ -3,8 +3,8 @@
  * A pixel's estimate has two parts. `eye`: per iteration, what its own eye sub-path brought (all strategies with
  * t >= 2). `splat`: what light sub-paths of any pixel sent straight to the lens (t = 1), spread by the pixel filter.
  *
- * On request there are planes for what each group of lights (light.h) brings, and for alpha. A sample's value grows
- * from 0 by what its paths bring, one after the other; to the plane of its light every step brings two terms, the value
+ * On request there are planes for the light of each group of lights (light.h), and for alpha. A sample's value grows
+ * from 0 by what its paths add, one after the other; to the plane of its light every step adds two terms, the value
  * after it less the value before it. Added up, all but the last value cancel: so the planes of all lights together are
  * the picture, to the bit.
  *
@@ -61,7 +61,7 @@ static inline bool rgb_fits_float(rgb c) { return fits_float(c.r) && fits_float(
 struct pixel_rect splat_pixels(const struct splat *s, const struct filter *filter, struct pixel_rect within);
 bool splat_part(const struct splat *s, const struct filter *filter, int x, int y, float out[3]);
 
-/* What a film, or a tile, has beside the picture. Planes are numbered: the picture, groups of lights, alpha. */
+/* What a film, or a tile, has besides the image. Planes are numbered: the picture, groups of lights, alpha. */
 struct planes {
     int lights; /* groups of lights; 0: none is told apart */
     bool alpha;

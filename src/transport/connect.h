@@ -28,8 +28,8 @@ struct connection {
     double pdf;      /* connect_direct: density of the point, see light.h */
 };
 
-/* connect_hit: z is the last of t >= 2 eye vertices, and prev is z_{t-2}. If the last edge passes a see-through lamp,
- * the lamp takes the place of z. A light that the camera sees directly (t = 2) has weight 1, since no other strategy
+/* connect_hit: z is the last of t >= 2 eye vertices, and prev is z_{t-2}. If the last edge passes a see-through light,
+ * that light takes the place of z. A light that the camera sees directly (t = 2) has weight 1, since no other strategy
  * makes paths of two vertices. */
 struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *prev,
                               const struct vertex *z, int t);

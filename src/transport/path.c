@@ -30,7 +30,7 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
     }
 }
 
-/* The ray met no surface. If there are infinite lights, or if it passed a see-through lamp, the eye sub-path ends on
+/* The ray met no surface. If there are infinite lights, or if it passed a see-through light, the eye sub-path ends on
  * them. Its density is that of the direction. [PBRT3 16.3.5] */
 static bool escape(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                    const struct vertex *lamp)
@@ -72,7 +72,7 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     return true;
 }
 
-/* The first see-through lamp on the ray before the surface *end (NULL: no surface), as a vertex; NULL if there is
+/* The first see-through light on the ray before the surface *end (NULL: no surface), as a vertex; NULL if there is
  * none. */
 static const struct vertex *meet_lamp(const struct walk *w, const struct vertex *prev, const struct departure *from,
                                       const struct surface *end)
@@ -160,7 +160,7 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
         if (mode == RADIANCE)
             lamp = meet_lamp(w, &path[n - 1], &from, met ? &at : NULL);
         else if (n == 1 && met && scene_lamp_stops(w->scene, &from.ray, &at))
-            break; /* emitted light does not pass lamps */
+            break; /* emitted light does not pass see-through lights */
         if (!met) {
             if (mode == RADIANCE && escape(w, &path[n], &path[n - 1], &from, lamp))
                 n++;

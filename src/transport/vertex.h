@@ -46,8 +46,8 @@ enum vertex_kind {
  * A vertex within a medium (scene/medium.h) has the fields of a SURFACE, with ng 0, prim_id WITHIN_MEDIUM and pdf_fwd
  * per volume, 1/m^3.
  *
- * A see-through lamp is an area light without a material (scene.h). Walks may start on it, and pass it without a
- * vertex. The first such lamp that an eye walk passes on an edge is the `lamp` of the vertex at the edge's end. It is
+ * A see-through light is an area light without a material (scene.h). Walks may start on it, and pass it without a
+ * vertex. The first such light that an eye walk passes on an edge is the `lamp` of the vertex at the edge's end. It is
  * the last vertex of a path of its own, and no vertex of the sub-path. Its kind is SURFACE. It has only the fields that
  * connect_hit needs.
  */
