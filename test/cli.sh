@@ -304,7 +304,7 @@ check cmp -s aov.albedo.pfm two.x.albedo.pfm
 check [ ! -e two.x.normal.pfm ]
 check [ -s aov.normal.pfm -a -s aov.position.pfm ]
 expect 2 'known are albedo' "$program" render "$box" $small --aov albedo,norml -o aov.png
-expect 1 'few.variance.pfm: not written: one sample' "$program" render "$box" --spp 2 --samples 0:1 --res 8x8 --quiet \
+expect 1 'aov: not written, for one sample' "$program" render "$box" --spp 2 --samples 0:1 --res 8x8 --quiet \
     --aov variance -o few.png
 check [ -s few.png -a ! -e few.variance.pfm ]
 expect 2 'an image with a name' "$program" render "$box" $small --aov depth -o -
@@ -322,10 +322,6 @@ for name in R albedo.R albedo.G albedo.B normal.X normal.Y normal.Z depth.Z posi
 done
 check [ ! -e l.albedo.pfm ]
 expect 2 'no other format has them' "$program" render "$box" $small --aov depth --layers -o a.png
-expect 0 'no such layer' "$program" render "$box" --res 4x4 --spp 1 --layers --aov variance,depth -o one.exr
-check grep -aq depth.Z one.exr
-check [ "$(grep -ac variance one.exr)" = 0 ]
-expect 2 'no effect without --aov' "$program" render "$box" $small --layers -o a.exr
 expect 0 '' "$program" render "$scenes/bathroom.pbrt" $small --aov albedo,depth --seen -o seen.pfm
 expect 0 '' "$program" render "$scenes/bathroom.pbrt" $small --aov albedo,depth -o first.pfm
 check cmp -s seen.pfm first.pfm
@@ -340,7 +336,7 @@ expect 0 '128 spp' "$program" render "$box" $noisy --spp 1000 --noise8 5 --noise
 check cmp -s noise1.pfm noise3.pfm
 check "$program" render "$box" $noisy --spp 128 -o noise0.pfm --quiet
 check cmp -s noise1.pfm noise0.pfm
-expect 0 'at 64 samples per pixel: more than' "$program" render "$box" $noisy --spp 70 --noise 0.001 -o a.pfm
+expect 0 'at 64 samples per pixel: above' "$program" render "$box" $noisy --spp 70 --noise 0.001 -o a.pfm
 expect 0 'noise is unknown' "$program" render "$box" $noisy --spp 60 --noise 0.5 -o a.pfm
 expect 2 'noise is that of the whole' "$program" render "$box" $noisy --spp 60 --noise 0.5 --samples 0:4 -o a.part
 expect 2 'are a chain' "$lab" render "$box" $small --integrator mmlt --noise 0.1 -o a.pfm

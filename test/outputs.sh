@@ -104,7 +104,7 @@ cp three.pbrt scene3.pbrt
 refused 1 'bad/light01_distant.pfm: cannot be created: Is a directory' \
     "$program" render scene3.pbrt $tiny --lights bad -o new.pfm
 refused 1 'here they come in blocks' "$program" render scene.pbrt $tiny --spp 64 --integrator asbdpt -P select=bins \
-    --samples 0:7 -o new.part --lights none
+    --samples 0:7 -o new.part --lights sub
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt --lights none
 for command in strategies transient equal-time experiment family; do
     expect 1 'nothing.pbrt' "$lab" $command nothing.pbrt -o none

@@ -73,7 +73,6 @@ struct files {
     struct outputs pictures;
     struct aov_files aov;
     struct file_output stats; /* its stream NULL: none; it is complete when all others are */
-    const char *made;         /* a directory that was not there before; NULL: none */
 };
 
 static void abandon(struct files *f)
@@ -82,8 +81,6 @@ static void abandon(struct files *f)
     outputs_abandon(&f->aov.out);
     if (f->stats.stream != NULL)
         file_abandon(&f->stats);
-    if (f->made != NULL)
-        remove(f->made); /* if nothing has come into it */
 }
 
 /* What can be said before the scene is loaded. What has no place in a part (render/part.h) is not there after
@@ -97,7 +94,6 @@ static bool check_options(const struct job_options *o, struct files *f, struct e
         return false;
     if (o->keep.resume != NULL && f->aov.wanted[AOV_VARIANCE])
         return error_set(err, "%s: variance is not saved and cannot be resumed", o->keep.resume);
-    f->made = o->lights != NULL && !file_exists(o->lights) ? o->lights : NULL;
     return keep_check(&o->keep, err);
 }
 

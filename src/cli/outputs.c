@@ -73,11 +73,6 @@ static bool write_one(struct outputs *o, struct output *one, int width, int heig
         free(own);
         return ok;
     }
-    if (one->missing != NULL) {
-        error_set(err, "%s: not written: %s", one->file.path, one->missing);
-        file_abandon(&one->file);
-        return false;
-    }
     if (one->is_part) {
         part_write(&one->file, o->part, o->film);
         return file_commit(&one->file, err);

@@ -17,7 +17,6 @@ struct output {
     bool is_part;
     int plane;           /* of the film, which they are where it is not 0 */
     const float *pixels; /* where they are others than the picture's, else NULL; borrowed */
-    const char *missing; /* why there is nothing to write after all, or NULL */
 };
 
 enum { OUTPUTS_LAYERS = 16 };

@@ -12,8 +12,6 @@
 #include "image/image.h"
 #include "render/parameters.h"
 
-static const char NO_VARIANCE[] = "one sample per pixel shows no variance";
-
 bool aov_read(const char *list, struct aov_files *out, struct error *err)
 {
     memset(out, 0, sizeof *out);
@@ -80,21 +78,15 @@ static void add_layer(struct outputs *out, enum aov which, const float *picture)
         out->layer[out->n_layers++] = (struct channel){NAMES[which][c], picture + c, 3, true};
 }
 
-/* Say where each comes from; of one sample there is no variance. */
-static void place(struct aov_files *f, bool has_variance)
+/* Say where each comes from. */
+static void place(struct aov_files *f)
 {
     struct outputs *out = &f->out;
-    for (int i = 0, at = 0; i < N_AOVS; i++) {
-        bool missing = i == AOV_VARIANCE && !has_variance;
-        if (f->wanted[i] && f->layers && missing) {
-            fprintf(stderr, "asbdpt: warning: %s, so there is no such layer\n", NO_VARIANCE);
-        } else if (f->wanted[i] && f->layers) {
+    for (int i = 0, at = 0; i < N_AOVS; i++)
+        if (f->wanted[i] && f->layers)
             add_layer(out, (enum aov)i, f->picture[i]);
-        } else if (f->wanted[i]) {
-            out->item[at].missing = missing ? NO_VARIANCE : NULL;
+        else if (f->wanted[i])
             out->item[at++].pixels = f->picture[i];
-        }
-    }
 }
 
 bool aov_write(struct aov_files *f, const struct scene *scene, const struct render_options *options,
@@ -104,6 +96,8 @@ bool aov_write(struct aov_files *f, const struct scene *scene, const struct rend
     bool first_hit = false, ok = true;
     if (f->out.n == 0)
         return true;
+    if (f->wanted[AOV_VARIANCE] && film->iterations < 2)
+        return error_set(err, "--aov: not written, for one sample per pixel has no variance");
     first.end = film->iterations > 0 ? film->iterations : 1;
     for (int i = 0; i < N_AOVS; i++) {
         f->picture[i] = mem_alloc(rect_pixels(film->rect) * 3, sizeof *f->picture[i]);
@@ -112,7 +106,7 @@ bool aov_write(struct aov_files *f, const struct scene *scene, const struct rend
     if (f->wanted[AOV_VARIANCE])
         aov_variance(film, scene->film_scale, f->picture[AOV_VARIANCE]);
     if (!first_hit || aov_render(scene, &first, seen, f->picture)) {
-        place(f, film->iterations > 1);
+        place(f);
         ok = outputs_write(&f->out, rect_width(film->rect), rect_height(film->rect), pixels, quiet, err);
     } else {
         fprintf(stderr, "asbdpt: --aov: not written, for there are pixels that have not been looked at\n");

@@ -73,7 +73,6 @@ static bool read_text(struct params *p, struct lexer *l, struct param *item)
 {
     struct token t;
     char buffer[64];
-    struct lexer before = *l;
     if (!lexer_next(l, &t)) {
         p->failed = true;
         return false;
@@ -82,8 +81,6 @@ static bool read_text(struct params *p, struct lexer *l, struct param *item)
         return add_number(p, item, t.number);
     bool bare_bool = t.kind == TOKEN_WORD && (strcmp(t.text, "true") == 0 || strcmp(t.text, "false") == 0);
     bool text = t.kind == TOKEN_STRING || (item->type == PARAM_BOOL && bare_bool);
-    if (t.kind == TOKEN_WORD && !text)
-        *l = before; /* it may be the next directive */
     if (!text || (item->n > 0 && !item->is_text))
         return params_fail(p, t.position, "\"%s\" wants %s here, not %s", item->name,
                            item->is_text || (item->n == 0 && wants_text(item->type)) ? "a quoted string" : "a number",

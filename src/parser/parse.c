@@ -11,13 +11,10 @@
 bool parse_string(struct parser *p, struct token *out, const char *what)
 {
     char found[64];
-    struct lexer before = p->lexer;
     if (!lexer_next(&p->lexer, out))
         return false;
     if (out->kind == TOKEN_STRING)
         return true;
-    if (out->kind == TOKEN_WORD)
-        p->lexer = before; /* it may be the next directive */
     return source_error(&p->messages, out->position, "%s wants %s in quotes here, not %s", p->directive.text, what,
                        token_text(out, found, sizeof found));
 }

@@ -16,11 +16,8 @@ static bool read_numbers(struct parser *p, double *out, int n)
     if (bracket)
         lexer_next(l, &t);
     for (int i = 0; i < n + bracket; i++) {
-        struct lexer before = *l;
         if (!lexer_next(l, &t))
             return false;
-        if (t.kind == TOKEN_WORD)
-            *l = before; /* it may be the next directive */
         if (t.kind != (i < n ? TOKEN_NUMBER : TOKEN_CLOSE))
             return source_error(&p->messages, t.position, "%s wants %d numbers; here should be %s, not %s",
                                p->directive.text, n, i < n ? "the next" : "]", token_text(&t, found, sizeof found));
