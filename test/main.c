@@ -41,6 +41,7 @@ static const struct test_entry ENTRIES[] = {
     {"emission", test_emission, false},
     {"learning", test_learning, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
+    {"draws", test_what_is_drawn, true},
     {"rivals", test_rivals, false},   {"vcm", test_vcm, false},   {"ellipse", test_ellipse, false},
     {"chains", test_chains, false},
     {"part", test_part, false}, {"trace", test_trace, false},
@@ -83,6 +84,7 @@ int main(int argc, char **argv)
     char tmp[128];
     struct test_setting setting = {.seed = 1, .tmp = tmp, .out = stdout};
     bool slow = false;
+    const char *last = NULL; /* line, for somebody who wants to know that the program has come to its end */
     int first = 1;
     for (; first < argc && argv[first][0] == '-'; first++) {
         if (strcmp(argv[first], "-l") == 0) {
@@ -97,6 +99,8 @@ int main(int argc, char **argv)
             setting.once = setting.first = true;
         } else if (strcmp(argv[first], "--show") == 0) {
             setting.show = true;
+        } else if (strcmp(argv[first], "--last") == 0 && first + 1 < argc) {
+            last = argv[++first];
         } else if (strcmp(argv[first], "--seed") == 0 && first + 1 < argc) {
             setting.seed = strtoull(argv[++first], NULL, 10);
         } else if (strcmp(argv[first], "--scenes") == 0 && first + 1 < argc) {
@@ -117,7 +121,7 @@ int main(int argc, char **argv)
             return 0;
         } else {
             fprintf(stderr, "usage: build/test [-l] [--slow] [--once | --first] [--show] [--seed N]"
-                            " [--scenes FIRST:END] [NAME...]\n"
+                            " [--scenes FIRST:END] [--last LINE] [NAME...]\n"
                             "       build/test --scene N | --evil N | --structure N\n");
             return 2;
         }
@@ -142,5 +146,7 @@ int main(int argc, char **argv)
     int failed = test_run(chosen, n, &setting);
     if (!remove_tree(tmp))
         fprintf(stderr, "build/test: could not remove %s\n", tmp);
+    if (last != NULL)
+        puts(last);
     return failed == 0 ? 0 : 1;
 }

@@ -276,9 +276,12 @@ struct draws {
     double number, paths; /* C and K */
     bool whole;           /* sub-paths are drawn, not vertices for an eye region */
     int spoilt;           /* every sub-path is, or every 2nd; 0: none */
+    double delta;         /* of pool, whose importance is throughput; 0: no probability is known */
     const struct method *method;
     long told;
     double worst; /* largest relative difference */
+    double q[256], unlike; /* [paths] what the formula says; the largest relative difference from it */
+    const struct vertex *first[256]; /* [paths] of each sub-path */
     /* Of the eye region that is looked at, -1: any: */
     const struct vertex *drawn[256]; /* [n] unlike ones, whose probabilities sum to: */
     int n, region;
@@ -295,6 +298,9 @@ static void note_draw(void *context, const struct pixel_sample *sample, const st
         return;
     d->told++;
     d->worst = fmax(d->worst, fabs(path->scale * path->pmf * d->number * d->paths - 1));
+    for (int k = 0; d->delta > 0 && k < (int)d->paths; k++)
+        if (d->first[k] == what)
+            d->unlike = fmax(d->unlike, fabs(path->pmf / d->q[k] - 1));
     d->region = d->region < 0 ? path->z->eye_region : d->region;
     while (i < d->n && d->drawn[i] != what)
         i++;
@@ -305,15 +311,24 @@ static void note_draw(void *context, const struct pixel_sample *sample, const st
     d->least = d->n == 1 ? path->pmf : fmin(d->least, path->pmf);
 }
 
-/* The furthest vertices get throughputs by which nothing can be chosen. */
+/* The furthest vertices get throughputs by which nothing can be chosen, or very small and very large ones. */
 static void spoil(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
 {
     static const double useless[] = {-1e9, NAN, INFINITY, -INFINITY};
-    const struct draws *d = pass->observer->context;
+    struct draws *d = pass->observer->context;
     struct light_pool *pool = scratch;
-    for (int k = 0; k < pool->n; k += d->spoilt)
-        if (pool->length[k] > 0)
-            pool->vertex[pool->start[k] + (size_t)pool->length[k] - 1].beta = rgb_grey(useless[k / d->spoilt % 4]);
+    double sum = 0;
+    for (int k = 0; k < pool->n; k++) {
+        struct vertex *path = &pool->vertex[pool->start[k]], *last = path + pool->length[k] - 1;
+        if (pool->length[k] > 0 && d->spoilt > 0 && k % d->spoilt == 0)
+            last->beta = rgb_grey(useless[k / d->spoilt % 4]);
+        else if (pool->length[k] > 0 && d->delta > 0)
+            last->beta = rgb_scale(last->beta, pow(10, k % 7 - 3));
+        d->first[k] = path;
+        sum += d->q[k] = d->delta > 0 ? path_throughput(path, pool->length[k]) : 0;
+    }
+    for (int k = 0; k < pool->n; k++)
+        d->q[k] = (1 - d->delta) * d->q[k] / sum + d->delta / d->paths;
     d->method->begin(scratch, state, pass, iteration);
 }
 
@@ -334,11 +349,12 @@ static void check_draws(struct test *t, struct scene *scene, const char *way, st
     struct method spoiling = *p.method;
     spoiling.begin = spoil;
     d.method = p.method;
-    p.method = d.spoilt ? &spoiling : p.method;
+    p.method = d.spoilt > 0 || d.delta > 0 ? &spoiling : p.method;
     p.method->render(&p, &pass);
     CHECK(t, d.told > 100 && d.worst < 1e-9, "%s: %ld draws, what they count for is off by %g", way, d.told, d.worst);
     CHECK(t, d.sum < 1 + 1e-9, "%s: probabilities of %d that were drawn sum to %g", way, d.n, d.sum);
     CHECK(t, d.sum > least, "%s: too few, %d, are drawn: their probabilities sum to %g", way, d.n, d.sum);
+    CHECK(t, d.unlike < 1e-9, "%s: q of a sub-path is off by a factor of %g", way, d.unlike + 1);
     double useless = d.spoilt == 1 ? 1 : 0.1; /* if nothing is of any use delta is 1 */
     CHECK(t, d.spoilt == 0 || fabs(d.least * d.paths - useless) < 1e-9,
           "%s: what is no importance has %g times the probability that delta leaves it", way,
@@ -350,12 +366,14 @@ static void check_draws(struct test *t, struct scene *scene, const char *way, st
 }
 
 /* 256 pixels. Where they share one light sub-path, whatever can be drawn is drawn soon. */
-static void test_counts(struct test *t)
+void test_what_is_drawn(struct test *t)
 {
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
         return;
     check_draws(t, &scene, "asbdpt select=pool", (struct draws){.number = 1, .paths = 256, .whole = true}, 0.5);
+    check_draws(t, &scene, "asbdpt select=pool metric=throughput delta=0.3",
+                (struct draws){.number = 1, .paths = 256, .whole = true, .delta = 0.3}, 0.01);
     for (int spoilt = 2; spoilt > 0; spoilt--)
         check_draws(t, &scene, "asbdpt select=pool metric=throughput",
                     (struct draws){.number = 1, .paths = 256, .whole = true, .spoilt = spoilt}, 0.4);
@@ -372,7 +390,7 @@ static void test_counts(struct test *t)
 
 void test_asbdpt(struct test *t)
 {
-    test_counts(t);
+    test_what_is_drawn(t);
     test_bias(t);
     test_constant_pool(t);
     test_age(t);

@@ -18,7 +18,7 @@ static void test_inverse(struct test *t, const struct camera *c, struct rng *r)
         CHECK(t, J > 0 && fabs(length(ray.d) - 1) < 1e-12, "J = %g, |d| = %.17g", J, length(ray.d));
         worst = most_of(worst, most_of(fabs(px - qx), fabs(py - qy)));
     }
-    CHECK(t, worst < 1e-7, "projection is off by %g pixels", worst);
+    CHECK(t, worst < 1e-7, "screen: projection is off by %g pixels", worst);
     double px, py;
     CHECK(t, c->kind == CAMERA_ENVIRONMENT || camera_project(c, c->position, neg(c->forward), &px, &py) == 0,
           "a direction backwards was accepted");
@@ -97,12 +97,29 @@ static void test_environment(struct test *t, struct rng *r)
     }
 }
 
-/* Any camera under any transform: before the view, as in "Scale 3 1 1 LookAt ...", and after it. */
+/* Rays begin all over the lens: of points on a disk of radius r the mean squared distance from its middle is r^2/2. */
+static void test_lens(struct test *t)
+{
+    enum { N = 64 };
+    struct camera c = camera_of(CAMERA_PERSPECTIVE, 0.3, 1, 200, 100);
+    double mean = 0;
+    for (int i = 0; i < N * N; i++)
+        mean += length2(sub(camera_ray(&c, 70, 20, (i % N + 0.5) / N, (i / N + 0.5) / N).o, c.position)) / (N * N);
+    CHECK(t, fabs(mean / (0.5 * 0.3 * 0.3) - 1) < 0.01, "lens: the mean squared distance of its points from its middle "
+          "is %g, not %g", mean, 0.5 * 0.3 * 0.3);
+}
+
+/* Any camera under any transform: before the view, as in "Scale 3 1 1 LookAt ...", and after it. Where it has a screen
+ * window pixels are no squares. */
 static void test_transformed(struct test *t, struct rng *r)
 {
     for (int i = 0; i < 100; i++) {
         struct camera c = camera_of((enum camera_kind)(i % 3), i % 2 * 0.3, 1, 50 + i % 5 * 50, 100);
         c.world_to_camera = transform_compose(random_affine(r), transform_compose(c.world_to_camera, random_affine(r)));
+        c.has_screen_window = i % 4 == 1;
+        c.screen_window[0] = c.screen_window[2] = -1;
+        c.screen_window[1] = 2;
+        c.screen_window[3] = 0.5;
         camera_prepare(&c, c.width, 100);
         CHECK(t, camera_is_usable(&c), "camera %d is not usable", i);
         test_inverse(t, &c, r);
@@ -115,6 +132,7 @@ void test_camera(struct test *t)
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 1, 0);
     test_orthographic(t, &r);
     test_environment(t, &r);
+    test_lens(t);
     test_transformed(t, &r);
     /* The field of view is along the shorter side. */
     struct camera c = camera_default();

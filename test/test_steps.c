@@ -30,6 +30,9 @@ struct room {
     struct sampler sampler;
 };
 
+/* Rooms of a millimetre's fraction and of kilometres: what is compared with a fixed number is seen in one of them. */
+static const char *const SCALES[] = {"", "Scale 1e-5 1e-5 1e-5\n", "Scale 1000 1000 1000\n"};
+
 static bool build(struct test *t, const char *text, const char *more, struct room *r)
 {
     char all[4096];
@@ -44,35 +47,41 @@ static void tear_down(struct room *r)
     scene_free(&r->scene);
 }
 
-static int walk_eye(struct test *t, struct room *r, uint64_t i, double threshold, struct vertex *path, int max)
+static int walk(struct test *t, struct room *r, enum transport mode, uint64_t i, double threshold, struct vertex *path,
+                int max)
 {
     struct walk w = {&r->scene, &ALL, &r->arena, &r->sampler, threshold};
     arena_reset(&r->arena);
-    r->sampler = sampler_start(test_seed(t), RNG_EYE, 1, i);
-    return path_eye(&w, (double)(i % 16) + 0.3, 8.5, path, max);
+    r->sampler = sampler_start(test_seed(t), mode == RADIANCE ? RNG_EYE : RNG_LIGHT, 1, i);
+    return mode == RADIANCE ? path_eye(&w, (double)(i % 16) + 0.3, 8.5, path, max) : path_light(&w, path, max);
+}
+
+static int walk_eye(struct test *t, struct room *r, uint64_t i, double threshold, struct vertex *path, int max)
+{
+    return walk(t, r, RADIANCE, i, threshold, path, max);
 }
 
 /* --- the walk ---------------------------------------------------------------------------------------- */
 
 /* In the box every vertex is matte: beta is albedo to a power, pdf_rev a cosine over pi, and no walk ends. */
-static void walks_in_a_box(struct test *t)
+static void walks_in_a_box(struct test *t, const char *scale, enum transport mode)
 {
     struct room r;
     struct vertex path[MAX + 1];
     double beta = 0, rev = 0, itself = 0;
     int shorter = 0, longer = 0, vain = 0;
-    if (!build(t, BOX, "", &r))
+    if (!build(t, BOX, scale, &r))
         return;
     for (uint64_t i = 0; i < 500; i++) {
         int max = 2 + (int)(i % (MAX - 2)), n;
         memset(path, 0, sizeof path);
         path[max].length = -7;
-        n = walk_eye(t, &r, i, 0, path, max);
+        n = walk(t, &r, mode, i, 0, path, max);
         shorter += n < max;
         longer += n > max || path[max].length != -7;
         vain += r.sampler.drawn[DRAW_SCATTERING] > max - 2;
         for (int k = 1; k < n && k < max; k++) {
-            beta = most_of(beta, fabs(path[k].beta.g / pow(ALBEDO_PERCENT / 100.0, k - 1) - 1));
+            beta = most_of(beta, fabs(path[k].beta.g / path[1].beta.g / pow(ALBEDO_PERCENT / 100.0, k - 1) - 1));
             itself += path[k].prim_id == path[k - 1].prim_id && k > 1;
             if (k + 1 < n)
                 rev = most_of(rev, fabs(path[k].pdf_rev - fabs(dot(path[k].ng, path[k].wo)) * INV_PI));
@@ -84,6 +93,35 @@ static void walks_in_a_box(struct test *t)
     CHECK(t, beta < 1e-9, "throughput: beta is off by a factor of %g where it is a power of the albedo", beta + 1);
     CHECK(t, rev < 1e-9, "pdf_rev of a matte vertex is off by %g", rev);
     CHECK(t, itself == 0, "itself: %g rays meet the flat surface that they leave", itself);
+    tear_down(&r);
+}
+
+/* What a departure says, of surfaces and in fog, of very bright walks and very dim ones. */
+static void departures(struct test *t, const char *scale)
+{
+    struct room r;
+    struct vertex path[3];
+    if (!build(t, BOX, scale, &r))
+        return;
+    for (uint64_t i = 0; i < 100; i++) {
+        struct walk w = {&r.scene, &ALL, &r.arena, &r.sampler, 0};
+        struct departure out;
+        if (walk_eye(t, &r, i, 0, path, 2) != 2)
+            continue;
+        struct vertex v = path[1];
+        bool fog = i % 2 == 1;
+        v.kind = fog ? VERTEX_MEDIUM : v.kind;
+        v.beta = rgb_grey(pow(10, (double)(i % 41) - 20));
+        if (!CHECK(t, walk_leave(&w, &v, RADIANCE, &out), "throughput: a walk of beta %g ends", v.beta.g))
+            continue;
+        CHECK(t, fog || fabs(out.beta.g / v.beta.g * 100 / ALBEDO_PERCENT - 1) < 1e-9,
+              "throughput: of %g the walls leave %g", v.beta.g, out.beta.g);
+        double margin = fog ? 0 : ray_margin(v.p);
+        CHECK(t, length(sub(out.ray.o, v.p)) == 0 && out.ray.tmin == margin && out.ray.tmax == INFINITY &&
+              out.ray.from == v.prim_id, "itself: the ray from %s begins at %g, not %g, ends at %g, not at infinity, "
+              "and starts on surface %d, not %d", fog ? "fog" : "a wall", out.ray.tmin, margin, out.ray.tmax,
+              (int)out.ray.from, (int)v.prim_id);
+    }
     tear_down(&r);
 }
 
@@ -151,7 +189,11 @@ static void ends(struct test *t)
 
 void test_walk(struct test *t)
 {
-    walks_in_a_box(t);
+    for (int i = 0; i < 3; i++) {
+        walks_in_a_box(t, SCALES[i], RADIANCE);
+        walks_in_a_box(t, SCALES[i], IMPORTANCE);
+        departures(t, SCALES[i]);
+    }
     roulette(t);
     ends(t);
 }
@@ -187,18 +229,20 @@ static void refused(struct test *t, const struct vertex *y, const struct vertex 
     CHECK(t, rgb_is_black(j.value), "stale: the value is not black after a refusal (%s)", why);
 }
 
-void test_joint(struct test *t)
+static void joints_in_a_box(struct test *t, const char *scale)
 {
     struct room r;
     struct vertex eye[MAX], light[MAX];
     int joined = 0;
-    if (!build(t, BOX, "", &r))
+    if (!build(t, BOX, scale, &r))
         return;
     for (uint64_t i = 0; i < 40; i++) {
         int n = walk_eye(t, &r, i, 0, eye, 5);
         struct sampler other = sampler_start(test_seed(t), RNG_LIGHT, 1, i);
         struct walk w = {&r.scene, &ALL, &r.arena, &other, 0};
         int m = path_light(&w, light, 5);
+        for (int s = 2; s <= m; s++)
+            light[s - 1].beta = rgb_scale(light[s - 1].beta, i % 2 == 0 ? 1 : 1e9); /* a light of any brightness */
         for (int s = 2; s <= m; s++)
             for (int k = 2; k <= n; k++) {
                 struct joint j = {.value = {7, 7, 7}};
@@ -216,6 +260,14 @@ void test_joint(struct test *t)
     }
     CHECK(t, joined > 100, "only %d pairs", joined);
     tear_down(&r);
+}
+
+void test_joint(struct test *t)
+{
+    struct room r;
+    struct vertex eye[MAX];
+    for (int i = 0; i < 3; i++)
+        joints_in_a_box(t, SCALES[i]);
     if (build(t, BOX, "AttributeBegin Material \"mirror\" Translate 0 0 1 Shape \"sphere\" \"float radius\" .9 "
               "AttributeEnd\n", &r)) {
         int n = walk_eye(t, &r, 1, 0, eye, 5);
@@ -229,21 +281,25 @@ void test_joint(struct test *t)
 
 /* --- the formulas of the weights --------------------------------------------------------------------- */
 
-void test_formulas(struct test *t)
+/* With densities per area of a large world, x small, and of a small one. */
+static void formulas(struct test *t, double x)
 {
     const struct mis_counts balance = {.power = false}, power = {.power = true};
-    const double g = 0.7, c = 3, rev = 0.4, mis = 5, F = 2.5, R = 1.75, n = 4, A = 6, B = 9;
+    const double g = 0.7 * x, c = 3, rev = 0.4, mis = 5, F = 2.5 * x, R = 1.75 * x, n = 4, A = 6 / x, B = 9 * x;
     CHECK(t, close_to(mis_step(&balance, c, rev, mis, F, g), g * (c + rev * mis) / F), "mis_step");
     CHECK(t, close_to(mis_side(&balance, R, F, c, rev, mis), R / F * (c + rev * mis)), "mis_side");
     CHECK(t, close_to(mis_weight(&balance, n, A, B), n / (n + A + B)), "mis_weight");
     CHECK(t, close_to(mis_step(&power, c, rev, mis, F, g), sqr(g / F) * (sqr(c) + sqr(rev) * mis)), "power: mis_step");
     CHECK(t, close_to(mis_side(&power, R, F, c, rev, mis), sqr(R / F) * (sqr(c) + sqr(rev) * mis)), "power: mis_side");
     CHECK(t, close_to(mis_weight(&power, n, A, B), sqr(n) / (sqr(n) + A + B)), "power: mis_weight");
+}
 
+static void measured(struct test *t, const char *scale)
+{
     struct room r;
     struct vertex path[MAX];
     double pdf = 0, camera = 0, recursion = 0;
-    if (!build(t, BOX, "", &r))
+    if (!build(t, BOX, scale, &r))
         return;
     for (uint64_t i = 0; i < 200; i++) {
         int m = walk_eye(t, &r, i, 0, path, 6);
@@ -264,4 +320,13 @@ void test_formulas(struct test *t)
     CHECK(t, camera < 1e-9, "camera: pdf_fwd of the first vertex is off by a factor of %g", camera + 1);
     CHECK(t, recursion < 1e-9, "recursion: mis of a vertex is off by a factor of %g", recursion + 1);
     tear_down(&r);
+}
+
+void test_formulas(struct test *t)
+{
+    formulas(t, 1e-12);
+    formulas(t, 1);
+    formulas(t, 1e12);
+    for (int i = 0; i < 3; i++)
+        measured(t, SCALES[i]);
 }

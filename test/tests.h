@@ -7,6 +7,7 @@
 void test_part(struct test *t);
 void test_asbdpt(struct test *t);
 void test_asbdpt_long(struct test *t);
+void test_what_is_drawn(struct test *t); /* part of test_asbdpt, quick */
 void test_aov(struct test *t);
 void test_alias(struct test *t);
 void test_bsdf(struct test *t);

@@ -2,7 +2,8 @@
 # build.sh OUT.html [CLANG]: the page that renders, as one file below a megabyte: page.html with worker.js, the program as
 # WebAssembly, the scenes and their references in it, all of them packed by gzip. Needs clang with lld, wasi-libc and
 # libclang-rt for wasm32 (Debian: clang, lld, wasi-libc, libclang-rt-dev-wasm32); without them it says so and makes
-# nothing. Run from the top; `make web` calls it.
+# nothing. What it shows as the reference, doc/web/reference/NAME.webp, is of asbdpt with 256 samples and three times the
+# stored reference's width (cwebp -q 95). Run from the top; `make web` calls it.
 out=$1
 clang=${2:-clang}
 dir=$(mktemp -d) || exit 1
@@ -13,7 +14,7 @@ if ! command -v "$clang" >/dev/null || ! "$clang" $target -o "$dir/a.wasm" "$dir
     echo "web: skipped, $clang cannot compile for wasm32-wasi here"
     exit 0
 fi
-echo web_show >"$dir/page" # what the page has to give
+printf 'web_show\nweb_learns\n' >"$dir/page" # what the page has to give
 # Of the laboratory the other methods, and what tells of a sample.
 sources="$(ls src/*/*.c | grep -v -e '/main\.c' -e '/program\.c' -e 'render/rows\.c') $(ls test/lab/rivals/*.c test/lab/chains/*.c test/lab/caustics/*.c)
     test/lab/rows.c test/lab/methods.c test/lab/compare.c test/lab/colormap.c test/lab/sheet.c test/lab/font.c test/lab/cmd_trace.c test/lab/markup.c test/lab/trace.c test/lab/worst.c
@@ -39,9 +40,11 @@ embed() { # ATTRIBUTES FILE: a script that is none, with the file in it
         for file in "ref/$name.pfm" "scenes/$name.pbrt" "scenes/$name"/*; do
             [ -f "$file" ] && embed "data-path=\"$file\"" "$file"
         done
+        embed "data-path=\"fine/$name.webp\"" "doc/web/reference/$name.webp"
     done
     embed 'data-path="scenes/rooms.pbrt"' doc/mini/rooms.pbrt # of the tour
     embed 'data-path="ref/rooms.pfm"' doc/web/rooms.pfm
+    embed 'data-path="fine/rooms.webp"' doc/web/reference/rooms.webp
     sed '1,/^<!-- EMBEDDED -->$/d' doc/web/page.html
     echo "<!-- built by $("$clang" --version | head -n 1) -->"
 } >"$dir/page.html" && mkdir -p "$(dirname "$out")" && mv "$dir/page.html" "$out" &&

@@ -6,13 +6,14 @@
  *   web_step     render one block of iterations more, and show the page the picture: a worker that is to be paused must
  *                return between them, since it hears nothing while it computes
  *
- * The page gives web_show. All files are the page's: scenes, references, and what is written.
+ * The page gives web_show and web_learns. All files are the page's: scenes, references, and what is written.
  */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/os.h"
 #include "cli/command.h"
 #include "cli/job_options.h"
@@ -34,6 +35,9 @@ int web_step(void);
  *   rmse8, mean_ratio  against the reference, see compare.h; NaN without one */
 extern void web_show(const uint8_t *rgba, const float *pixels, int width, int height, int iterations, double seconds,
                      double rmse8, double mean_ratio);
+
+/* web_learns: the page's. The share of what is to be learnt before the render. */
+extern void web_learns(double share);
 
 static const struct command *const COMMANDS[] = {&command_trace, NULL};
 const struct program program = {"asbdpt", "the page that renders", "Renders, and tells of a sample.", COMMANDS, NULL};
@@ -82,6 +86,7 @@ static struct watch {
     int k;
     float *pixels;
     uint8_t *rgba;
+    double shown, learnt; /* when the page was shown something, by the clock; the share that is learnt */
 } watched; /* one to a worker, which ends with it */
 
 /* Squares of k x k pixels are compared with one of the reference. */
@@ -97,10 +102,41 @@ static struct difference compare(const struct watch *w)
     return d;
 }
 
+/* The pixels of a square without a sample get the mean of those with one, if there are any. */
+static void fill_square(struct watch *w, int x0, int y0, int size)
+{
+    int width = w->scene.width, known = 0;
+    int x1 = int_within(x0 + size, 0, width), y1 = int_within(y0 + size, 0, w->scene.height);
+    float mean[3] = {0, 0, 0};
+    for (int pass = 0; pass < 2; pass++)
+        for (int y = y0; y < y1; y++)
+            for (int x = x0; x < x1; x++) {
+                bool in = w->film.block.in[y * width + x];
+                float *pixel = &w->pixels[3 * (y * width + x)];
+                known += pass == 0 && in;
+                for (int c = 0; c < 3; c++)
+                    if (pass == 0 && in)
+                        mean[c] += pixel[c];
+                    else if (pass == 1 && !in && known > 0)
+                        pixel[c] = mean[c] / (float)known;
+            }
+}
+
+/* In the first iteration the picture comes coarse, and becomes fine. */
+static void fill(struct watch *w)
+{
+    for (int size = 256; size > 1; size /= 2)
+        for (int y = 0; y < w->scene.height; y += size)
+            for (int x = 0; x < w->scene.width; x += size)
+                fill_square(w, x, y, size);
+}
+
 static void show(struct watch *w)
 {
     int width = w->scene.width, height = w->scene.height;
     film_develop(&w->film, w->scene.film_scale, w->pixels);
+    if (w->film.iterations == 0)
+        fill(w);
     for (int i = 0; i < width * height; i++) {
         for (int c = 0; c < 3; c++)
             w->rgba[4 * i + c] = srgb_byte((double)w->pixels[3 * i + c]);
@@ -108,6 +144,20 @@ static void show(struct watch *w)
     }
     struct difference d = compare(w);
     web_show(w->rgba, w->pixels, width, height, (int)w->film.iterations, w->seconds, d.rmse8, d.mean_ratio);
+    w->shown = os_wall_seconds();
+}
+
+/* Most of what a method learns is by the sub-paths that learn.h promises; what comes before that is short. */
+static bool learns(void *context, double traced)
+{
+    struct watch *w = context;
+    double pixels = (double)w->scene.width * w->scene.height, eye = fmin(fmax(4 * pixels, 2048), 49152);
+    w->learnt = fmax(w->learnt, fmin(1, traced / (eye + fmin(eye, 16384))));
+    if (os_wall_seconds() - w->shown > 0.1) {
+        w->shown = os_wall_seconds();
+        web_learns(w->learnt);
+    }
+    return true;
 }
 
 static bool read_reference(struct watch *w, const char *path, struct error *err)
@@ -130,6 +180,8 @@ static bool begin(struct watch *w, const struct method *integrator, const char *
     struct pixel_rect rect = render_crop(&w->scene);
     w->options = job_render(&w->asked, &w->scene, integrator);
     w->options.n_threads = 1;
+    w->job.watch = learns;
+    w->job.watch_context = w;
     if (!read_reference(w, reference, err) ||
         !render_prepare(&w->scene, &w->options, rect, &w->job, &w->prepared, err))
         return false;
@@ -162,15 +214,19 @@ int web_step(void)
     pass.end = pass.first + (left < block ? left : block);
     w->film.block.iterations = pass.end - pass.first;
     for (int64_t i = 0; i < tiling_count(&w->tiling); i++) {
-        pass.rect = tiling_rect(&w->tiling, i);
-        tile_start(&w->tile, pass.rect, w->job.film_rect, &w->scene.filter);
+        tile_start(&w->tile, tiling_pixels(&w->tiling, i), w->job.film_rect, &w->scene.filter);
         w->tile.full = take_splats;
         w->tile.context = &w->film;
         w->prepared.method->render(&w->prepared, &pass);
         film_merge_tile(&w->film, &w->tile);
+        w->seconds += os_wall_seconds() - start;
+        start = os_wall_seconds();
+        if (w->film.iterations == 0 && start - w->shown > 0.1) {
+            show(w);
+            start = os_wall_seconds();
+        }
     }
     film_end_block(&w->film);
-    w->seconds += os_wall_seconds() - start;
     show(w);
     return w->film.iterations < w->options.end;
 }

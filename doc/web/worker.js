@@ -3,7 +3,8 @@
 //
 // In:  { wasm, files: { path: bytes }, call: "web_begin" or "web_command", words: [...] }, once;
 //      { held: whether to compute no further }, at any time of a render that has begun.
-// Out: { picture, pixels, width, height, iterations, seconds, rmse8, ratio } after every web_step;
+// Out: { learnt } now and then while it learns; { picture, pixels, width, height, iterations, seconds, rmse8, ratio }
+//      after every web_step, and within the first;
 //      { status, out, err, files: those written } at the end.
 'use strict';
 
@@ -174,6 +175,7 @@ async function run({ wasm, files, call, words }, show) {
         show({ picture: bytes(rgba, 4 * n).slice(), pixels: bytes(pixels, 12 * n).slice(), width, height, iterations,
                seconds, rmse8, ratio });
       },
+      web_learns(share) { show({ learnt: share }); },
     },
   };
 
