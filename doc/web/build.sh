@@ -1,5 +1,5 @@
 #!/bin/sh
-# build.sh OUT.html [CLANG]: the page that renders, as one file below a megabyte: page.html with worker.js, the program as
+# build.sh OUT.html [CLANG]: the page that renders, as one file of a megabyte: page.html with worker.js, the program as
 # WebAssembly, the scenes and their references in it, all of them packed by gzip. Needs clang with lld, wasi-libc and
 # libclang-rt for wasm32 (Debian: clang, lld, wasi-libc, libclang-rt-dev-wasm32); without them it says so and makes
 # nothing. What it shows as the reference, doc/web/reference/NAME.webp, is of asbdpt with 256 samples and three times the
