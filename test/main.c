@@ -41,7 +41,7 @@ static const struct test_entry ENTRIES[] = {
     {"emission", test_emission, false},
     {"learning", test_learning, false},
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
-    {"draws", test_what_is_drawn, true},
+    {"draws", test_what_is_drawn, true}, {"growth", test_growth, true},
     {"rivals", test_rivals, false},   {"vcm", test_vcm, false},   {"ellipse", test_ellipse, false},
     {"chains", test_chains, false},
     {"part", test_part, false}, {"trace", test_trace, false},

@@ -10,6 +10,7 @@ void test_asbdpt_long(struct test *t);
 void test_what_is_drawn(struct test *t); /* part of test_asbdpt, quick */
 void test_aov(struct test *t);
 void test_alias(struct test *t);
+void test_growth(struct test *t); /* of CPU time: for the course alone, which asks for it by name */
 void test_bsdf(struct test *t);
 void test_closed(struct test *t);
 void test_chains(struct test *t);
