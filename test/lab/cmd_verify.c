@@ -28,6 +28,7 @@ struct verify_options {
     double alpha;
     /* What follows from the above: */
     struct source source[2];
+    const struct method *by[2]; /* who renders a side; NULL: it is pictures */
     const char *stored[2]; /* the reference and its errors */
     char errors_path[4096];
 };
@@ -119,37 +120,37 @@ static bool complete(struct verify_options *o)
 /* --- both sides -------------------------------------------------------------------------------------- */
 
 /* The one or two that render: what was given; or one that renders references, and the scene's or its partner. */
-static bool choose_integrators(const struct verify_options *o, const struct scene *scene, const struct method *scenes,
-                               const struct method **m, struct error *err)
+static bool choose_integrators(struct verify_options *o, const struct scene *scene, const struct method *scenes,
+                               struct error *err)
 {
     const char *partner = strcmp(scenes->name, METHOD_REFERENCE) == 0 ? METHOD_PARTNER : scenes->name;
-    for (int i = 0, n = 0; i < 2; i++) {
+    for (int i = 0; i < 2; i++) {
         const struct measured *given = &o->source[i].method;
         const char *usual = i == 1 ? partner : o->source[1].n > 0 ? scenes->name : METHOD_REFERENCE;
         if (o->source[i].n > 0)
             continue;
         struct settings s = measured_settings(given, &scene->settings);
-        m[n] = method_find(given->text[0] != '\0' ? given->integrator : usual, &s, err);
+        o->by[i] = method_find(given->text[0] != '\0' ? given->integrator : usual, &s, err);
         settings_clear(&s);
-        if (m[n++] == NULL)
+        if (o->by[i] == NULL)
             return false;
     }
     return true;
 }
 
 /* Render a side, with its own settings on top of the scene's. */
-static bool render_side(struct scene *scene, const struct method *m, const struct verify_options *o, int number,
-                        struct side *out, struct error *err)
+static bool render_side(struct scene *scene, const struct verify_options *o, int number, struct side *out,
+                        struct error *err)
 {
     static const double seconds = 20; /* of rendering */
     const struct measured *given = &o->source[number].method;
-    struct render_options options = {.integrator = m->name, .seed = o->job.seed, .n_threads = o->job.n_threads,
-                                     .max_depth = o->job.max_depth};
+    struct render_options options = {.integrator = o->by[number]->name, .seed = o->job.seed,
+                                     .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
     struct settings shared = scene->settings;
     scene->settings = measured_settings(given, &shared);
     options.end = o->job.spp > 0 ? o->job.spp : side_choose_spp(scene, &options, o->batches, seconds, err);
     bool ok = options.end > 0 && side_render(scene, &options, number, o->batches, o->job.quiet, out, err);
-    out->name = given->text[0] != '\0' ? given->text : m->name;
+    out->name = given->text[0] != '\0' ? given->text : options.integrator;
     if (ok)
         printf("%s: %dx%d pixels, %d batches of %ld spp, seed %llu\n", out->name, out->width, out->height, o->batches,
                options.end, (unsigned long long)o->job.seed);
@@ -160,10 +161,8 @@ static bool render_side(struct scene *scene, const struct method *m, const struc
 
 /* Pictures are read first, as they say how large the others are to be.
  *   side  [2] */
-static bool make_sides(struct scene *scene, const struct method *scenes, const struct verify_options *o,
-                       struct side *side, struct error *err)
+static bool make_sides(struct scene *scene, const struct verify_options *o, struct side *side, struct error *err)
 {
-    const struct method *m[2] = {NULL, NULL};
     const struct side *like = NULL;
     for (int i = 0; i < 2; i++) {
         const struct source *from = &o->source[i];
@@ -173,11 +172,10 @@ static bool make_sides(struct scene *scene, const struct method *scenes, const s
     }
     if (o->source[0].n > 0 && o->source[1].n > 0)
         return true;
-    if (!choose_integrators(o, scene, scenes, m, err) ||
-        ((like != NULL || o->job.res[0] == 0) && !side_choose_resolution(scene, like, err)))
+    if ((like != NULL || o->job.res[0] == 0) && !side_choose_resolution(scene, like, err))
         return false;
-    for (int i = 0, n = 0; i < 2; i++)
-        if (o->source[i].n == 0 && !render_side(scene, m[n++], o, i, &side[i], err))
+    for (int i = 0; i < 2; i++)
+        if (o->by[i] != NULL && !render_side(scene, o, i, &side[i], err))
             return false;
     return true;
 }
@@ -237,33 +235,35 @@ static int judge(const struct verify_options *o, uint64_t content, int max_depth
     return o->store == NULL || sides_store(o->store, a, b, &from, err) ? EXIT_OK : fail(err);
 }
 
-static int load(const struct verify_options *o, struct scene *scene, const struct method **scenes)
+static int load(struct verify_options *o, struct scene *scene)
 {
     struct job_loading job = {.options = &o->job};
     const struct method *readers[3] = {NULL, NULL, NULL};
     struct error err;
-    int status = job_open(&job, scene, scenes);
+    int status = job_open(&job, scene, &readers[0]);
     if (status != EXIT_OK)
         return status;
-    readers[0] = *scenes;
-    if (choose_integrators(o, scene, *scenes, readers, &err))
+    bool ok = choose_integrators(o, scene, readers[0], &err);
+    for (int i = 0, n = 0; i < 2; i++)
+        if (o->by[i] != NULL)
+            readers[n++] = o->by[i];
+    if (ok)
         return job_ready(&job, readers, scene);
     scene_free(scene);
     return fail(&err);
 }
 
-static int verify(const struct verify_options *o)
+static int verify(struct verify_options *o)
 {
     struct error err;
     struct scene scene;
     struct side side[2] = {{.name = ""}, {.name = ""}};
-    const struct method *scenes = NULL;
     bool has_scene = o->job.scene_path != NULL;
     int status = EXIT_OK, max_depth = 0;
-    if (has_scene && (status = load(o, &scene, &scenes)) != EXIT_OK)
+    if (has_scene && (status = load(o, &scene)) != EXIT_OK)
         return status;
     bool ok = (!has_scene || parameters_max_depth(&scene, o->job.max_depth, &max_depth, &err)) &&
-              make_sides(&scene, scenes, o, side, &err);
+              make_sides(&scene, o, side, &err);
     status = ok ? judge(o, has_scene ? scene.content : 0, max_depth, &side[0], &side[1], &err) : fail(&err);
     batches_free(&side[0].pixels);
     batches_free(&side[1].pixels);

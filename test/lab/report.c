@@ -2,29 +2,142 @@
 #include "lab/report.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "lab/numbers.h"
 #include "lab/pictures.h"
 #include "lab/plot.h"
-#include "lab/tables.h"
+#include "lab/table.h"
 
-/* What the numbers mean; nothing here depends on the results. */
-static const char NOTES[] =
-    "## Notes\n\n"
-    "- RMSE is the root mean square difference to the reference of all 8-bit sRGB values, 0 to 255, the\n"
-    "  dissertation's scale; runs.csv also has squared errors: of these values, relative, and of 8x8 pixels.\n"
-    "- Seconds are CPU seconds of all threads together, with the method's own preparation, without loading the scene.\n"
-    "- A squared error falls as one over the time, so squared error times seconds is what a method spends on its\n"
-    "  precision; the squared error of the reference itself is subtracted where known. `equal-time` gives all the\n"
-    "  same time instead.\n"
-    "- Intervals are Welch's, at 95 %, on the logarithm of the ratio, over seeds. Few seeds give wide intervals.\n"
-    "- Signed mean error: mean of the picture over mean of the reference, less 1. Tested: with two seeds or more each\n"
-    "  method's mean and blocks of 8x8 pixels after the last step: significantly darker is \"misses light\", else\n"
-    "  different is \"biased\". One page in a hundred has a false mark.\n"
-    "- No walk is ended by Russian roulette here (rrthreshold 0) unless a method says otherwise, as in the\n"
-    "  dissertation; by default methods use it and are faster. Box filter, balance heuristic.\n"
-    "- The printed numbers are from the dissertation's own models and its own pbrt-v3, against 16384 samples of BDPT;\n"
-    "  absolute values cannot agree with ours, the direction and shape of the ratios can. Its reference of Bathroom\n"
-    "  does not match its pictures: BDPT's errors hardly fall.\n";
+#define PLUS_MINUS "\xc2\xb1" /* U+00B1 in UTF-8 */
+
+/* Root mean square errors that the dissertation printed, on the 8-bit scale, against 16384 samples of pbrt-v3's bdpt,
+ * in Bitterli's models, after 32, 64 ... 512 samples per pixel.                                             [S24 4] */
+enum { PUBLISHED_STEPS = 5, PUBLISHED_FIRST = 32 };
+static const struct published {
+    const char *scene; /* our name of the same situation */
+    double asbdpt[PUBLISHED_STEPS], bdpt[PUBLISHED_STEPS];
+} PRINTED[] = {
+    {"veach-ajar", {28.3020, 19.1206, 13.2645, 9.4453, 6.9799}, {28.7123, 20.1449, 14.2145, 10.1481, 7.2419}},
+    {"cornell-box", {2.8022, 2.2055, 1.9630, 1.8629, 1.8169}, {2.7836, 1.9842, 1.4369, 1.0609, 0.8086}},
+    {"cornell-box-modified", {3.3398, 2.4268, 1.8763, 1.5464, 1.3567}, {3.3369, 2.3851, 1.7241, 1.2604, 0.9453}},
+    {"bathroom", {17.3230, 13.8195, 11.7632, 10.6083, 10.0122}, {17.3743, 13.9254, 11.8313, 10.6455, 10.0004}},
+    {"living-room", {8.2173, 5.8870, 4.3207, 3.2946, 2.6155}, {8.2646, 5.9254, 4.2720, 3.0800, 2.2604}},
+};
+
+/* What was printed of this method after so many samples: the dissertation's BDPT is METHOD_REFERENCE; NaN: nothing. */
+static double printed(const char *scene, const char *method, long spp)
+{
+    bool bdpt = strcmp(method, METHOD_REFERENCE) == 0, bins = strcmp(method, METHOD_PRINTED) == 0;
+    for (size_t i = 0; (bdpt || bins) && i < sizeof PRINTED / sizeof PRINTED[0]; i++)
+        for (int k = 0; strcmp(PRINTED[i].scene, scene) == 0 && k < PUBLISHED_STEPS; k++)
+            if (spp == PUBLISHED_FIRST << k)
+                return bdpt ? PRINTED[i].bdpt[k] : PRINTED[i].asbdpt[k];
+    return NAN;
+}
+
+/* "mean +- error" with as many digits after the point as show two of the error's. */
+static void add_estimate(struct table *t, double mean, double error)
+{
+    int digits = error > 0 && isfinite(error) ? 1 - (int)floor(log_ten(error)) : 0;
+    digits = digits < 0 ? 0 : digits > 6 ? 6 : digits;
+    if (!isfinite(mean))
+        table_add_missing(t, 1);
+    else if (!isfinite(error) || error == 0)
+        table_add(t, "%.4g", mean);
+    else
+        table_add(t, "%.*f " PLUS_MINUS " %.*f", digits, mean, digits, error);
+}
+
+static void add_columns(struct table *t, const char *const *name, int n)
+{
+    for (int i = 0; i < n; i++)
+        table_column(t, "%s", name[i]);
+}
+
+/* --- the table --------------------------------------------------------------------------------------- */
+
+/* A row is a method in a scene after a step. */
+static struct table begin_rows(FILE *f, const char *first)
+{
+    static const char *const heads[] = {"method", "RMSE", "over the first's [95 %]", "printed", "seconds",
+                                        "cost over the first's [95 %]", "mean off by, %", "tested"};
+    struct table t = table_begin(f, "RMSE on the 8-bit scale, mean over seeds and its standard error; printed: the "
+                                 "dissertation's; cost: squared error times seconds of CPU");
+    table_column(&t, "%s", first);
+    add_columns(&t, heads, 8);
+    return t;
+}
+
+static void add_row(struct table *t, const struct scene_results *s, int method, int step)
+{
+    const struct plan *p = s->plan;
+    double theirs = printed(s->name, p->methods.item[method].text, p->spp[step]);
+    bool last = step == plan_last_step(p) && method < p->n_compared;
+    struct estimate rmse = results_mean(s, method, step, Q_RMSE8), seconds = results_mean(s, method, step, Q_SECONDS);
+    struct estimate off = results_mean(s, method, step, Q_MEAN_ERROR);
+    table_add(t, "%s", p->methods.item[method].text);
+    add_estimate(t, rmse.mean, rmse.error);
+    if (method > 0)
+        table_add_interval(t, results_over_first(s, method, step, false), "");
+    else
+        table_add_missing(t, 1);
+    if (isfinite(theirs))
+        table_add(t, "%.4f", theirs);
+    else
+        table_add_missing(t, 1);
+    add_estimate(t, seconds.mean, seconds.error);
+    if (method > 0)
+        table_add_interval(t, results_over_first(s, method, step, true), "");
+    else
+        table_add_missing(t, 1);
+    add_estimate(t, 100 * off.mean, 100 * off.error);
+    table_add(t, "%s", last && s->mark[method] != MARK_NONE ? MARKS[s->mark[method]] : "-");
+}
+
+static void scene_table(FILE *f, const struct results *r, const struct scene_results *s)
+{
+    char own[32] = "not known";
+    if (isfinite(s->reference.mean_error))
+        snprintf(own, sizeof own, "%.2g %%", 100 * s->reference.mean_error);
+    fprintf(f, "The standard error of the reference's own mean is %s.\n\n", own);
+    struct table t = begin_rows(f, "spp");
+    for (int v = 0; v < r->plan->methods.n; v++)
+        for (int i = 0; i < r->plan->n_steps; i++) {
+            table_add(&t, "%ld", r->plan->spp[i]);
+            add_row(&t, s, v, i);
+        }
+    table_end(&t);
+}
+
+static void last_table(FILE *f, const struct results *r)
+{
+    fprintf(f, "After %ld samples per pixel.\n\n", plan_last_spp(r->plan));
+    struct table t = begin_rows(f, "scene");
+    for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
+        for (int v = 0; v < r->plan->n_compared; v++) {
+            table_add(&t, "%.90s", s->name);
+            add_row(&t, s, v, plan_last_step(r->plan));
+        }
+    table_end(&t);
+}
+
+static void setup_table(FILE *f, const struct results *r)
+{
+    static const char *const heads[] = {"scene",     "pixels",           "maxdepth",
+                                        "reference", "its noise, 8-bit", "error of its mean, %"};
+    struct table t = table_begin(f, "What was measured, against what");
+    add_columns(&t, heads, 6);
+    for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++) {
+        table_add(&t, "%.90s", s->name);
+        table_add(&t, "%d x %d", s->width, s->height);
+        table_add(&t, "%d", s->max_depth);
+        table_add(&t, "%.240s", s->reference.origin);
+        add_estimate(&t, s->reference.noise8, NAN);
+        add_estimate(&t, 100 * s->reference.mean_error, NAN);
+    }
+    table_end(&t);
+}
 
 /* --- plots -------------------------------------------------------------------------------------------- */
 
@@ -131,11 +244,30 @@ static bool write_plot(const struct scene_results *s, struct error *err)
 
 /* --- the page ------------------------------------------------------------------------------------------ */
 
+/* What the numbers mean; nothing here depends on the results. */
+static const char NOTES[] =
+    "## Notes\n\n"
+    "- RMSE is the root mean square difference to the reference of all 8-bit sRGB values, 0 to 255, the\n"
+    "  dissertation's scale; runs.csv also has squared errors: of these values, relative, and of 8x8 pixels.\n"
+    "- Seconds are CPU seconds of all threads together, with the method's own preparation, without loading the scene.\n"
+    "- A squared error falls as one over the time, so squared error times seconds is what a method spends on its\n"
+    "  precision; the squared error of the reference itself is subtracted where known. `equal-time` gives all the\n"
+    "  same time instead.\n"
+    "- Intervals are Welch's, at 95 %, on the logarithm of the ratio, over seeds. Few seeds give wide intervals.\n"
+    "- Signed mean error: mean of the picture over mean of the reference, less 1. Tested: with two seeds or more each\n"
+    "  method's mean and blocks of 8x8 pixels after the last step: significantly darker is \"misses light\", else\n"
+    "  different is \"biased\". One page in a hundred has a false mark.\n"
+    "- No walk is ended by Russian roulette here (rrthreshold 0) unless a method says otherwise, as in the\n"
+    "  dissertation; by default methods use it and are faster. Box filter, balance heuristic.\n"
+    "- The printed numbers are from the dissertation's own models and its own pbrt-v3, against 16384 samples of BDPT;\n"
+    "  absolute values cannot agree with ours, the direction and shape of the ratios can. Its reference of Bathroom\n"
+    "  does not match its pictures: BDPT's errors hardly fall.\n";
+
 static void write_scene(FILE *f, const struct results *r, const struct scene_results *s)
 {
     fprintf(f, "## %s\n\n![Each method's picture and below it where it errs, and the reference](images/%s.png)\n\n",
             s->name, s->name);
-    tables_write(f, r, s);
+    scene_table(f, r, s);
     fprintf(f, "![Errors after a rising number of samples](plots/%s.svg)\n", s->name);
     fprintf(f, "\nBars: one standard error over seeds. The strategies of %s, one by one: `./asbdpt-lab strategies %s "
             "-o DIR`.\n\n", METHOD_REFERENCE, s->path);
@@ -149,7 +281,8 @@ static void write_page(FILE *f, const struct results *r)
             p->n_scenes, p->n_scenes == 1 ? "" : "s", p->spp[0], plan_last_spp(p), p->n_seeds,
             p->n_seeds == 1 ? "" : "s");
     plan_write_command(f, p);
-    tables_write(f, r, NULL);
+    setup_table(f, r);
+    last_table(f, r);
     for (int i = 0; i < p->n_scenes; i++)
         write_scene(f, r, &r->scene[i]);
     fputs(NOTES, f);
