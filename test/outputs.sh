@@ -93,7 +93,7 @@ if [ -e /dev/full ]; then
     ln -s /dev/full lit/light00_point.pfm
     for size in 8x8 256x256; do # the write that fails is the last, or an earlier one after which nothing is left
         rm -f lit/light02*
-        expect 1 'lit/light00_point.pfm: cannot be written: No space left' \
+        expect 1 'lit/light00_point.pfm: cannot be written: (No space left|write error)' \
             "$program" render three.pbrt --res $size --spp 1 -o x.pfm --lights lit
         check grep -q 'wrote x.pfm, lit/light01_distant.pfm, lit/light02_infinite.pfm$' stderr.txt
         check [ -s lit/light02_infinite.pfm ]

@@ -146,11 +146,6 @@ bool file_commit(struct file_output *out, struct error *err)
 {
     errno = 0;
     bool ok = fflush(out->stream) == 0 && ferror(out->stream) == 0;
-    if (!ok && errno == 0) { /* it was an earlier write that failed: another says why */
-        clearerr(out->stream);
-        if (fputc(0, out->stream) != EOF)
-            fflush(out->stream);
-    }
     /* On the disk before it has the target's name, so that not even a power failure leaves half a file there. */
     ok = ok && (out->temporary == NULL || os_store(out->stream));
     int reason = ok ? 0 : errno; /* os_store may leave a number in errno where it finds nothing to do */
