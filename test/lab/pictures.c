@@ -49,15 +49,6 @@ static float *display_errors(const struct scene_results *s, long *n)
     return out;
 }
 
-double pictures_error_scale(const struct scene_results *s)
-{
-    long n;
-    float *error = display_errors(s, &n);
-    double most = picture_percentile(error, n, PICTURES_PERCENTILE);
-    free(error);
-    return most;
-}
-
 double pictures_blocks(const struct scene_results *s, int method)
 {
     int k = plan_scale(s->plan);
@@ -81,8 +72,9 @@ static void draw_errors(const struct scene_results *s, struct sheet *sheet, int 
     long n;
     int y = COLUMN_GAP + COLUMN_LABEL + s->height * k + COLUMN_GAP;
     float *error = display_errors(s, &n), *heat = mem_alloc((size_t)n * 3, sizeof *heat);
-    compare_heatmap(error, n, picture_percentile(error, n, PICTURES_PERCENTILE), heat);
-    snprintf(text, sizeof text, "errors: dark 0, bright %.3g and more", pictures_error_scale(s));
+    double most = picture_percentile(error, n, PICTURES_PERCENTILE);
+    compare_heatmap(error, n, most, heat);
+    snprintf(text, sizeof text, "errors: dark 0, bright %.3g and more", most);
     sheet_text(sheet, COLUMN_GAP + s->plan->n_compared * (s->width * k + COLUMN_GAP), y, fitting(text, k * s->width, 2),
                SOFT, text);
     for (int v = 0; v < s->plan->n_compared; v++)

@@ -17,10 +17,6 @@
 
 enum { COLUMN_GAP = 24, COLUMN_LABEL = 60, COLUMN_WIDTH = 480, PICTURES_PERCENTILE = 99 };
 
-/* pictures_error_scale: what the brightest colour stands for: that percentile of the root mean squares over the
- * channels of a pixel's 8-bit errors, over all pixels and compared methods. */
-double pictures_error_scale(const struct scene_results *s);
-
 /* pictures_sheet: the sheet, with heat maps only if the plan's pictures have the reference's size; to be released with
  * sheet_free. pictures_write: the same as images/SCENE.png; false with a message. */
 struct sheet pictures_sheet(const struct scene_results *s);
