@@ -1,6 +1,6 @@
 #!/bin/sh
-# slides.sh OUT.html: the figures of the tour as slides in one file, with each page's question. Arrow keys, space or a
-# click turn. Run from the top.
+# slides.sh OUT.html: the figures of the tour as slides in one file, with each page's question, its first formula, and the
+# answers of the quiz as a note, which the key n shows. Arrow keys, space or a click turn. Run from the top.
 out=$1
 
 # side_by_side PARTS WIDTH HEIGHT: a figure that is taller than a slide, cut into equal parts; its address is read.
@@ -25,12 +25,17 @@ section.on { display: flex; justify-content: center; }
 h1 { font-size: 5vmin; margin: 0; } p { margin: 0; }
 img { flex: 1; min-height: 0; max-width: 92vw; object-fit: contain; image-rendering: auto; width: 92vw; }
 div { flex: 1; display: flex; gap: 2vw; width: 92vw; align-items: center; } i { flex: 1; background-image: var(--f); }
+pre { font-size: 2.6vmin; margin: 0; } aside { display: none; font-size: 2.2vmin; } .notes aside { display: block; }
 </style>
 HEAD
     for page in doc/tour/[01]*.md; do
         title=$(sed -n 's/^# //p;/^# /q' "$page")
         question=$(sed -n 's/^\*\*Question: \(.*\)\*\*$/\1/p' "$page" | head -n 1)
-        printf '<section><h1>%s</h1><p>%s</p></section>\n' "$title" "$question"
+        number=$(basename "$page" | sed 's/^0*\([0-9]*\).*/\1/')
+        formula=$(awk '/^    [^ ]/ { on = 1; print substr($0, 5); next } on { exit }' "$page" | sed 's/&/\&amp;/g; s/</\&lt;/g')
+        note=$(sed -n "/^\*\*$number\. /,/^\$/p" doc/course/teacher/quiz.md | sed 's/<//g; s/\*//g')
+        printf '<section><h1>%s</h1><p>%s</p><pre>%s</pre><aside>%s</aside></section>\n' "$title" "$question" "$formula" \
+            "$note"
         grep -o '!\[[^]]*\](figures/[^)]*)' "$page" | sed 's/^!\[\(.*\)\](\(.*\))$/\2|\1/' |
             while IFS='|' read -r file words; do
                 case $file in *.svg) type=svg+xml ;; *) type=png ;; esac
@@ -54,7 +59,7 @@ function turn(by) {
   all[at].className = 'on';
   history.replaceState(null, '', '#' + at);
 }
-addEventListener('keydown', e => turn(['ArrowRight', 'ArrowDown', ' ', 'PageDown'].includes(e.key) ? 1 :
+addEventListener('keydown', e => e.key === 'n' ? document.body.classList.toggle('notes') : turn(['ArrowRight', 'ArrowDown', ' ', 'PageDown'].includes(e.key) ? 1 :
   ['ArrowLeft', 'ArrowUp', 'PageUp'].includes(e.key) ? -1 : 0));
 addEventListener('click', () => turn(1));
 turn(0);
