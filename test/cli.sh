@@ -490,6 +490,19 @@ check grep -Eq '^  z_1 +matte .*/m\^2' stdout.txt
 check grep -Eq '^  \(1,2\) +light - z_1 ' stdout.txt
 check grep -q '^  sum, which the film receives ' stdout.txt
 check awk '/<svg/ { open++ } /<\/svg>/ { open-- } /z1<\/text>/ { n++ } END { exit open != 0 || n != 2 }' paths.svg
+# Names of vertices do not cover each other: 10 wide for a letter, 16 high.
+expect 0 '' "$lab" trace "$scenes/../doc/mini/rooms.pbrt" --integrator bdpt --maxdepth 4 --pixel 60,80 \
+    --sample 22 --svg names.svg
+check awk '/<svg x=/ { n = 0 }
+    match($0, /<text x="[^"]*" y="[^"]*" fill="[^"]*">[yz][0-9]+</) {
+        split(substr($0, RSTART, RLENGTH), part, "\"")
+        all++
+        for (i = 0; i < n; i++)
+            bad += (part[2] - x[i]) ^ 2 < 20 ^ 2 && (part[4] - y[i]) ^ 2 < 16 ^ 2
+        x[n] = part[2]
+        y[n++] = part[4]
+    }
+    END { exit bad || all < 14 }' names.svg
 expect 0 '' "$lab" trace "$box" $one --spp 4 --sample 3 -P select=vertices --integrator asbdpt --json
 check grep -q '"probability": 0' stdout.txt
 if command -v python3 >/dev/null; then
