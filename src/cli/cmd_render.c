@@ -20,7 +20,7 @@
 const struct option RENDER_OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .help = "a scene file"},
     {"-o", "FILE", OPTION_TEXTS, AT(output), .alias = "--outfile", .written = true,
-     .help = "image to write: linear .pfm or .exr, sRGB .png or .ppm; repeatable (default: the scene's, or as .png)"},
+     .help = "image to write: linear .pfm or .exr, sRGB .png or .ppm; repeatable (default: the scene's Film name)"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {"--aov", "LIST", OPTION_TEXT, AT(aov),
