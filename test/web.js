@@ -21,6 +21,7 @@ async function rendered(settings) {
   check(SCENES.length === 10 && SCENES.includes('rooms'), 'scenes: ' + SCENES);
   await until(() => sides.every(s => s.worker), 'its start');
   check($('reference').width > 20 && $('select').length === 18, 'reference and methods');
+  await until(() => $('reference').width >= 72, 'a reference as fine as the picture');
   turn('scale', 2);
   turn('spp', 4);
   await rendered([['scene', 'cornell-box'], ['select', 'vertices']]);
@@ -90,6 +91,7 @@ async function rendered(settings) {
     await until(() => words.test($('story').textContent), words);
     check($('story').textContent.endsWith('outside the picture\n'), 'the story is cut');
     await until(() => $('drawing').naturalWidth > 1000, 'the drawing');
+    check(!$(`mark${i}`).hidden && $(`mark${1 - i}`).hidden, 'the pixel is not marked');
   }
   check(/the pixel's bins/.test($('choice').textContent), 'the choice is not told');
   const first = Number($('sample').value);
