@@ -161,7 +161,6 @@ columns: ## check that no line is longer than .clang-format allows, and that all
 	@sh test/columns.sh
 
 links: ## check that links, functions, tests and mutants named in the documents exist, what these take from sources, and their HTML
-	@sh test/links.sh
 	@sh test/pages.sh
 	@sh test/html.sh
 

@@ -1,8 +1,14 @@
 #!/bin/sh
-# html.sh: are the documents as HTML whole? (doc/html.sh) Every local link and picture leads to a file; tags are closed
-# as often as they are opened; formulas have indices, lists and tables are there. A damaged page must be found out.
+# html.sh: does what the documents name exist, and are they whole as HTML (doc/html.sh)? It checks
+#   1. that every local link and picture leads to a file;
+#   2. that [`FILE: FUNCTION`](path) leads to a file of that name, and to the line that defines the function there;
+#   3. that tags are closed as often as they are opened, and that formulas have indices, lists and tables are there;
+#   4. that mutant `NAME` is in test/mutants/list.txt, and `build/test NAME` in test/main.c.
+# Damaged pages must be found. Prints what is wrong, or one line; exit status 0 only if nothing is. Run from the top.
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
+bad=0
+wrong() { echo "html: $*"; bad=1; }
 
 # whole DIR: prints what is wrong with the pages of DIR.
 whole() {
@@ -32,6 +38,7 @@ whole() {
                 opened[i] += count($0, "<" tag[i] ">") + count($0, "<" tag[i] " ")
                 closed[i] += count($0, "</" tag[i] ">")
             }
+            gsub(/<wbr>/, "")
             line = $0
             while (match(line, /(href|src)="[^"]*"/)) {
                 url = substr(line, RSTART, RLENGTH)
@@ -41,23 +48,49 @@ whole() {
                 sub(/#.*/, "", url)
                 if (url != "" && !exists(folder url)) print page ": there is no " url
             }
+            line = $0
+            while (match(line, /<a href="[^"]*"><code[^>]*>[A-Za-z0-9_.]+: [A-Za-z0-9_]+</)) {
+                url = label = substr(line, RSTART, RLENGTH - 1)
+                line = substr(line, RSTART + RLENGTH)
+                gsub(/^<a href="|".*/, "", url)
+                sub(/.*>/, "", label)
+                if (index("/" url, "/" substr(label, 1, index(label, ":") - 1) ".html#L") == 0)
+                    print page ": " url " does not define " label
+            }
         }
         END { check() }'
 }
 
 sh doc/html.sh "$dir/html" >/dev/null || exit 1
-wrong=$(whole "$dir/html")
-[ -z "$wrong" ] || { echo "$wrong"; exit 1; }
+found=$(whole "$dir/html")
+[ -z "$found" ] || wrong "$found"
 tour="$dir/html/doc/tour"
 for text in '<msub><mi>p</mi><mrow><mi>s</mi></mrow></msub>' '<mo>&#x2211;</mo><mrow><mi>i</mi></mrow></munder>' \
     '<mrow><mi>light</mi></mrow></msub><mo>+</mo>' '</mrow></mfrac></math>' '<aside><a href="#the-formula">' \
     '<li><a href="../../src/transport/mis.h.html#L' '<td>dVCM</td>' '<img src="figures/' '<h2 id="mirrors">'; do
     grep -qF "$text" "$tour/06-connections.html" "$tour/07-weights.html" "$tour/07b-constant-time.html" ||
-        { echo "html: no $text"; exit 1; }
+        wrong "no $text"
 done
 mkdir "$dir/damaged"
-echo '<a href="nothing.html">x</a>' >"$dir/damaged/damaged.html"
-[ -n "$(whole "$dir/damaged")" ] || { echo "html: a link that leads nowhere is not noticed"; exit 1; }
-echo '<p>x' >"$dir/damaged/damaged.html"
-[ -n "$(whole "$dir/damaged")" ] || { echo "html: a tag that is not closed is not noticed"; exit 1; }
-echo "html: $(find "$dir/html" -name '*.html' | wc -l | tr -d ' ') pages are whole"
+while IFS= read -r damage; do
+    echo "$damage" >"$dir/damaged/damaged.html"
+    [ -n "$(whole "$dir/damaged")" ] || wrong "not noticed: $damage"
+done <<'END'
+<a href="nothing.html">x</a>
+<a href="damaged.html"><code>damaged: missing</code></a>
+<a href="damaged.html#L1"><code>other: function</code></a>
+<p>x
+END
+
+# unknown PATTERN FILE BEFORE AFTER: the names that documents have within PATTERN, of which FILE has no BEFORE NAME AFTER.
+unknown() {
+    find . \( -name 'build*' -o -name out -o -name .git \) -prune -o -name '*.md' -exec grep -ohE "$1" {} + |
+        sed 's/`$//; s/.*[` ]//' | sort -u | while read -r name; do
+        grep -q "$3$name$4" "$2" || echo "$name"
+    done
+}
+for name in $(unknown 'mutant `[a-zA-Z0-9-]+`' test/mutants/list.txt '^' ' '); do wrong "there is no mutant $name"; done
+for name in $(unknown '`build/test [a-z0-9-]+`' test/main.c '{"' '"'); do wrong "there is no test $name"; done
+[ -n "$(unknown '`build/test [a-z0-9-]+`' /dev/null '' '')" ] || wrong "a test that does not exist is not noticed"
+[ $bad -ne 0 ] || echo "html: $(find "$dir/html" -name '*.html' | wc -l | tr -d ' ') pages are whole, and what they name exists"
+exit $bad

@@ -2,9 +2,8 @@
 # tree_stats.sh: how large the tree is: for every room of src and every other part, its files, lines, lines of code and
 # share of comment; and words of the documents. Some totals have a limit, which is shown beside them.
 #   sh test/tree_stats.sh [check]    with "check" the status is 1 if a total is above its limit
-# A line of code holds something beside comment. Words to be read are those outside of tables; pages that
-# are looked up are not counted, as in words/limits.txt. Scripts are all of shell
-# and awk, the tools of the documents among them.
+# A line of code holds something else than comment. Words to be read are those outside of tables; pages that are looked
+# up are not counted, as in words/limits.txt. Scripts are shell and awk.
 set -u
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
@@ -62,8 +61,9 @@ documents() {
     count 'learning, tables, techniques' '^src/(learning/|tables/|integrators/services).*\.[ch]$' - 1350
     count 'src' '^src/.*\.[ch]$' 24800 18900
     count 'laboratory' '^test/lab/.*\.[ch]$' 13300
-    count 'tests' '^test/([^/]*|fuzz/[^/]*)\.[ch]$' 19500
-    count 'scripts' '\.(sh|awk)$' 4200
+    count 'tests' '^test/[^/]*\.c$' 19500
+    count 'scripts of tests' '^test/.*\.(sh|awk)$' 4200
+    count 'scripts of documents' '^doc/.*\.(sh|awk)$'
     documents | grep -v '^|' | words 'words to be read' 40000
     documents | words 'words with tables' 50000
     wc -l <"$work/files" | total files 1500
