@@ -1,22 +1,32 @@
-# fall.awk: errors over numbers of samples as SVG, both axes logarithmic, beside lines that fall as 1/sqrt(N). Reads lines
-# "NAME N ERROR", those of a name together; -v title=.
+# fall.awk: curves as SVG, both axes logarithmic, with dashed lines from where each begins. Reads lines "NAME N VALUE",
+# those of a name together; -v title=. Unless -v across= and -v up= name the axes, N are samples per pixel, and values are
+# errors. Unless -v slope= is given, the dashed lines are proportional to 1/sqrt(N).
+BEGIN {
+    if (slope == "") slope = -0.5
+    if (across == "") across = "samples per pixel"
+    if (up == "") up = "rmse of 8-bit values; lower is better"
+    split("#1d5fbf #c96f00 #23823b #b0408f #777777 #8a6d00", colour, " ")
+}
 function X(n) { return 70 + 420 * log(n / first) / log(last / first) }
 function Y(e) { return 300 - 250 * log(e / least) / log(most / least) }
-# Where a name stands: below the one before, if that is too near.
-function label(y) { return below = below > 0 && y < below + 14 && y > below - 14 ? below + 14 : y }
+# Where a name is: below all that are too near.
+function label(y,    i) {
+    for (i = 1; i <= labels; i++) if (at[i] < y + 14 && at[i] > y - 14) { y = at[i] + 14; i = 0 }
+    return at[++labels] = y
+}
 { name[NR] = $1; n[NR] = $2; e[NR] = $3 }
 NR == 1 { first = last = $2; least = most = $3 }
 { if ($2 < first) first = $2; if ($2 > last) last = $2; if ($3 < least) least = $3; if ($3 > most) most = $3 }
 END {
-    split("#1d5fbf #c96f00 #23823b #b0408f", colour, " ")
+    every = last / first > 2000 ? 10 : 4
     least /= 1.3; most *= 1.3
     print "<svg xmlns='http://www.w3.org/2000/svg' width='620' height='350' viewBox='0 0 620 350' font-family='sans-serif' " \
         "font-size='13'><rect width='100%' height='100%' fill='white'/>"
     printf "<text x='10' y='20' font-weight='bold'>%s</text>\n", title
-    for (k = first; k <= last; k *= 4)
+    for (k = first; k <= last; k *= every)
         printf "<path d='M%g 40V300' stroke='#ddd'/><text x='%g' y='318' text-anchor='middle'>%d</text>\n", X(k), X(k), k
-    print "<text x='280' y='340' text-anchor='middle'>samples per pixel</text>"
-    print "<text x='14' y='175' text-anchor='middle' transform='rotate(-90 14 175)'>rmse of 8-bit values; lower is better</text>"
+    print "<text x='280' y='340' text-anchor='middle'>" across "</text>"
+    print "<text x='14' y='175' text-anchor='middle' transform='rotate(-90 14 175)'>" up "</text>"
     for (p = -3; p < 4; p++)
         for (m = 1; m <= 5; m += m == 1 ? 1 : 3)
             if ((v = m * exp(p * log(10))) >= least && v <= most)
@@ -24,9 +34,10 @@ END {
     for (i = 1; i <= NR; i++)
         if (name[i] != name[i - 1]) {
             c = colour[++series]
-            end = e[i] * sqrt(n[i] / last)
             stop = last
-            if (end < least) { stop = n[i] * (e[i] / least) * (e[i] / least); end = least }
+            end = e[i] * (stop / n[i]) ^ slope
+            edge = slope < 0 ? least : most
+            if (end < least || end > most) { end = edge; stop = n[i] * (edge / e[i]) ^ (1 / slope) }
             printf "<path d='M%g %gL%g %g' stroke='#999' stroke-dasharray='3 4'/>\n", X(n[i]), Y(e[i]), X(stop), Y(end)
             d = ""
             for (j = i; name[j] == name[i]; j++) {
