@@ -143,7 +143,7 @@ references: ## check that every source named in a comment is in doc/references.m
 	@sh test/references.sh
 
 faults: ## check that every fault of the list of mutants still applies, and every hole of the course
-	@sh test/mutants/check.sh
+	@sh test/mutants/apply.sh check test/mutants/list.txt test/lab/tune.txt test/course/plants.txt
 	@CC="$(CC)" sh test/course.sh check
 
 evidence: asbdpt asbdpt-lab ## measure again what is old or missing of the documents' numbers (NAMES="..."; hours), and fill it in

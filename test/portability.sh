@@ -16,6 +16,11 @@ line() { tr '\n' ' ' <doc/portability.md | sed -n "s/.*- $1: \`\([^\`]*\)\`.*/\1
 plain=$(line 'Without make') windows=$(line Windows) wasi=$(line WASI)
 
 say() { printf '%-14s %s\n' "$1" "$2"; }
+failed() {
+    say "$1" "FAIL: $2"
+    head -5 "$dir/log" | tr -d '\r'
+    failures=$((failures + 1))
+}
 
 # asked NAME: is this target wanted? With -l its name is said instead.
 asked() {
@@ -50,19 +55,13 @@ try() {
     command=$(echo "$build" | sed "s|^[^ ]*|$compiler|; s|-o [^ ]*|-o $program|")
     able "$name" "$runner" "$command" "$@" || return
     if ! $command "$@" 2>"$dir/log"; then
-        say "$name" "FAIL: does not compile"
-        head -5 "$dir/log"
-        failures=$((failures + 1))
-    elif sh test/hashes.sh "${runner:+$runner }$program" >"$dir/log"; then
-        if grep -q 'not compared' "$dir/log"; then
-            say "$name" "the exception: $(head -1 "$dir/log")"
-        else
-            say "$name" "the same bytes"
-        fi
+        failed "$name" "does not compile"
+    elif ! sh test/hashes.sh "${runner:+$runner }$program" >"$dir/log"; then
+        failed "$name" "other bytes"
     else
-        say "$name" "FAIL: other bytes"
-        head -5 "$dir/log"
-        failures=$((failures + 1))
+        said="the same bytes"
+        ! grep -q 'not compared' "$dir/log" || said="the exception: $(head -1 "$dir/log")"
+        say "$name" "$said"
     fi
     rm -f "$program"
 }
@@ -83,9 +82,7 @@ compile() {
         test/fuzz/hostile.c 2>"$dir/log"; then
         say "$name" "compiles; cannot be run here"
     else
-        say "$name" "FAIL: does not compile"
-        head -5 "$dir/log"
-        failures=$((failures + 1))
+        failed "$name" "does not compile"
     fi
 }
 
@@ -99,15 +96,12 @@ suites() {
         $(ls src/*/*.c | grep -v -e src/cli/main.c -e src/cli/program.c -e src/render/rows.c)"
     command=$(echo "$build" | sed "s|-o [^ ]*|-Itest -Itest/lab -o $program|; s|src/[^ ]*\.c|$(echo $sources)|")
     if ! $command 2>"$dir/log"; then
-        say "$name" "FAIL: the tests do not compile"
-        head -5 "$dir/log"
-        failures=$((failures + 1))
-    elif $runner "$program" "$@" </dev/null >"$dir/log" 2>&1; then
-        say "$name" "$(tail -1 "$dir/log" | tr -d '\r')"
+        failed "$name" "the tests do not compile"
+    elif $runner "$program" "$@" </dev/null >"$dir/said" 2>&1; then
+        say "$name" "$(tail -1 "$dir/said" | tr -d '\r')"
     else
-        say "$name" "FAIL: $(tail -1 "$dir/log" | tr -d '\r')"
-        grep -A 1 FAIL "$dir/log" | head -5
-        failures=$((failures + 1))
+        grep -A 1 FAIL "$dir/said" >"$dir/log"
+        failed "$name" "$(tail -1 "$dir/said" | tr -d '\r')"
     fi
     rm -f "$program"
 }
