@@ -69,31 +69,20 @@ for header in $(find "$src" $ABOVE -name '*.h' | sort -u); do
     }
 done
 
-# A line that begins with a type declares or defines a function; all other words are uses.
+# uncalled FILE...: a line that begins with a type declares or defines a function; all other words are uses.
 uncalled() {
-    awk '
-    FNR == 1 { comment = 0; header = FILENAME ~ /\.h$/ }
-    {
-        line = $0
-        gsub(/\\./, "", line)
-        gsub(/"[^"]*"/, "\"\"", line)
-        if (comment && !sub(/^.*\*\//, "", line)) next
-        gsub(/\/\*([^*]|\*+[^*\/])*\*+\//, " ", line)
-        comment = sub(/\/\*.*/, "", line)
-        name = ""
+    awk -f "$(dirname "$0")/pieces.awk" "$@" | awk -F '\t' '
+    $3 == "code" {
+        line = $4
         if (line ~ /^[a-z][^=;]*[a-z0-9_]\(/ && line !~ /^typedef/) {
-            head = line
-            sub(/\(.*/, "", head)
-            name = head
+            name = line
+            sub(/\(.*/, "", name)
+            line = substr(line, length(name) + 1)
             sub(/.*[^A-Za-z0-9_]/, "", name)
-            line = substr(line, length(head) + 1)
-            if (header)
-                where[name] = FILENAME ":" FNR
+            if ($1 ~ /\.h$/) where[name] = $1 ":" $2
         }
-        while (match(line, /[A-Za-z_][A-Za-z_0-9]*/)) {
-            used[substr(line, RSTART, RLENGTH)] = 1
-            line = substr(line, RSTART + RLENGTH)
-        }
+        n = split(line, word, /[^A-Za-z0-9_]+/)
+        for (i = 1; i <= n; i++) used[word[i]] = 1
     }
     END {
         for (name in where)
@@ -102,7 +91,7 @@ uncalled() {
                 bad = 1
             }
         exit bad
-    } ' "$@"
+    }'
 }
 echo 'int planted(int x);' >"$pairs.h"
 if uncalled "$pairs.h" >/dev/null; then

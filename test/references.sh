@@ -6,7 +6,8 @@
 #   2. every entry is used, or says "Background reading"; entries are in alphabetical order, none twice.
 # Prints what is wrong, or one line; exit status 0 only if nothing is.
 top=${1:-.}
-LC_ALL=C awk -v top="$top" '
+export LC_ALL=C
+awk -f "$(dirname "$0")/pieces.awk" $(find "$top/src" "$top/test" -name '*.[ch]' | sort) | awk -F '\t' '
     function wrong(text) { print text; bad = 1 }
 
     # The key that begins this source: the longest entry that ends at a blank or at the end.
@@ -20,12 +21,12 @@ LC_ALL=C awk -v top="$top" '
         if (source !~ /^[A-Z][A-Za-z0-9\047]/ && source !~ /^pbrt-v3/ && source !~ /(1[89]|20)[0-9][0-9]$/) return
         if (source ~ /^[A-Z0-9]*_/ || source ~ /\.\.\.$/) return
         key = key_of(source)
-        if (key == "") { wrong(FILENAME ":" FNR ": [" source "] is not in doc/references.md"); return }
+        if (key == "") { wrong($1 ":" $2 ": [" source "] is not in doc/references.md"); return }
         used[key] = 1
         where = substr(source, length(key) + 2)
         if (where != "" && key != "pbrt-v3" &&
             where !~ /^((eq\.|Algorithms?|annex|appendix) )?[0-9A-Z][0-9.]*(-[0-9.]+| and [0-9]+| \([0-9]+\))?$/)
-            wrong(FILENAME ":" FNR ": [" source "]: " where " is no place in " key)
+            wrong($1 ":" $2 ": [" source "]: " where " is no place in " key)
     }
 
     # What follows the last "[", or the whole text.
@@ -54,27 +55,12 @@ LC_ALL=C awk -v top="$top" '
         if (/Background reading/) used[key] = 1
         next
     }
-    FNR == 1 { inside = 0; begun = "" }
-    {
-        line = $0
-        while (line != "") {
-            if (inside) {
-                at = index(line, "*/")
-                comment(at ? substr(line, 1, at - 1) : line)
-                if (!at) break
-                inside = 0
-                begun = ""
-                line = substr(line, at + 2)
-            } else {
-                if (!match(line, /\/\*|"([^"\\]|\\.)*"|\047([^\047\\]|\\.)+\047/)) break
-                inside = substr(line, RSTART, 2) == "/*"
-                line = substr(line, RSTART + RLENGTH)
-            }
-        }
-    }
+    $1 != file { file = $1; begun = "" }
+    $3 == "code" && $4 ~ /[^ ]/ { begun = "" }
+    $3 == "comment" { comment($4) }
     END {
         for (k in entry) if (!(k in used)) wrong("doc/references.md: nothing refers to [" k "]")
         if (n_entries == 0) wrong("doc/references.md has no entries")
         if (!bad) print "references: all of " n_entries " keys resolve and are used"
         exit bad
-    }' "$top/doc/references.md" $(find "$top/src" "$top/test" -name '*.[ch]' | sort)
+    }' "$top/doc/references.md" -

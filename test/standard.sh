@@ -7,7 +7,8 @@
 #      headers may show.
 # Prints what is wrong; exit status 0 only if nothing is.
 top=${1:-.}
-LC_ALL=C awk '
+export LC_ALL=C
+awk -f "$(dirname "$0")/pieces.awk" $(find "$top/src" "$top/test/lab" -name '*.[ch]' | sort) | awk -F '\t' '
     BEGIN {
         n = split("sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 " \
                   "log10 log1p pow sincos hypot cbrt erf erfc lgamma tgamma fma j0 j1 jn y0 y1 yn", name, " ")
@@ -16,26 +17,20 @@ LC_ALL=C awk '
                   "stdbool stddef stdint stdio stdlib string tgmath time wchar wctype", name, " ")
         for (i = 1; i <= n; i++) standard[name[i] ".h"] = 1
     }
-    FILENAME !~ /base\/os(_thread)?\.c$/ && /^[ \t]*#[ \t]*(include[ \t]*<|define _)/ {
-        header = $0
+    $3 != "code" { next }
+    $1 !~ /base\/os(_thread)?\.c$/ && $4 ~ /^ *# *(include *<|define _)/ {
+        header = $4
         gsub(/^[^<]*<|>.*/, "", header)
-        if (!(header in standard)) { print FILENAME ":" FNR ": " $0 " belongs in base/os.c"; bad = 1 }
+        if (!(header in standard)) { print $1 ":" $2 ": " $4 " belongs in base/os.c"; bad = 1 }
     }
-    FNR == 1 { comment = 0 }
     {
-        line = $0
-        gsub(/\\./, "", line)
-        gsub(/"[^"]*"/, "\"\"", line)
-        if (comment && !sub(/^.*\*\//, "", line)) next
-        gsub(/\/\*([^*]|\*+[^*\/])*\*+\//, " ", line)
-        comment = sub(/\/\*.*/, "", line)
-        while (match(line, /[A-Za-z_][A-Za-z_0-9]*/)) {
-            word = substr(line, RSTART, RLENGTH)
-            line = substr(line, RSTART + RLENGTH)
-            if (word in rough && line ~ /^ *[(]/) {
-                print FILENAME ":" FNR ": " word "() differs from machine to machine; see base/maths.h"
+        while (match($4, /[A-Za-z_][A-Za-z_0-9]*/)) {
+            word = substr($4, RSTART, RLENGTH)
+            $4 = substr($4, RSTART + RLENGTH)
+            if (word in rough && $4 ~ /^ *[(]/) {
+                print $1 ":" $2 ": " word "() differs from machine to machine; see base/maths.h"
                 bad = 1
             }
         }
     }
-    END { exit bad || NR == 0 }' $(find "$top/src" "$top/test/lab" -name '*.[ch]' 2>/dev/null | sort)
+    END { exit bad || NR == 0 }'

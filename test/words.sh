@@ -11,5 +11,5 @@ export LC_ALL
 {
     find . \( -name 'build*' -o -name out -o -name .git \) -prune -o -name '*.md' -print | sed 's/^\.\///' | sort |
         xargs awk -f "$awk/pages.awk"
-    find src test/lab -name '*.[ch]' | sort | xargs awk -f "$awk/sources.awk"
+    find src test/lab -name '*.[ch]' | sort | xargs awk -f "$awk/../pieces.awk" | awk -f "$awk/sources.awk"
 } | awk -F '\t' -f "$awk/check.awk" "$lists/limits.txt" "$lists/phrases.txt" "$lists/exceptions.txt" -

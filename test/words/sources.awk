@@ -1,23 +1,10 @@
-# sources.awk: the comments and strings of C files, as pages.awk does it for pages. All are of the kind "source"; code
-# in backquotes and names of files become one word.
-FNR == 1 { comment = 0 }
+# sources.awk: the comments and strings of C files, from what pieces.awk prints, as pages.awk prints pages. All are of the
+# kind "source"; code in backquotes and names of files become one word.
+BEGIN { FS = OFS = "\t" }
+$3 == "code" { included = $4 ~ /^#include/; next }
+$3 == "string" && (included || $4 ~ /^'/) { next }
 {
-    gsub(/'\\?.'/, "0")
-    line = $0
-    text = ""
-    while (line != "") {
-        if (comment) {
-            end = index(line, "*/")
-            text = text " " (end ? substr(line, 1, end - 1) : line)
-            line = end ? substr(line, end + 2) : ""
-            comment = !end
-        } else if (match(line, /\/\*|"([^"\\]|\\.)*"/)) {
-            comment = substr(line, RSTART, 1) == "/"
-            if (!comment && $0 !~ /^#include/) text = text " " substr(line, RSTART, RLENGTH)
-            line = substr(line, RSTART + RLENGTH)
-        } else line = ""
-    }
-    gsub(/`[^`]*`|[a-z_0-9-]+\.(c|h|sh|awk|md|pbrt)/, "CODE", text)
-    gsub(/\t/, " ", text)
-    print FILENAME "\t" FNR "\tsource\t" text
+    gsub(/`[^`]*`|[a-z_0-9-]+\.(c|h|sh|awk|md|pbrt)/, "CODE", $4)
+    $3 = "source"
+    print
 }
