@@ -82,7 +82,8 @@ done <<'END'
 <p>x
 END
 
-# unknown PATTERN FILE BEFORE AFTER: the names that documents have within PATTERN, of which FILE has no BEFORE NAME AFTER.
+# unknown PATTERN FILE BEFORE AFTER: the names that documents have within PATTERN for which FILE has no text BEFORE NAME
+# AFTER.
 unknown() {
     find . \( -name 'build*' -o -name out -o -name .git \) -prune -o -name '*.md' -exec grep -ohE "$1" {} + |
         sed 's/`$//; s/.*[` ]//' | sort -u | while read -r name; do
@@ -92,5 +93,6 @@ unknown() {
 for name in $(unknown 'mutant `[a-zA-Z0-9-]+`' test/mutants/list.txt '^' ' '); do wrong "there is no mutant $name"; done
 for name in $(unknown '`build/test [a-z0-9-]+`' test/main.c '{"' '"'); do wrong "there is no test $name"; done
 [ -n "$(unknown '`build/test [a-z0-9-]+`' /dev/null '' '')" ] || wrong "a test that does not exist is not noticed"
-[ $bad -ne 0 ] || echo "html: $(find "$dir/html" -name '*.html' | wc -l | tr -d ' ') pages are whole, and what they name exists"
+[ $bad -ne 0 ] ||
+    echo "html: $(find "$dir/html" -name '*.html' | wc -l | tr -d ' ') pages are whole, and what they name exists"
 exit $bad

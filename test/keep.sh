@@ -157,8 +157,8 @@ heard() {
     echo "skipped: SIG$1 (it is ignored here)"
     return 1
 }
-# stopped STATUS SIGNAL CONDITION SAYS OPTION...: a render gets the signal when the condition, a command, is met. It must
-# end with the status, say that it is stopping and what it has reached, and leave no temporary file.
+# stopped STATUS SIGNAL CONDITION SAYS OPTION...: a render gets the signal when the condition, a command, is met. It
+# must end with the status, say that it is stopping and what it has reached, and leave no temporary file.
 stopped() {
     wanted=$1 signal=$2 condition=$3 says=$4
     shift 4

@@ -1,5 +1,6 @@
 # scale.awk: what scale.sh has measured, compared with laws a + b f(n), fitted by least squares of relative errors, a
-# and b not negative; no law is fitted to two sizes. Prints sections for doc/measured: table; data, the lines of scale.sh.
+# and b not negative; no law is fitted to two sizes. Prints sections for doc/measured: table; data, the lines of
+# scale.sh.
 BEGIN {
     n_rows = split("triangles build nlogn building, s|triangles load n reading, s|triangles ray log a ray, us" \
         "|triangles bdpt log bdpt, us a path|triangles memory n memory, MiB|lights load n reading, s|" \
