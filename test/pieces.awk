@@ -1,5 +1,5 @@
-# pieces.awk: C files as lines FILE <tab> LINE <tab> KIND <tab> TEXT, one for each piece of a line: "comment", without its
-# marks; "string", with them, or a character; "code".
+# pieces.awk: C files as lines FILE <tab> LINE <tab> KIND <tab> TEXT, one for each piece of a line. A "comment" is
+# without its marks, a "string" or a character with them; all else is "code".
 function put(kind, text) { if (text != "") print FILENAME "\t" FNR "\t" kind "\t" text }
 FNR == 1 { comment = 0 }
 {
