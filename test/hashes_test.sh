@@ -9,39 +9,31 @@ scene=$2
 while [ $# -gt 1 ]; do shift; done
 echo "$scene $SAYS" >"$1"
 END
-LIST=$dir/list
-export LIST SAYS
-hashes() { sh test/hashes.sh "sh $dir/program" "$@" >"$dir/said" 2>&1; }
-expect() { # STATUS WHAT [renew]
-    status=$1 what=$2
-    shift 2
-    hashes "$@"
-    [ $? = "$status" ] && return
-    echo "hashes.sh: $what ends with another status than $status: $(cat "$dir/said")"
-    exit 1
-}
-SAYS=
 number=$(sed -n 's/^#define ESTIMATOR \([0-9]*\)$/\1/p' src/base/version.h)
 printf '# a list\n# estimator %s, checksum of the lines below %s\nnew one -P x\nnew two\n' "$number" \
-    "$(cksum </dev/null | sed 's/ .*//')" >"$LIST"
-expect 1 "a list with new lines"
-expect 0 "new lines, to be listed" renew
-expect 0 "a list as it should be"
-[ "$(grep -c '^[0-9]' "$LIST")" = 2 ] || { echo "hashes.sh: new lines are not listed"; exit 1; }
-cp "$LIST" "$dir/good"
-sed '/ two/d' "$dir/good" >"$LIST"
-expect 1 "a list changed by hand"
-sed '/^[0-9]/d' "$dir/good" >"$LIST"
-expect 1 "an empty list"
-cp "$dir/good" "$LIST"
-SAYS=otherwise
-expect 1 "a program of other pictures"
-expect 1 "other pictures under the same estimator" renew
-cmp -s "$dir/good" "$LIST" || { echo "hashes.sh: a list that was refused is written"; exit 1; }
-sed "s/^# estimator [0-9]*/# estimator 999/" "$dir/good" >"$LIST"
-expect 0 "other pictures under another estimator" renew
-expect 0 "the new list"
-sed "s/^# estimator [0-9]*/# estimator 999/" "$LIST" >"$dir/stale"
-cp "$dir/stale" "$LIST"
-expect 1 "a list of another estimator"
+    "$(cksum </dev/null | sed 's/ .*//')" >"$dir/fresh"
+export LIST="$dir/list" SAYS
+# A row: what the list is made of and by which edit, what the program says, hashes.sh's mode, its status, and whether
+# the list is written.
+while IFS='|' read -r from edit SAYS mode status written what; do
+    sed "$edit" "$dir/$from" >"$LIST"
+    cp "$LIST" "$dir/before"
+    sh test/hashes.sh "sh $dir/program" $mode >"$dir/said" 2>&1
+    [ $? = "$status" ] || { echo "hashes.sh: $what does not end with $status: $(cat "$dir/said")"; exit 1; }
+    cmp -s "$LIST" "$dir/before" && changed=no || changed=yes
+    [ $changed = "$written" ] || { echo "hashes.sh: $what: is the list written? $changed"; exit 1; }
+    [ $changed = no ] || cp "$LIST" "$dir/good"
+done <<'END'
+fresh||||1|no|a list with new lines
+fresh|||renew|0|yes|new lines, to be listed
+good||||0|no|a list as it should be
+good|/ two/d|||1|no|a list changed by hand
+good|/^[0-9]/d|||1|no|an empty list
+good||otherwise||1|no|a program of other pictures
+good||otherwise|renew|1|no|other pictures under the same estimator
+good|s/^# estimator [0-9]*/# estimator 999/|otherwise|renew|0|yes|other pictures under another estimator
+good||otherwise||0|no|the new list
+good|s/^# estimator [0-9]*/# estimator 999/|otherwise||1|no|a list of another estimator
+END
+[ "$(grep -c '^[0-9]' "$dir/good")" = 2 ] || { echo "hashes.sh: new lines are not listed"; exit 1; }
 echo "hashes.sh: other pictures need another estimator"
