@@ -25,3 +25,24 @@ expect() {
     fi
 }
 check() { "$@" || fault "$*"; }
+# says PATTERN...: the standard output of the last command has a line for each (basic regular expressions).
+says() {
+    for pattern; do
+        grep -q -e "$pattern" stdout.txt || fault "no \"$pattern\" in $(cat stdout.txt)"
+    done
+}
+# prints PATTERN COMMAND...: it ends with 0, and its standard output says so.
+prints() {
+    said=$1
+    shift
+    expect 0 '' "$@"
+    says "$said"
+}
+# makes FILE COMMAND...: it ends with 0, and the file of its last argument has the same bytes as FILE.
+makes() {
+    like=$1
+    shift
+    expect 0 '' "$@"
+    for made; do :; done
+    cmp -s "$like" "$made" || fault "$* does not make the bytes of $like"
+}

@@ -30,9 +30,8 @@ while read -r cuts options; do
             from=$to
         done
         set -- part*.part
-        check "$lab" merge -o sum.part -o sum.pfm "$@" --quiet
+        makes whole.pfm "$lab" merge "$@" --quiet -o sum.part -o sum.pfm
         same whole.part sum.part "$options in parts"
-        same whole.pfm sum.pfm "$options in parts"
         rm -f state
         expect 0 'at [0-9]+ of 70' \
             "$lab" render "$box" $size $options -j 3 --time 1e-6 --checkpoint state -o early.part
@@ -40,8 +39,7 @@ while read -r cuts options; do
         *asbdpt*) ;; # a checkpoint does not keep what was made by lessons cut short
         *) same state early.part "a checkpoint and a part" ;;
         esac
-        check "$lab" render "$box" $size $options -j 2 --resume state -o sum.pfm -o sum.part
-        same whole.pfm sum.pfm "$options resumed"
+        makes whole.pfm "$lab" render "$box" $size $options -j 2 --resume state -o sum.part -o sum.pfm
         same whole.part sum.part "$options resumed"
     }
 done <<'END'
@@ -67,10 +65,8 @@ cp lit/light01_key.pfm whole.pfm
 for range in 0:32 32:70; do
     check "$program" render $lit --alpha --samples $range -o $range.part
 done
-check "$program" merge -o sum.png -o sum.part 32:70.part 0:32.part --quiet
-same whole.png sum.png "alpha in parts"
-check "$program" render $lit --alpha -o sum.png --resume sum.part
-same whole.png sum.png "alpha resumed"
+makes whole.png "$program" merge 32:70.part 0:32.part --quiet -o sum.part -o sum.png
+makes whole.png "$program" render $lit --alpha --resume sum.part -o sum.png
 same whole.pfm lit/light01_key.pfm "a light in parts"
 check "$program" render $lit --samples 32:70 -o 32:70.part
 expect 1 'another image: it has "size 8 12, planes 3 0", not "size 8 12, planes 3 1"' \
@@ -80,13 +76,11 @@ expect 1 'another image: it has "size 8 12, planes 3 0", not "size 8 12, planes 
 rm -f state
 check "$program" render "$box" $size --integrator asbdpt --spp 64 -o whole.pfm
 check "$program" render "$box" $size --integrator asbdpt --spp 24 -o x.pfm --checkpoint state
-check "$program" render "$box" $size --integrator asbdpt --spp 64 -o x.pfm --checkpoint state --resume state
-same whole.pfm x.pfm "more samples of a finished picture"
+makes whole.pfm "$program" render "$box" $size --integrator asbdpt --spp 64 --checkpoint state --resume state -o x.pfm
 check "$program" render "$box" $size --integrator asbdpt --spp 24 -o x.pfm --checkpoint short
 check "$program" render "$box" $size --integrator asbdpt --spp 64 --time 1e-6 -o x.pfm --checkpoint short --resume short
 check [ "$(work_in short)" -gt 0 ] # which is not lost when the time is over before all is learnt anew
-check "$program" render "$box" $size --integrator asbdpt --spp 64 -o x.pfm --resume short
-same whole.pfm x.pfm "what was gone on with in haste"
+makes whole.pfm "$program" render "$box" $size --integrator asbdpt --spp 64 --resume short -o x.pfm
 check "$program" render "$box" $size --integrator asbdpt -P select=bins --spp 40 -o x.pfm --checkpoint bins.state
 expect 1 'ends at sample 40: here they come in blocks of 32' "$program" render "$box" $size --integrator asbdpt \
     -P select=bins --spp 64 -o x.pfm --resume bins.state
@@ -111,10 +105,8 @@ part c.part --samples 5:8
 part other.part --samples 3:8 --seed 1
 sed 's/^# /#  /' "$box" >changed.pbrt
 expect 0 'wrote x.pfm, x.part$' "$program" merge -o x.pfm -o x.part b.part a.part
-expect 0 '' "$program" merge a.part b.part -o y.pfm
-same x.pfm y.pfm "the output first"
-expect 0 '' "$program" merge x.part -o z.pfm
-same x.pfm z.pfm "a merged part"
+makes x.pfm "$program" merge a.part b.part -o y.pfm
+makes x.pfm "$program" merge x.part -o z.pfm
 rm -f x.pfm
 expect 1 'missing are the samples 3:5' "$program" merge -o x.pfm a.part c.part
 expect 1 'missing are the samples 0:3' "$program" merge -o x.pfm b.part
@@ -187,8 +179,7 @@ for pair in TERM:143 HUP:129 TERM:143; do
     expect 0 '' "$lab" compare caught.pfm whole.pfm
     check awk '$1 == "mean_ratio" && $2 < 1.1 { near = 1 } END { exit !near }' stdout.txt
 done
-check "$program" render "$box" $size --resume state -o sum.pfm -o sum.part --checkpoint state
-same whole.pfm sum.pfm "after signals"
+makes whole.pfm "$program" render "$box" $size --resume state --checkpoint state -o sum.part -o sum.pfm
 same whole.part sum.part "after signals"
 # However large the picture is.
 rm -f state caught.pfm
@@ -284,7 +275,6 @@ while [ $n -lt "$kills" ] || { [ $worked = 0 ] && [ $n -lt $((kills + 50)) ]; };
     fi
 done
 [ "$worked" -gt 0 ] || fault "$n kills have left no work done"
-check "$program" render "$box" $slow --checkpoint state --resume state -o killed.pfm
-same killed.pfm unbroken.pfm "after $n kills"
+makes unbroken.pfm "$program" render "$box" $slow --checkpoint state --resume state -o killed.pfm
 [ $failures -eq 0 ] && echo "nothing rendered is lost: all as expected"
 exit $((failures > 0))
