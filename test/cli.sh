@@ -514,7 +514,7 @@ prints 'equal-time --seconds 0.01 --methods bdpt,asbdpt:select=pool --seeds 2' \
     "$lab" equal-time "$box" --methods bdpt,asbdpt:select=pool --seconds 0.01 $tiny -o equal
 check [ "$(grep -c '^cornell-box,asbdpt:select=pool,' equal/runs.csv)" = 2 ]
 # family: once more, nothing is measured again.
-set -- "$box" "$ajar" --methods bdpt,pt,lvc --quick --spp 2 --res 8x8 --seeds 3 -o family
+set -- "$box" "$scenes/veach-ajar.pbrt" --methods bdpt,pt,lvc --quick --spp 2 --res 8x8 --seeds 3 -o family
 expect 0 'cornell-box, lvc:.*, seed' "$lab" family "$@"
 check grep -q '^| lvc |' family/family.md
 expect 0 '' "$lab" family "$@"
