@@ -367,7 +367,7 @@ static void two_directions(struct rng *r, bool narrow, double alpha, vec3 *wo, v
     do {
         double u = rng_uniform(r);
         vec3 h = direction(1 / sqrt(1 + sqr(alpha * u / (1 - u))), 7 * rng_uniform(r));
-        *wi = narrow ? sub(mul(h, 2 * dot(*wo, h)), *wo)
+        *wi = narrow && u < 0.75 ? sub(mul(h, 2 * dot(*wo, h)), *wo)
                      : direction(0.05 + 0.9 * rng_uniform(r), 7 * rng_uniform(r));
     } while (wi->z < 1e-5);
 }
