@@ -1,4 +1,4 @@
-/* test_alias.c: alias tables hold exactly the mass they should and draw accordingly.
+/* test_alias.c: an alias table holds exactly the mass of every element, and its draws have these probabilities.
  *
  * The exact test adds up, over all bins, the share each element has in them and compares with the weights. The
  * statistical ones are then about alias_sample: right counts, and a left-over u that is uniform and tells nothing

@@ -1,4 +1,4 @@
-/* test_aov.c: what the camera sees first: planes, mirrors and nothing, whose pictures are known. */
+/* test_aov.c: images of what the camera sees first: planes, mirrors and empty space, whose images are known. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* test_asbdpt.c: selection of light sub-paths: the unbiased ways agree with path tracing, the dissertation's does
- * not. */
+/* test_asbdpt.c: selection of light sub-paths: the unbiased selections agree with path tracing, the dissertation's
+ * does not. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
-/* test_balance.c: what a chain accepts there and back balances, each mutation by itself; a path of mlt that is made
- * again is the path that it was. */
+/* test_balance.c: Markov chains, each mutation alone: moves and reverse moves balance, and a path of mlt that is made
+ * again is the same path. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* test_bsdf.c: what bsdf_sample draws is what bsdf_eval says it draws.
+/* test_bsdf.c: bsdf_sample draws directions with the density and the values that bsdf_eval states.
  *
  * For every kind of lobe and some sums of lobes, from both sides, steep and grazing, with the geometric and the
  * shading normal together and apart:

@@ -1,5 +1,5 @@
-/* test_camera.c: the cameras: projection inverts ray generation, J is the Jacobian of raster over solid
- * angle, and importance integrates as it must. */
+/* test_camera.c: the cameras: projection inverts ray generation, J is the Jacobian of raster over solid angle, and
+ * importance integrates to its known value. */
 #include <math.h>
 
 #include "scene/camera.h"

@@ -1,4 +1,4 @@
-/* test_caustic.c: chains of mirrors and glass: their derivatives, closed forms, and that nothing is counted twice or
+/* test_caustic.c: chains of mirrors and glass: their derivatives, closed forms, and that no path is counted twice or
  * lost. */
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* test_chains.c: Markov chains: states are bdpt's samples, chains stay where they should, pictures are bdpt's.
- * test_balance.c has what they accept. */
+/* test_chains.c: Markov chains: their states are samples of bdpt, they keep their distribution, and their images are
+ * those of bdpt. test_balance.c has what they accept. */
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
-/* test_closed.c: closed forms where directions are exactly perpendicular, parallel or at 45 degrees: lights, views,
- * faces and mirrors stand along the axes, in one of the 24 rotations that exchange axes. What all methods miss alike
- * no comparison of methods shows. */
+/* test_closed.c: scenes along the axes, where radiance is known in closed form: directions are exactly perpendicular,
+ * parallel or at 45 degrees. Lights, views, faces and mirrors are in one of the 24 rotations that exchange axes. What
+ * all methods miss alike no comparison of methods shows. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

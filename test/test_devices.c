@@ -1,5 +1,5 @@
-/* test_devices.c: what POSIX has among files that are none: a device that is full, one that never ends, a pipe that
- * nobody writes to. */
+/* test_devices.c: names that are no ordinary files: a device that is full, one that never ends, a pipe that nobody
+ * writes to. */
 #define _POSIX_C_SOURCE 200809L
 #define _XOPEN_SOURCE 700 /* symlink, on NetBSD */
 

@@ -1,4 +1,4 @@
-/* test_ellipse.c: points of a triangle by which light's way has a given length have the density that is claimed.
+/* test_ellipse.c: points of a triangle that give a path the wanted length are drawn with the density that is stated.
  * What pictures of narrow gates make of them is in test_gates.c. */
 #include "rivals/ellipse.h"
 

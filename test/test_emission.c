@@ -1,6 +1,6 @@
-/* test_emission.c: how light sub-paths leave the lights (emission.h): numbers of rays are found again for every kind of
- * light; what is drawn has the density stated and, whatever the table, the same expectation; what is learnt is what
- * the rays say. */
+/* test_emission.c: how light sub-paths leave the lights (emission.h): draws have the density that is stated, and the
+ * same expectation for every table. The numbers of a ray are found again for every kind of light, and what is learnt
+ * is what the rays show. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

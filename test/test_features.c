@@ -1,4 +1,4 @@
-/* test_features.c: the scenes of scenes/features, one for each thing that a scene file can say.
+/* test_features.c: the scenes of scenes/features, one for each element of the scene format.
  *
  * Each is loaded, must give the warnings of its "# warn: " lines and no others, and is rendered by path tracing and by
  * BDPT, which must agree and not be black.

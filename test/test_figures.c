@@ -1,6 +1,6 @@
-/* test_figures.c: faults that change no expectation. What a render costs and what it brings for that are counted, no
- * clock is asked, and compared with what they were when the figures below were written down: a change that is meant to
- * move them writes them anew. */
+/* test_figures.c: work and noise of small renders against stored numbers, to find faults that change no expectation.
+ * What a render costs and what it brings for that are counted, no clock is asked, and compared with what they were
+ * when the figures below were written down: a change that is meant to move them writes them anew. */
 #include <math.h>
 #include <stdio.h>
 

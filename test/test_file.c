@@ -1,4 +1,4 @@
-/* test_file.c: pictures as files: written, read back, and every way in which that fails.
+/* test_file.c: images as files: written, read back, and every way in which this fails.
  *
  * Facts: what is written is read back, and is byte for byte what other programs expect. Faults: missing directories,
  * names without a known extension; nothing half-written is ever left behind. Devices: test_devices.c. */

@@ -1,4 +1,4 @@
-/* test_format.c: doc/scene-format.md against the tables that the parser goes by.
+/* test_format.c: doc/scene-format.md lists the types and parameters of the parser's tables.
  *
  * In the page's tables the last cell of a row lists parameters and the one before it types, each between backticks,
  * values and remarks in parentheses. Every type must have a row, with its parameters and no others.

@@ -1,5 +1,5 @@
-/* test_fourier.c: tables of layered materials against what they were made from; damaged files. That what is drawn has
- * the density that is claimed, is in test_bsdf.c.
+/* test_fourier.c: tables of layered materials against the functions from which they were made, and damaged files. That
+ * what is drawn has the density that is claimed, is in test_bsdf.c.
  *
  * The table is scenes/features/layered.bsdf: it must be the bytes that are made here.
  */

@@ -1,4 +1,4 @@
-/* test_frame.c: the judgement of p-values (test.h), on tests that report planted ones. */
+/* test_frame.c: the judgement of p-values (test.h), with tests that report planted ones. */
 #include <math.h>
 
 #include "tests.h"

@@ -1,6 +1,6 @@
-/* test_fuzz.c: replays what fuzzing has found worth keeping: every line of test/fuzz/corpus/TARGET.txt is an input that
- * must be taken or refused. Targets, which test/fuzz/targets.h describes, end the process where they do not: each has
- * one of its own. */
+/* test_fuzz.c: inputs that fuzzing found worth keeping: each must be read, or refused, as its list states. Every line
+ * of test/fuzz/corpus/TARGET.txt is an input. Targets, which test/fuzz/targets.h describes, end the process where they
+ * do not: each has one of its own. */
 #define _POSIX_C_SOURCE 200809L
 #define _DARWIN_C_SOURCE /* mkdtemp, on macOS */
 

@@ -1,6 +1,7 @@
-/* Gates: light whose way to the lens is of a given length (lab/paths.h). Gates that follow each other add up to the
- * ungated film, but for rounding, by every method; totals are those of the pixels; and of a point light over a plane a
- * gate has the ring that closed form says. That all strategies agree about a path's length is in test_mis.c. */
+/* Gates: light whose path to the lens has a length between two bounds (lab/paths.h). Gates that follow each other
+ * add up to the ungated film, but for rounding, by every method; totals are those of the pixels; and of a point
+ * light over a plane a gate has the ring that closed form says. That all strategies agree about a path's length is
+ * in test_mis.c. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* test_halves.c: the noise that halves of the samples tell, against noise that is known and against the error that
- * pictures have beside a reference. */
+/* test_halves.c: the noise computed from two halves of the samples, against known noise and against errors relative to
+ * a reference. */
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* test_hdr.c: pictures of linear light and more than one unit of it: OpenEXR, Radiance, and the tone curve.
+/* test_hdr.c: images of linear light: OpenEXR, Radiance, and the tone curve.
  *
  * Facts: files that OpenEXR's own library and ImageMagick made of picture.pfm have its pixels, compressed and laid out
  * in every way that is read. Faults: every other kind is refused; truncation, random changes, absurd sizes. */

@@ -1,6 +1,6 @@
-/* test_hostile.c: whole runs of ./asbdpt on scenes that mean harm. The verdict on each: exit status 0 or 1, never a
- * signal; a message unless it is 0; a picture, all of finite numbers, if it is 0; and no more than so much time and
- * memory, which is what SECURITY.md promises for scenes of up to a megabyte.
+/* test_hostile.c: whole runs of ./asbdpt on scenes that are meant to do harm. The verdict on each: exit status 0 or 1,
+ * never a signal; a message unless it is 0; a picture, all of finite numbers, if it is 0; and no more than so much
+ * time and memory, which is what SECURITY.md promises for scenes of up to a megabyte.
  *
  * Most scenes come from test/fuzz/hostile.h, or are random ones (random_scene.h) with evil numbers in them; the others
  * are a kind of harm each, at its full size. */

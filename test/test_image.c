@@ -1,4 +1,4 @@
-/* test_image.c: the readers of the image formats, on files by other programs and on damaged ones.
+/* test_image.c: the readers of the image formats, on files by other programs and on damaged files.
  *
  * Facts: pictures made by another program, or byte by byte here, have the pixels they must have. Faults: truncation
  * at every length, changes of single bytes, absurd sizes. Readers are called on blocks that end where the data end,

@@ -1,4 +1,4 @@
-/* test_kdtree.c: the kd-tree answers exactly what asking every primitive answers.
+/* test_kdtree.c: the kd-tree gives exactly the answers of a loop over all primitives.
  *
  * Geometry that builders and traversals get wrong is generated: everything coplanar, everything at one place,
  * needles, far from the origin, one triangle, none. Rays are chosen to be awkward as well: along axes, in planes of

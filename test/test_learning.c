@@ -1,5 +1,5 @@
-/* test_learning.c: the contract of learning (learn.h): a budget that no number of samples changes, an end at any time,
- * grids where vertices are. */
+/* test_learning.c: the contract of learning (learn.h): a budget that does not depend on the number of samples, an end
+ * at any time, and grids that cover the vertices. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* test_light.c: lights against the densities that they state: emitted directions and those of environment maps; the
- * choice among lights; powers; where the texels of their pictures go. test_light_sent.c goes on. */
+/* test_light.c: lights against the densities that they state, the choice among lights, their powers, and the texels of
+ * their images. test_light_sent.c goes on. */
 #include <math.h>
 #include <stdio.h>
 

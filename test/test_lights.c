@@ -1,6 +1,6 @@
-/* Lights apart, and what the lens does not see. The planes of all lights are the picture, to the bit, by every method;
- * each is what a render by that light alone expects. Alpha: 0 of an empty scene, 1 of a closed one, else what is
- * covered; a light that is hidden is missing where the lens meets it first, and nowhere else. */
+/* Images of each light alone, and lights that the lens does not see. The planes of all lights are the picture, to the
+ * bit, by every method; each is what a render by that light alone expects. Alpha: 0 of an empty scene, 1 of a closed
+ * one, else what is covered; a light that is hidden is missing where the lens meets it first, and nowhere else. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

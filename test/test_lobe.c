@@ -1,5 +1,5 @@
-/* test_lobe.c: the optics below a BSDF: Fresnel's equations, the facet distribution, delta lobes.
- * Everything here is exact or a quadrature; the statistics are in test_bsdf.c. */
+/* test_lobe.c: the parts of a BSDF: Fresnel's equations, the facet distribution, delta lobes. Everything here is exact
+ * or a quadrature; the statistics are in test_bsdf.c. */
 #include "material/lobe.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* test_media.c: the scenes of scenes/media by all methods that know media: each has the expectation of bdpt, and a
- * fault that is planted is seen. test_medium.c has closed forms, test_strategies.c one strategy after another. */
+/* test_media.c: the scenes of scenes/media by all methods that render media: each has the expectation of bdpt, and a
+ * planted fault is found. test_medium.c has closed forms, test_strategies.c one strategy after another. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* test_medium.c: media by themselves: closed forms and quadrature. That all strategies weigh paths through them as one
+/* test_medium.c: media alone, against closed forms and quadrature. That all strategies weigh paths through them as one
  * is in test_mis.c. */
 #include <math.h>
 #include <stdio.h>

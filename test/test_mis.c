@@ -1,6 +1,6 @@
-/* test_mis.c: the O(1) weights of mis.h, and the values of connections, against densities multiplied out (oracle.h), on
- * random paths over every kind of vertex, light and integrator. The bound: 1e-9 relative to the weight, plus 1e-12. A
- * path's oracle weights sum to 1 by construction, so agreement for every strategy is the partition of unity. */
+/* test_mis.c: the O(1) weights of mis.h and the values of connections against all densities multiplied out (oracle.h),
+ * on random paths over every kind of vertex, light and integrator. The bound: 1e-9 relative to the weight, plus 1e-12.
+ * A path's oracle weights sum to 1 by construction, so agreement for every strategy is the partition of unity. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* test_options.c: the reader of options (cli/options.h): every kind, its bounds, what is refused and why; and that
- * every row of a subcommand's table is read into its struct. */
+/* test_options.c: the reader of options (cli/options.h): every kind of option, its bounds, and what is refused and
+ * why. Every row of a subcommand's table is read into its struct. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

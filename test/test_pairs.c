@@ -1,5 +1,5 @@
-/* test_pairs.c: regions are found again at the finest level that was met, and what is learnt about pairs of them is the
- * mean of the trials, leaning on the pair above where they are few, and normalised. */
+/* test_pairs.c: regions are found again at the finest level that was met, and the worth of a pair of regions is the
+ * mean of its trials. If trials are few, the mean is regularised towards the pair above; then it is normalised. */
 #include <math.h>
 #include <stdlib.h>
 

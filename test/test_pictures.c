@@ -1,4 +1,4 @@
-/* test_pictures.c: figures made of pictures: the pyramid of strategies, the demonstration. */
+/* test_pictures.c: figures made of images: the pyramid of strategies, the demonstration. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

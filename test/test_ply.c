@@ -1,4 +1,4 @@
-/* test_ply.c: every variant of PLY that reads, reads the same; everything broken is refused with a clear message.
+/* test_ply.c: every variant of PLY gives the same mesh, and every broken file is refused with a clear message.
  *
  * One mesh, a square with normals and texture coordinates cut from a quad, is written in many dialects and compared
  * with itself number by number. Each broken file must be refused with the words that say why.

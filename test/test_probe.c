@@ -1,5 +1,5 @@
-/* test_probe.c: what is found out before a render: where light sub-paths are worth their time, and where nothing else
- * finds the light; what numbers and credits become in the weights. */
+/* test_probe.c: the check whether light sub-paths are useful (probe.h), and the counts in the weights that follow from
+ * numbers and credits. */
 #include <stdio.h>
 
 #include "helpers.h"

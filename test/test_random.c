@@ -1,4 +1,5 @@
-/* test_random.c: random scenes (random_scene.h): all methods must see the same, and what is known if anything is.
+/* test_random.c: random scenes (random_scene.h): all methods have the same expectation, and the known value where
+ * there is one.
  *
  * bdpt is compared with one other method and some of its parameters, drawn from the number as the heuristic and the
  * gate are, each by itself; with pt where no delta light could be behind a specular surface, and with lt where no

@@ -1,5 +1,5 @@
-/* test_reference.c: all integrators against the stored references of the scenes (ref/), tile by tile; the
- * dissertation's bins, with the same samples, are found out. */
+/* test_reference.c: all integrators against the stored references of the scenes (ref/), tile by tile. The
+ * dissertation's bins, with the same samples, are rejected. */
 #include <stdio.h>
 
 #include "helpers.h"

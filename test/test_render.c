@@ -1,4 +1,4 @@
-/* test_render.c: whole renders: radiance known on paper, tiles, blocks, stopping, crop. */
+/* test_render.c: whole renders: radiance in closed form, tiles, blocks, stopping, crop windows. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

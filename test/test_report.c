@@ -1,5 +1,4 @@
-/* test_report.c: experiments: statistics, plots, a tiny experiment carried out, resumed and written, its files
- * read. */
+/* test_report.c: experiments: statistics, plots, and a tiny experiment that is run, resumed, written and read. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>

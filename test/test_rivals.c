@@ -1,6 +1,6 @@
-/* test_rivals.c: other ways of choosing what to connect (test/lab/rivals): each has the expectation of path tracing, in
- * pools of one, two and four light sub-paths, too, where a fault of 1/K is as large as what is measured; and each is
- * another method where the two are one. test_asbdpt.c has lvc and cbdpt. */
+/* test_rivals.c: other methods of choosing what to connect (test/lab/rivals): each has the expectation of path
+ * tracing. Pools of one, two and four light sub-paths are tested too, where a fault of 1/K is as large as what is
+ * measured. Where a method must equal another one, it does. test_asbdpt.c has lvc and cbdpt. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* test_sampler.c: the numbers of a stream, and what becomes of them.
+/* test_sampler.c: the numbers of a stream, and the points of the unit square that samples use.
  *
  * A stream: the low-discrepancy part has exactly one point per stratum and is uniform and independent over pixels; the
  * rest are plain random numbers. What becomes of them: samples of whole integrators are watched (trace.h), the points

@@ -1,4 +1,4 @@
-/* test_scenes.c: the scenes of scenes/test: known radiance, pairs of light kinds, mirrored worlds, all integrators. */
+/* test_scenes.c: the scenes of scenes/test: known radiance, pairs of light kinds, mirrored scenes, all integrators. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,4 +1,4 @@
-/* test_shape.c: triangles and quadrics: where rays meet them, what the surface there is like, how points are sampled.
+/* test_shape.c: triangles and quadrics: where rays meet them, the surface there, and how points are sampled.
  *
  * Derivatives are compared with differences of neighbouring points, areas with known values and sums of patches,
  * samples with their density by chi-square. A density that forgets the transform must be rejected.

@@ -1,4 +1,4 @@
-/* test_sheet.c: labelled pictures: letters, colours, and what is put where on a sheet. */
+/* test_sheet.c: labelled images: letters, colours, and the layout of a sheet. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

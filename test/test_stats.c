@@ -1,6 +1,6 @@
-/* test_stats.c: the yardsticks against published tables and closed forms.
- * Tables: critical values of chi-square, Student's t and Kolmogorov-Smirnov as printed in any statistics book
- * [Abramowitz & Stegun 1964] [Massey 1951]. */
+/* test_stats.c: the functions of statistics against published tables and closed forms. Tables: critical values of
+ * chi-square, Student's t and Kolmogorov-Smirnov as printed in any statistics book [Abramowitz & Stegun 1964] [Massey
+ * 1951]. */
 #include "lab/stats.h"
 
 #include <math.h>

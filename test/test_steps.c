@@ -1,6 +1,5 @@
-/* test_steps.c: walks, joints and the formulas of the weights, by hand: matte rooms in which every number is known, one
- * thing at a time. Other tests see more; these are quick and say which step is wrong. (The course's grader asks them
- * first.) */
+/* test_steps.c: walks, joints and weights by hand, one step at a time, in matte rooms where every number is known.
+ * Other tests see more; these are quick and say which step is wrong. (The course's grader asks them first.) */
 #include <math.h>
 #include <string.h>
 

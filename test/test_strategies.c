@@ -1,4 +1,5 @@
-/* test_strategies.c: every strategy (s,t) alone, unweighted, has the expectation of all the others of its path length.
+/* test_strategies.c: every strategy (s,t) alone, unweighted, has the expectation of all others of the same path
+ * length.
  *
  * Only then may their weights be chosen freely. Six scenes without delta lobes or delta lights, so that every
  * strategy can make every path; surfaces do not touch, so that no connection is short and its geometry factor has a

@@ -1,5 +1,5 @@
-/* test_streams.c: random numbers have names (seed, purpose, pixel, iteration), and no two names may meet. Tested from
- * two sides: the numbers of a sampler, and the sub-paths that the integrators trace. */
+/* test_streams.c: random numbers are named by seed, purpose, pixel and iteration, and different names give different
+ * numbers. Tested from two sides: the numbers of a sampler, and the sub-paths that the integrators trace. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

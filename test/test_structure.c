@@ -1,5 +1,5 @@
-/* test_structure.c: scenes for efficiency (random_structure.h): each kind comes as often as any other, nothing in them
- * is refused or warned of, and the camera sees light. */
+/* test_structure.c: generated scenes that measure efficiency (random_structure.h): all kinds are equally frequent,
+ * load without warnings, and show light to the camera. */
 #include <stdlib.h>
 #include <string.h>
 

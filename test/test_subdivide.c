@@ -1,5 +1,4 @@
-/* test_subdivide.c: Loop subdivision: where its limit is known, that levels agree on it, topology, normals and what is
- * refused. */
+/* test_subdivide.c: Loop subdivision: known limits, agreement of levels, topology, normals, and what is refused. */
 #include "geometry/mesh.h"
 
 #include <stdlib.h>

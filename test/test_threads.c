@@ -1,5 +1,5 @@
-/* test_threads.c: small renders by every method on four threads, meant for the thread sanitizer (make tsan); they must
- * see what one thread does. Jobs of uneven length do not hold up others, and are committed in order. */
+/* test_threads.c: small renders by every method on four threads give what one thread gives; made for the thread
+ * sanitizer (make tsan). Jobs of uneven length do not hold up others, and are committed in order. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* test_trace.c: what the witness of a sample tells is what the film received, to the last bit. */
+/* test_trace.c: the trace of a sample adds up to what the film received, to the last bit. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-/* test_vcm.c: vertex connection and merging: with a radius that nothing is within it is bdpt; where light is even its
- * radius brings no bias, if all weights of a path add up to 1; elsewhere the bias falls with the radius. */
+/* test_vcm.c: vertex connection and merging: with a radius of nearly nothing it is bdpt, and in even light its radius
+ * adds no bias. The second holds if all weights of a path add up to 1. Elsewhere the bias falls with the radius. */
 #include <math.h>
 
 #include "lab/compare.h"

@@ -1,4 +1,4 @@
-/* test_vec.c: the foundations: vectors, frames, transforms, and the random numbers' exact values. */
+/* test_vec.c: vectors, frames, transforms, and the exact values of random numbers. */
 #include "base/vec.h"
 
 #include "base/bits.h"

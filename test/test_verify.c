@@ -1,4 +1,4 @@
-/* test_verify.c: `verify` accepts what is equal, rejects what is not, and its p-values are uniform. */
+/* test_verify.c: `verify` accepts equal methods, rejects different ones, and its p-values are uniform. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

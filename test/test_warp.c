@@ -1,5 +1,5 @@
-/* test_warp.c: every map of warp.h lands where its density says.
- * Each sample is turned into two coordinates in which the density is known in closed form per cell of a grid. */
+/* test_warp.c: every map of warp.h draws with the density that it states. Each sample is turned into two coordinates
+ * in which the density is known in closed form per cell of a grid. */
 #include "base/warp.h"
 
 #include <math.h>
