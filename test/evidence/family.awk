@@ -1,7 +1,7 @@
 # family.awk: sections of doc/measured from family.md of `asbdpt-lab family`. Of each half, choice and services:
 # HALF, the table of means; HALF-rmse8, HALF-relmse, HALF-8x8, of all scenes; HALF-claims. bring: of each method that
-# can have services, the means of the choice alone and the factor of services, by rmse8 and in 8x8. Rows of services that are those of the
-# choice, of methods without services, are left out, but for pt, lt and bins.
+# can have services, the means of the choice alone and the factor of services, by rmse8 and in 8x8. Rows of services
+# that are those of the choice, of methods without services, are left out, but for pt, lt and bins.
 function begin(name) { section = name; open = 0 }
 /^## The choice alone/ { half = "choice" }
 /^## With all services/ { half = "services" }
