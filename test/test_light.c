@@ -1,88 +1,15 @@
-/* test_light.c: lights against the densities that they state, the choice among lights, their powers, and the texels of
- * their images. test_light_sent.c goes on. */
+/* test_light.c: the choice among lights, powers, where the texels of their images go and who reads them.
+ * test_light_sent.c, which is a part of this test, has the densities. */
 #include <math.h>
 #include <stdio.h>
 
-#include "base/os.h"
 #include "base/rng.h"
-#include "base/warp.h"
 #include "caustics/lamp.h"
 #include "lab/files.h"
 #include "lab/stats.h"
 #include "helpers.h"
 #include "tests.h"
 
-enum { ROWS = 24, COLUMNS = 32, CELLS = ROWS * COLUMNS, SAMPLES = 60000, SUB = 8 };
-
-static int cell_of(vec3 w)
-{
-    int row = (int)((w.z + 1) / 2 * ROWS);
-    double phi = atan2(w.y, w.x);
-    int column = (int)((phi < 0 ? phi + 2 * PI : phi) / (2 * PI) * COLUMNS);
-    row = row < 0 ? 0 : row >= ROWS ? ROWS - 1 : row;
-    return row * COLUMNS + (column >= COLUMNS ? COLUMNS - 1 : column);
-}
-
-struct direction_source {
-    const struct light_set *set;
-    const struct light_point *y0; /* NULL: infinite lights' directions */
-    const struct geometry *geo;
-    double planted; /* exponent of a cosine wrongly multiplied onto the density: 0 for none */
-};
-
-static double density(const struct direction_source *s, vec3 w)
-{
-    double pdf = s->y0 != NULL ? light_pdf_emission(s->set, s->y0, w)
-                               : light_pdf_environment(s->set, w);
-    return s->planted == 0 ? pdf : pdf * (1 + s->planted * w.x);
-}
-
-static vec3 draw(const struct direction_source *s, struct rng *r)
-{
-    double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
-    if (s->y0 != NULL) {
-        struct ray ray;
-        double pdf;
-        light_sample_emission(s->set, s->y0, u, &ray, &pdf);
-        return ray.d;
-    }
-    struct light_point at;
-    return lamp_point(s->set, s->geo, u, &at) ? at.w : vec(0, 0, 1);
-}
-
-static double directions_p(const struct direction_source *s, struct rng *r, double *integral)
-{
-    static double observed[CELLS], expected[CELLS];
-    double total = 0;
-    for (int i = 0; i < CELLS; i++)
-        observed[i] = expected[i] = 0;
-    for (int row = 0; row < ROWS * SUB; row++)
-        for (int column = 0; column < COLUMNS * SUB; column++) {
-            double z = -1 + 2 * (row + 0.5) / (ROWS * SUB), phi = 2 * PI * (column + 0.5) / (COLUMNS * SUB);
-            vec3 w = vec(sqrt(1 - z * z) * cos(phi), sqrt(1 - z * z) * sin(phi), z);
-            double mass = density(s, w) * 4 * PI / (CELLS * SUB * SUB);
-            expected[row / SUB * COLUMNS + column / SUB] += mass;
-            total += mass;
-        }
-    for (int i = 0; i < SAMPLES; i++)
-        observed[cell_of(draw(s, r))] += 1;
-    for (int i = 0; i < CELLS; i++)
-        expected[i] *= SAMPLES / total;
-    *integral = total;
-    return stats_chi2_test(observed, expected, CELLS);
-}
-
-static void check_directions(struct test *t, struct direction_source s, const char *name)
-{
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 5, (uint64_t)name[0]);
-    double integral;
-    TEST_ACCEPT(t, directions_p(&s, &r, &integral), "directions of %s", name);
-    CHECK(t, fabs(integral - 1) < 0.02, "density of %s integrates to %g", name, integral);
-    s.planted = 0.25;
-    TEST_REJECT(t, directions_p(&s, &r, &integral), "directions of %s against a density up to 25 %% off", name);
-}
-
-/* Grid aligned with the lights' axes (beams along z), so that cells do not cut densities with edges. */
 static const char LIGHTS[] =
     "WorldBegin\n"
     "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1 2 3]\n"
@@ -93,93 +20,31 @@ static const char LIGHTS[] =
     "LightSource \"spot\" \"rgb I\" [1 1 1] \"point from\" [0 0 0] \"point to\" [0 0 1] \"float coneangle\" 60\n"
     "WorldEnd\n";
 
-static void test_emitted(struct test *t)
+static void test_choice(struct test *t)
 {
+    enum { DRAWS = 20000 };
     struct scene scene;
     if (!scene_from_text(t, LIGHTS, &scene))
         return;
-    static const char *const names[] = {"an area light", "two-sided light", "point light", "spot light"};
-    bool seen[4] = {false};
     double counts[4] = {0}, expected[4], total = 0;
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 6, 0);
     CHECK(t, scene.lights.n == 4, "%d lights", scene.lights.n);
-    for (int i = 0; i < 20000; i++) {
+    for (int i = 0; i < DRAWS; i++) {
         double u[3] = {rng_uniform(&r), rng_uniform(&r), rng_uniform(&r)};
         struct light_point at;
         CHECK(t, lamp_point(&scene.lights, &scene.geo, u, &at), "no light point");
         counts[at.light]++;
-        if (seen[at.light])
-            continue;
-        seen[at.light] = true;
-        struct direction_source s = {&scene.lights, &at, &scene.geo, 0};
-        check_directions(t, s, names[at.light]);
     }
     for (int i = 0; i < 4; i++)
         total += scene.lights.light[i].power;
     for (int i = 0; i < 4; i++)
-        expected[i] = 20000 * scene.lights.light[i].power / total;
+        expected[i] = DRAWS * scene.lights.light[i].power / total;
     TEST_ACCEPT(t, stats_chi2_test(counts, expected, 4), "choice of lights by power");
     expected[0] *= 1.2;
     TEST_REJECT(t, stats_chi2_test(counts, expected, 4), "choice of lights with a wrong power");
     double area = 3, wanted = PI * area * rgb_luminance(rgb_make(1, 2, 3));
     CHECK(t, fabs(scene.lights.light[0].power / wanted - 1) < 1e-6, "area light power %g, expected %g",
           scene.lights.light[0].power, wanted);
-    scene_free(&scene);
-}
-
-/* A scene of nothing but two infinite lights: a map and a constant one. */
-static bool scene_with_map(struct test *t, int width, int height, const float *pixels, struct scene *out)
-{
-    char path[256], text[1024];
-    struct error err = {.text = ""};
-    snprintf(path, sizeof path, "%s/map.pfm", test_tmp(t));
-    if (!CHECK(t, image_write(path, width, height, pixels, &err), "%s", err.text))
-        return false;
-    snprintf(text, sizeof text, "WorldBegin LightSource \"infinite\" \"string mapname\" \"%s\"\n"
-             "LightSource \"infinite\" \"rgb L\" [.3 .3 .3] WorldEnd\n", path);
-    return scene_from_text(t, text, out);
-}
-
-/* A map with one bright texel, dark ones and zeros. */
-static void test_environment(struct test *t)
-{
-    enum { W = 16, H = 8 };
-    static float pixels[W * H * 3];
-    for (int i = 0; i < W * H * 3; i++)
-        pixels[i] = (float)(i % 7 == 0 ? 0 : 1 + (i / 3) % 5);
-    pixels[3 * (2 * W + 3)] = 50;
-    struct scene scene;
-    if (!scene_with_map(t, W, H, pixels, &scene))
-        return;
-    struct direction_source s = {&scene.lights, NULL, &scene.geo, 0};
-    check_directions(t, s, "environment light");
-    scene_free(&scene);
-}
-
-/* A map with numbers that are none, and directions that are none: every answer is a number, every cell exists. */
-static void test_damaged_map(struct test *t)
-{
-    enum { W = 40, H = 20 };
-    static float pixels[W * H * 3];
-    static const float bad[4] = {NAN, INFINITY, -INFINITY, -3};
-    for (int i = 0; i < W * H * 3; i++)
-        pixels[i] = i % 5 == 0 ? bad[i / 5 % 4] : 1;
-    struct scene scene;
-    if (!scene_with_map(t, W, H, pixels, &scene))
-        return;
-    struct direction_source s = {&scene.lights, NULL, &scene.geo, 0};
-    CHECK(t, scene.lights.choice.n == scene.lights.n_cells, "there is no table of choices");
-    check_directions(t, s, "damaged environment light");
-    for (int i = 0; i < 500; i++) {
-        rgb L = light_Le_environment(&scene.lights, warp_sphere((i + 0.5) / 500, i * 0.618 - floor(i * 0.618)), true);
-        CHECK(t, L.r >= 0.3 && L.g >= 0.3 && L.b >= 0.3 && rgb_is_finite(L), "light of (%g %g %g)", L.r, L.g, L.b);
-    }
-    const double none[] = {NAN, INFINITY, -INFINITY, 0, 1e308};
-    for (int i = 0; i < 5; i++) { /* a direction that is none stays in the tables */
-        vec3 w = vec(none[i], none[(i + 1) % 5], none[i]);
-        rgb L = light_Le_environment(&scene.lights, w, true);
-        CHECK(t, rgb_is_finite(L) && !(light_pdf_environment(&scene.lights, w) < 0), "direction %d", i);
-    }
     scene_free(&scene);
 }
 
@@ -275,10 +140,8 @@ static void test_slide_places(struct test *t)
 void test_light(struct test *t)
 {
     test_light_sent(t);
-    test_emitted(t);
+    test_choice(t);
     test_slide_places(t);
-    test_environment(t);
-    test_damaged_map(t);
     test_stored_map(t);
     test_shared_picture(t);
 }

@@ -134,6 +134,37 @@ static void test_transformed(struct test *t)
     }
 }
 
+/* A map with numbers that are none, and directions that are none: every answer is a number, every cell exists. */
+static void test_damaged_map(struct test *t)
+{
+    enum { W = 40, H = 20 };
+    static float pixels[W * H * 3];
+    static const float bad[4] = {NAN, INFINITY, -INFINITY, -3};
+    const double none[] = {NAN, INFINITY, -INFINITY, 0, 1e308};
+    char path[256], text[1024];
+    struct error err = {.text = ""};
+    struct scene scene;
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 5, 0);
+    for (int i = 0; i < W * H * 3; i++)
+        pixels[i] = i % 5 == 0 ? bad[i / 5 % 4] : 1;
+    snprintf(path, sizeof path, "%s/map.pfm", test_tmp(t));
+    snprintf(text, sizeof text, "WorldBegin LightSource \"infinite\" \"string mapname\" \"%s\" WorldEnd\n", path);
+    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text) || !scene_from_text(t, text, &scene))
+        return;
+    CHECK(t, scene.lights.choice.n == scene.lights.n_cells, "there is no table of choices");
+    check_sky(t, &scene, &r);
+    for (int i = 0; i < 500; i++) {
+        rgb L = light_Le_environment(&scene.lights, on_sphere(&r), true);
+        CHECK(t, L.r >= 0 && L.g >= 0 && L.b >= 0 && rgb_is_finite(L), "light of (%g %g %g)", L.r, L.g, L.b);
+    }
+    for (int i = 0; i < 5; i++) { /* a direction that is none stays in the tables */
+        vec3 w = vec(none[i], none[(i + 1) % 5], none[i]);
+        rgb L = light_Le_environment(&scene.lights, w, true);
+        CHECK(t, rgb_is_finite(L) && !(light_pdf_environment(&scene.lights, w) < 0), "direction %d", i);
+    }
+    scene_free(&scene);
+}
+
 /* A spot is full inside the inner cone, nothing outside the outer one, and the fourth power of a ramp of the cosine
  * between, as in pbrt-v3; so too if the inner angle is negative. */
 static void test_spot(struct test *t)
@@ -214,7 +245,8 @@ static void test_densities(struct test *t)
     struct scene s;
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 9, 0);
     for (int i = 0; i < W * H * 3; i++)
-        pixels[i] = (float)(1 + (i / 3) % 5);
+        pixels[i] = (float)(i % 7 == 0 ? 0 : 1 + (i / 3) % 5);
+    pixels[3 * (2 * W + 3)] = 50;
     snprintf(path, sizeof path, "%s/densities.pfm", test_tmp(t));
     snprintf(text, sizeof text, WORLD, path, path, path);
     if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text) || !scene_from_text(t, text, &s))
@@ -255,5 +287,6 @@ void test_light_sent(struct test *t)
 {
     test_densities(t);
     test_transformed(t);
+    test_damaged_map(t);
     test_spot(t);
 }
