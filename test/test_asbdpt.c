@@ -62,35 +62,6 @@ static void test_bias(struct test *t)
     scene_free(&scene);
 }
 
-/* --- pool with a constant metric is BDPT ------------------------------------------------------------- */
-
-/* Replace every batch by its squared deviations from the mean over batches, so that a test of means tests variances. */
-static void square_deviations(struct batches *b)
-{
-    for (long i = 0; i < b->n; i++) {
-        double mean = 0;
-        for (int k = 0; k < b->n_batches; k++)
-            mean += b->value[b->n * k + i] / b->n_batches;
-        for (int k = 0; k < b->n_batches; k++)
-            b->value[b->n * k + i] = (b->value[b->n * k + i] - mean) * (b->value[b->n * k + i] - mean);
-    }
-}
-
-static void test_constant_pool(struct test *t)
-{
-    struct scene scene;
-    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
-        return;
-    const char *pool = set_method(&scene, "asbdpt select=pool metric=constant");
-    struct batches x = render_batches(t, &scene, pool, 4, 1, 200, 1, 61);
-    struct batches y = render_batches(t, &scene, "bdpt", 4, 1, 200, 1, 62);
-    square_deviations(&x);
-    square_deviations(&y);
-    check_agree(t, &x, &y, false, 0, "pixel variances of pool with a constant metric against bdpt");
-    batches_free(&y);
-    scene_free(&scene);
-}
-
 /* --- bins age ----------------------------------------------------------------------------------------- */
 
 /* Until something is older than `maxage` iterations nobody could tell whether it would be replaced; then pictures
@@ -392,7 +363,6 @@ void test_asbdpt(struct test *t)
 {
     test_what_is_drawn(t);
     test_bias(t);
-    test_constant_pool(t);
     test_age(t);
     test_few_light_paths(t);
     test_one_path(t);

@@ -362,21 +362,6 @@ static void swapped_pairs(struct test *t, struct rng *r, const struct fourier_ta
     }
 }
 
-/* The one-lobe short cut gives what the general sum gives. */
-static void short_cut(struct test *t, struct rng *r)
-{
-    struct specimen one = {"lambert", 1, {lobe(LOBE_LAMBERT_REFLECTION, 0.7, 0)}};
-    struct specimen two = {"lambert in halves", 2, {lobe(LOBE_LAMBERT_REFLECTION, 0.35, 0), one.lobe[0]}};
-    two.lobe[1].scale = rgb_grey(0.5);
-    struct bsdf a = mount(&one, 0.35), b = mount(&two, 0.35);
-    for (int i = 0; i < 300; i++) {
-        vec3 wo = direction(2 * rng_uniform(r) - 1, 1), wi = direction(2 * rng_uniform(r) - 1, 7 * rng_uniform(r));
-        struct bsdf_value x = bsdf_eval(&a, wo, wi, RADIANCE), y = bsdf_eval(&b, wo, wi, RADIANCE);
-        CHECK(t, agree(x.f.g, y.f.g) && agree(x.pdf, y.pdf) && agree(x.pdf_rev, y.pdf_rev),
-              "short cut for one lobe");
-    }
-}
-
 /* --- delta lobes among others ------------------------------------------------------------------------ */
 
 /* Lobe choice of an uber-like material: each delta direction is drawn as often as its pdf says, and f |cos| / pdf
@@ -449,7 +434,6 @@ void test_bsdf(struct test *t)
     samples_follow_pdf(t, &r, &table);
     planted_faults(t, &r, &table);
     swapped_pairs(t, &r, &table);
-    short_cut(t, &r);
     choice_among_lobes(t);
     world_frame(t);
     fourier_free(&table);

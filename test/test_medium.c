@@ -43,29 +43,6 @@ static void test_furnace(struct test *t)
     }
 }
 
-/* A slab that absorbs, bounded by interfaces, before a surface that shines: exp(-sigma d). */
-static void test_slab(struct test *t)
-{
-    static const char text[] =
-        VIEW
-        "MakeNamedMedium \"ink\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [.1 .3 .9] \"rgb sigma_s\" [0 0 0]"
-        "MakeNamedMedium \"tar\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [.4 .2 .1] \"rgb sigma_s\" [0 0 0]"
-        "LookAt 0 0 -5 0 0 0 0 1 0 Camera \"orthographic\" \"float screenwindow\" [-.1 .1 -.1 .1] WorldBegin\n"
-        "AttributeBegin AreaLightSource \"diffuse\" \"bool twosided\" \"true\" \"rgb L\" [2 2 2] Material \"matte\"\n"
-        "\"rgb Kd\" [0 0 0] Translate 0 0 4 Shape \"disk\" AttributeEnd Material \"\"\n"
-        "AttributeBegin MediumInterface \"ink\" \"\"\n"
-        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3  6 5 4 7 6 4] \"point P\" [-1 -1 -1  -1 1 -1  1 1 -1\n"
-        "  1 -1 -1  -1 -1 1  -1 1 1  1 1 1  1 -1 1]\n"
-        "MediumInterface \"tar\" \"ink\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3  6 5 4 7 6 4]\n"
-        "  \"point P\" [-1 -1 -.5  -1 1 -.5  1 1 -.5  1 -1 -.5  -1 -1 .25  -1 1 .25  1 1 .25  1 -1 .25]\n"
-        "AttributeEnd WorldEnd";
-    const double ink[3] = {0.1, 0.3, 0.9}, tar[3] = {0.4, 0.2, 0.1};
-    double wanted = 0;
-    for (int c = 0; c < 3; c++)
-        wanted += 2 * exp(-1.25 * ink[c] - 0.75 * tar[c]) / 3;
-    expect(t, text, wanted, 3, 3, 512);
-}
-
 /* A point light in fog without end, scattered once, along the one ray that is seen: the integral over that ray. */
 static void test_once(struct test *t)
 {
@@ -189,7 +166,6 @@ void test_medium(struct test *t)
 {
     test_regions(t);
     test_furnace(t);
-    test_slab(t);
     test_once(t);
     test_sky(t);
     test_sun(t);
