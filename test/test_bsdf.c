@@ -404,26 +404,6 @@ static void choice_among_lobes(struct test *t)
           "bsdf_eval leaves delta lobes out");
 }
 
-/* A smooth surface behind a tilted shading frame: bsdf_sample works in the world. */
-static void world_frame(struct test *t)
-{
-    struct specimen s = {"glass", 1, {lobe(LOBE_FRESNEL_SPECULAR, 1, 1)}};
-    s.lobe[0].eta_a = 1;
-    s.lobe[0].eta_b = 1.5;
-    struct bsdf b = mount(&s, 0.2);
-    vec3 n = b.shading.n, wo = normalize(add(n, mul(b.shading.s, 0.8)));
-    double u[3] = {0, 0.5, 0.5};
-    struct bsdf_sample d;
-    CHECK(t, bsdf_sample(&b, wo, u, RADIANCE, &d) && d.delta && d.eta == 1, "reflects");
-    CHECK(t, length(sub(add(d.wi, wo), mul(n, 2 * dot(wo, n)))) < 1e-12, "about the shading normal");
-    u[0] = 0.99;
-    CHECK(t, bsdf_sample(&b, wo, u, RADIANCE, &d) && d.delta && d.eta == 1.5, "refracts");
-    CHECK(t, length(add(cross(n, wo), mul(cross(n, d.wi), 1.5))) < 1e-12, "by Snell's law");
-    CHECK(t, bsdf_eval(&b, wo, d.wi, RADIANCE).pdf == 0 && b.n_smooth == 0, "without a density");
-    bsdf_make(&b, NULL, 0);
-    CHECK(t, !bsdf_sample(&b, wo, u, RADIANCE, &d) && bsdf_eval(&b, wo, wo, RADIANCE).pdf == 0, "a black surface");
-}
-
 void test_bsdf(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 22, 0);
@@ -435,6 +415,5 @@ void test_bsdf(struct test *t)
     planted_faults(t, &r, &table);
     swapped_pairs(t, &r, &table);
     choice_among_lobes(t);
-    world_frame(t);
     fourier_free(&table);
 }

@@ -95,12 +95,12 @@ static void test_sum(struct test *t, const struct scene *scene, const struct ren
     flight_free(&f);
 }
 
-static void test_method(struct test *t, const char *name)
+static void test_method(struct test *t, const char *text, const char *name)
 {
     char way[64];
     struct scene scene;
     struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
-    if (!scene_from_text(t, MIXED, &scene))
+    if (!scene_from_text(t, text, &scene))
         return;
     snprintf(way, sizeof way, "%s", name);
     o.integrator = set_method(&scene, way);
@@ -108,31 +108,20 @@ static void test_method(struct test *t, const char *name)
     scene_free(&scene);
 }
 
+/* Through media a length is counted from one point within them to the next. */
 static void test_methods(struct test *t)
 {
+    static const char *const CAUSTICS[] = {"caustics with=pt longest=2", "caustics with=bdpt longest=2",
+                                           "caustics with=asbdpt longest=2", "regularise with=pt angle=.2",
+                                           "regularise with=bdpt angle=.2"};
+    static const char *const MEDIA[] = {"pt", "lt", "bdpt", "asbdpt"};
     for (const struct method *const *m = method_rows; *m != NULL; m++)
         if (!method_is_chain(*m) && !method_merges(*m))
-            test_method(t, method_name(*m));
-    test_method(t, "caustics with=pt longest=2");
-    test_method(t, "caustics with=bdpt longest=2");
-    test_method(t, "caustics with=asbdpt longest=2");
-    test_method(t, "regularise with=pt angle=.2");
-    test_method(t, "regularise with=bdpt angle=.2");
-}
-
-/* Through media as well, where a length is counted from one point within them to the next. */
-static void test_fog(struct test *t)
-{
-    static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt"};
-    struct scene scene;
-    if (!scene_from_text(t, FOGGY, &scene))
-        return;
-    for (int i = 0; i < 4; i++) {
-        struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
-        o.integrator = set_method(&scene, WAYS[i]);
-        test_sum(t, &scene, &o, WAYS[i]);
-    }
-    scene_free(&scene);
+            test_method(t, MIXED, method_name(*m));
+    for (int i = 0; i < 5; i++)
+        test_method(t, MIXED, CAUSTICS[i]);
+    for (int i = 0; i < 4; i++)
+        test_method(t, FOGGY, MEDIA[i]);
 }
 
 /* Totals are those of the pixels; gates begin where they are to. */
@@ -338,7 +327,6 @@ static void test_ellipses(struct test *t)
 void test_gates(struct test *t)
 {
     test_methods(t);
-    test_fog(t);
     test_mirror(t);
     test_ellipses(t);
     test_totals(t);

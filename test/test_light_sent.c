@@ -276,6 +276,11 @@ static void test_densities(struct test *t)
             double sent = light_Le(&s.lights, &at, l->kind == LIGHT_AREA ? at.n : neg(at.w)).r;
             CHECK(t, sent == 1, "light %d sends %g, not 1", i, sent);
         }
+        struct ray ray;
+        const double u[2] = {0.3, 0.7};
+        double density, emitted = light_sample_emission(&s.lights, &at, u, &ray, &density).r;
+        double full = light_Le(&s.lights, &at, ray.d).r * (l->kind == LIGHT_AREA ? abs_dot(at.n, ray.d) : 1);
+        CHECK(t, fabs(emitted - full) <= 1e-12 * full, "light %d emits %g, not %g", i, emitted, full);
         if (l->kind == LIGHT_INFINITE || l->kind == LIGHT_AREA)
             check_area(t, &s, &r, cell, NULL);
         check_area(t, &s, &r, cell, &at);

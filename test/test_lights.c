@@ -87,36 +87,29 @@ static void check_sum(struct test *t, const struct scene *scene, const struct re
     film_free(&plain);
 }
 
-static void test_sum(struct test *t)
+static void check_sum_by(struct test *t, struct scene *scene, const char *way)
 {
-    struct scene scene;
-    if (!load(t, "mitchell", true, true, true, &scene))
-        return;
-    for (const struct method *const *m = method_rows; *m != NULL; m++) {
-        struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
-        char what[64];
-        snprintf(what, sizeof what, "%s", method_name(*m));
-        o.integrator = set_method(&scene, what);
-        if (method_is_chain(*m) || method_merges(*m))
-            continue;
-        check_sum(t, &scene, &o, what);
-    }
-    scene_free(&scene);
+    char what[64];
+    struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
+    snprintf(what, sizeof what, "%s", way);
+    o.integrator = set_method(scene, what);
+    check_sum(t, scene, &o, what);
 }
 
-/* Through media as well. */
-static void test_fog(struct test *t)
+/* By every method, and through media. */
+static void test_sum(struct test *t)
 {
-    static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt"};
-    struct scene scene;
-    if (!scene_from_text(t, FOGGY, &scene))
+    static const char *const MEDIA[] = {"pt", "lt", "bdpt", "asbdpt"};
+    struct scene scene, foggy;
+    if (!load(t, "mitchell", true, true, true, &scene) || !scene_from_text(t, FOGGY, &foggy))
         return;
-    for (int i = 0; i < 4 && CHECK(t, scene.lights.n_groups == GROUPS, "%d groups", scene.lights.n_groups); i++) {
-        struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
-        o.integrator = set_method(&scene, WAYS[i]);
-        check_sum(t, &scene, &o, WAYS[i]);
-    }
+    for (const struct method *const *m = method_rows; *m != NULL; m++)
+        if (!method_is_chain(*m) && !method_merges(*m))
+            check_sum_by(t, &scene, method_name(*m));
+    for (int i = 0; i < 4 && CHECK(t, foggy.lights.n_groups == GROUPS, "%d groups", foggy.lights.n_groups); i++)
+        check_sum_by(t, &foggy, MEDIA[i]);
     scene_free(&scene);
+    scene_free(&foggy);
 }
 
 /* What no float holds is left out of the lights' planes as it is of the picture. */
@@ -304,7 +297,6 @@ static void test_skies(struct test *t)
 
 void test_lights(struct test *t)
 {
-    test_fog(t);
     static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt select=subspaces"};
     test_sum(t);
     test_left_out(t);

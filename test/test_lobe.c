@@ -71,38 +71,6 @@ static void snell(struct test *t)
     }
 }
 
-/* --- facets ------------------------------------------------------------------------------------------ */
-
-/* The two normalisations that define the distribution [Heitz 2014]. Projected down, the facets' area is
- * the surface's; projected along w, the visible ones are what is seen of it:
- *     int D (h.n) dh = 1
- *     int D <w,h> / (1 + lambda(w)) dh = cos(w) */
-static void facet_areas(struct test *t)
-{
-    static const double ALPHA[][2] = {{1, 1}, {0.5, 0.5}, {0.2, 0.6}, {0.1, 0.1}};
-    static const double COS[] = {0.95, 0.5, 0.15};
-    enum { STEPS = 400 };
-    for (int a = 0; a < 4; a++)
-        for (int c = 0; c < 3; c++) {
-            double ax = ALPHA[a][0], ay = ALPHA[a][1], down = 0, seen = 0;
-            vec3 w = direction(COS[c], 0.6);
-            for (int i = 0; i < STEPS; i++)
-                for (int j = 0; j < STEPS; j++) {
-                    /* tan(theta) = x/(1-x) spreads a narrow peak and the long tail alike */
-                    double x = (i + 0.5) / STEPS, tan_theta = 0.3 * x / (1 - x), phi = 2 * PI * (j + 0.5) / STEPS;
-                    double cos_theta = 1 / sqrt(1 + tan_theta * tan_theta);
-                    double d_omega = tan_theta * cos_theta * cos_theta * cos_theta * 0.3 / sqr(1 - x) * 2 * PI /
-                                     STEPS / STEPS; /* sin d(theta) d(phi) */
-                    vec3 h = direction(cos_theta, phi);
-                    double d = microfacet_d(h, ax, ay);
-                    down += d * h.z * d_omega;
-                    seen += d * fmax(0, dot(w, h)) / (1 + microfacet_lambda(w, ax, ay)) * d_omega;
-                }
-            CHECK(t, near(down, 1, 1e-3), "alpha %g %g: facets project to %g of the surface", ax, ay, down);
-            CHECK(t, near(seen, COS[c], 1e-3), "alpha %g %g: %g seen under cos %g", ax, ay, seen, COS[c]);
-        }
-}
-
 /* --- sampling maps: density = 1 / |Jacobian| --------------------------------------------------------- */
 
 static struct lobe facet_lobe(enum lobe_kind kind, double alpha_x, double alpha_y)
@@ -441,7 +409,6 @@ void test_lobe(struct test *t)
     facets_as_printed(t);
     fresnel_values(t);
     snell(t);
-    facet_areas(t);
     narrow_lobes(t);
     clear_coat(t);
     disney_values(t);

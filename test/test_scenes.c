@@ -60,26 +60,6 @@ static void check_shown(struct test *t, const struct scene *scene, uint64_t seed
     }
 }
 
-/* A one-sided light shows nothing behind, neither to the eye nor to a surface; a two-sided one shows the same there. */
-static void test_sides(struct test *t)
-{
-    static const char text[] =
-        "LookAt 0 0 %d  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
-        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
-        "AreaLightSource \"diffuse\" \"rgb L\" [3 3 3] \"bool twosided\" \"%s\" Material \"matte\" \"rgb Kd\" [0 0 0]\n"
-        "Shape \"disk\" \"float radius\" 2 WorldEnd\n";
-    for (int i = 0; i < 4; i++) { /* the disk's normal is +z */
-        char filled[1024];
-        struct scene scene;
-        bool both = i >= 2, front = i % 2 == 0;
-        snprintf(filled, sizeof filled, text, front ? 5 : -5, both ? "true" : "false");
-        if (!scene_from_text(t, filled, &scene))
-            continue;
-        check_shown(t, &scene, 825, front || both ? 3 : 0, front ? "a light from the front" : "a light from behind");
-        scene_free(&scene);
-    }
-}
-
 /* Two centimetres above a ground of 2000 km, flat or round, and twenty metres from the origin, something casts its
  * shadow; beside it the ground is lit and not in its own. */
 static void test_contact(struct test *t)
@@ -323,7 +303,6 @@ static void test_noisy(struct test *t, int spp, int many, size_t step, double pl
 void test_scenes(struct test *t)
 {
     test_analytic(t);
-    test_sides(t);
     test_contact(t);
     test_lamps(t);
     test_holes(t);

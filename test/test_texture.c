@@ -2,7 +2,7 @@
  *
  * Facts: every kind against its formula written out at a point; pictures at texel centres, half-way and beyond the
  * edges for each wrap mode, with and without gamma, as pbrt-v3 looks them up; sharing of pictures; patterns and
- * mappings against values that pbrt-v3's own textures return; what noise has by its construction. */
+ * mappings against values that pbrt-v3's own textures return. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -214,24 +214,10 @@ static void test_dots(struct test *t)
     texture_set_free(&set);
 }
 
-/* By construction: 0 on the lattice, period 256, bounded, continuous from cell to cell; finite wherever asked. */
-static void test_noise(struct test *t)
+/* Finite wherever asked. */
+static void test_strange(struct test *t)
 {
     static const double STRANGE[] = {NAN, INFINITY, -INFINITY, 1e308, -1e18, 4294967296.5, -2147483648.5};
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 11, 0);
-    double least = 0, most = 0, sum = 0;
-    for (int i = 0; i < 20000; i++) {
-        double x = 600 * rng_uniform(&r) - 300, y = 600 * rng_uniform(&r) - 300, z = 600 * rng_uniform(&r) - 300;
-        double value = noise(vec(x, y, z)), before = noise(vec(floor(x) - 1e-9, y, z));
-        CHECK(t, noise(vec(floor(x), floor(y), floor(z))) == 0, "noise on the lattice");
-        CHECK(t, fabs(noise(vec(x + 256, y - 512, z + 256)) - value) < 1e-9, "noise comes back after 256 cells");
-        CHECK(t, fabs(before - noise(vec(floor(x) + 1e-9, y, z))) < 1e-8, "noise jumps at %g %g %g", floor(x), y, z);
-        least = least_of(least, value);
-        most = most_of(most, value);
-        sum += fabs(value);
-    }
-    CHECK(t, least > -1 && most < 1 && least < -0.7 && most > 0.7, "noise from %g to %g", least, most);
-    CHECK(t, fabs(sum / 20000 - 0.2) < 0.03, "the mean of |noise| is %g", sum / 20000);
     for (int i = 0; i < (int)(sizeof STRANGE / sizeof STRANGE[0]); i++) {
         vec3 p = vec(STRANGE[i], 0.5, -STRANGE[i]);
         CHECK(t, fabs(noise(p)) <= 1 && isfinite(noise_waves(p)) && rgb_is_finite(noise_marble(p, 0.5, 8, 1)),
@@ -374,7 +360,7 @@ void test_texture(struct test *t)
     test_bilerp(t);
     test_peer(t);
     test_dots(t);
-    test_noise(t);
+    test_strange(t);
     test_lookup(t);
     test_decoding(t);
     test_decoding_order(t);
