@@ -89,7 +89,6 @@ static double fog_across(void) { return fog(0); }
 static double fog_back(void) { return fog(-1); }
 static double fog_forward(void) { return fog(1); }
 static double floor_below(void) { return 0.5 * 2 / PI; }
-static double floor_skies(void) { return 0.5 * (3 + 1) / 3; }
 static double mirror_lamp(void) { return 0.9 * 2; }
 static double mirror_sun(void) { return 0.9 * 0.5 * 2 / PI; }
 static double glass_lamp(void) { return 2 * (1 - 0.04) / (1 + 0.04); } /* of all reflections between the faces */
@@ -109,9 +108,6 @@ static const struct {
     {"fog, sun from the front", FOG SUN("<0 0 1>") "WorldEnd", fog_forward, 1, 16, ""},
     {"floor, sun and view from above",
      VIEW("<0 4 0>", "<0 0 0>", "<0 0 1>", "1") "WorldBegin\n" SUN("<0 1 0>") FLOOR "WorldEnd", floor_below, 2, 16, ""},
-    {"floor, two skies",
-     VIEW("<0 4 0>", "<0 0 0>", "<0 0 1>", "1") "WorldBegin LightSource \"infinite\" \"rgb L\" [3 0 0]\n"
-     "LightSource \"infinite\" \"rgb L\" [0 1 0]\n" FLOOR "WorldEnd", floor_skies, 2, 32, ""},
     {"floor, point light above it",
      VIEW("<0 4 0>", "<0 0 0>", "<0 0 1>", "1") "WorldBegin LightSource \"point\" \"rgb I\" [2 2 2]\n" FLOOR "WorldEnd",
      point_above, 1, 32, ""},

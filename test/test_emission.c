@@ -1,6 +1,6 @@
-/* test_emission.c: how light sub-paths leave the lights (emission.h): draws have the density that is stated. The numbers
- * of a ray are found again for every kind of light, and what is learnt is what the rays show. That the image is the
- * same for every table is in test_asbdpt.c. */
+/* test_emission.c: how light sub-paths leave the lights (emission.h): draws have the density that is stated. The
+ * numbers of a ray are found again for every kind of light, and what is learnt is what the rays show. That the image is
+ * the same for every table is in test_asbdpt.c. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,9 @@
 #include "caustics/lamp.h"
 #include "lab/numbers.h"
 #include "lab/stats.h"
-#include "tables/emission.h"
+#include "tables/emit.h"
+#include "tables/tables.h"
+#include "transport/path.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -122,6 +124,39 @@ static void test_draws(struct test *t, const struct scene *s)
     emission_free(&e);
 }
 
+/* What a light sub-path carries is divided by the density of its own light, not by that of all skies that it could come
+ * from. */
+static void test_carried(struct test *t, const struct scene *s)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 32, 0);
+    struct tables known = {.emission = random_table(s, &r, 0.2)};
+    struct mis_counts aimed = {.hit = {1, 1}, .tables = &known};
+    struct arena arena = {NULL, NULL};
+    int met = 0, apart = 0;
+    for (uint64_t i = 0; i < 2000; i++) {
+        struct sampler sampler = sampler_start(test_seed(t), RNG_TEST, i, 0), same = sampler;
+        struct walk w = {s, &aimed, &arena, &sampler, 0};
+        struct vertex path[2];
+        struct light_point at;
+        struct ray ray;
+        double u[3], direction[2], pdf, of_all;
+        arena_reset(&arena);
+        if (path_light(&w, path, 2) < 2)
+            continue;
+        u[0] = sampler_number(&same, DRAW_LIGHT);
+        sampler_pair(&same, DRAW_LIGHT_POINT, &u[1]);
+        sampler_pair(&same, DRAW_EMISSION, direction);
+        double emitted = emit_sample(&known.emission, &s->lights, &s->geo, u, direction, &at, &ray, &pdf, &of_all).g;
+        CHECK(t, fabs(path[1].beta.g * at.pdf * pdf / emitted - 1) < 1e-9, "%g carried, %g emitted with density %g",
+              path[1].beta.g, emitted, at.pdf * pdf);
+        apart += fabs(of_all / pdf - 1) > 0.01;
+        met++;
+    }
+    CHECK(t, met > 500 && apart > 100, "%d sub-paths, %d densities that differ", met, apart);
+    arena_free(&arena);
+    tables_free(&known);
+}
+
 /* --- the table --------------------------------------------------------------------------------------- */
 
 static const char ONE[] = "WorldBegin LightSource \"point\" Shape \"sphere\" WorldEnd";
@@ -191,6 +226,7 @@ void test_emission(struct test *t)
     test_numbers(t, &one);
     test_draws(t, &one);
     test_draws(t, &many);
+    test_carried(t, &many);
     test_limits(t);
     test_root(t);
     scene_free(&one);

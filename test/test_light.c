@@ -1,5 +1,5 @@
-/* test_light.c: the choice among lights, powers, where the texels of their images go and who reads them.
- * test_light_sent.c, which is a part of this test, has the densities. */
+/* test_light.c: the choice among lights, their powers, and the texels of their images. test_light_sent.c has the
+ * densities that lights state. */
 #include <math.h>
 #include <stdio.h>
 
