@@ -3,23 +3,15 @@
 # in which a part is stopped and put into the queue again. Each must give the bytes of the whole picture.
 #   sh test/cluster.sh PROGRAM
 # What is not installed, or cannot be started here, is skipped with a line.
-set -u
-ASBDPT=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
-top=$(cd "$(dirname "$0")/.." && pwd)
-work=$(mktemp -d) || exit 1
-recipes=$top/doc/cluster scene=$top/scenes/veach-ajar.pbrt
-export ASBDPT
-failed=0
-trap 'stop_slurm; rm -rf "$work"' EXIT
+. test/expect.sh
+work=$dir recipes=$top/doc/cluster scene=$scenes/veach-ajar.pbrt
+export ASBDPT="$program"
+trap 'stop_slurm; rm -rf "$dir"' EXIT
 trap 'exit 1' INT TERM
 
-same() { # same NAME FILE
-    if cmp -s "$work/whole.pfm" "$2"; then
-        echo "cluster: $1: the bytes of the whole picture"
-    else
-        echo "FAIL: $1: the picture is not that of one render"
-        failed=1
-    fi
+same() { # NAME FILE
+    cmp -s whole.pfm "$2" && echo "cluster: $1: the bytes of the whole picture" ||
+        fault "$1: the picture is not that of one render"
 }
 
 # ---- Slurm: a controller, a node and the daemon that they trust each other by, all in the work directory ----
@@ -54,11 +46,10 @@ start_slurm() {
 
 run_slurm() {
     mkdir -p "$work/slurm"
-    cd "$work" || exit 1
     job=$(sbatch --parsable --array=0-3 "$recipes/slurm.sh" "$scene" 48 "$work/slurm" --res 64x36 --interval 1)
     sbatch --parsable "--dependency=afterok:$job" --wrap "'$ASBDPT' merge slurm/*.part -o slurm.pfm" >/dev/null
     sleep 2
-    scontrol requeue "${job}_1" || { echo "FAIL: part 1 had ended before it could be stopped"; failed=1; }
+    scontrol requeue "${job}_1" || fault "part 1 had ended before it could be stopped"
     second=0
     while [ -n "$(squeue -h)" ] && [ $second -lt 300 ]; do # a part that was put back waits two minutes
         sleep 1
@@ -79,4 +70,4 @@ else
     echo "cluster: no GNU parallel, its recipe not run"
 fi
 start_slurm && run_slurm
-exit $failed
+exit $((failures > 0))

@@ -7,31 +7,25 @@
 # in a file, the command must fail. Prints how long each took. Not run, and said so:
 #   - with a placeholder, a word of capitals such as SCENE or REF;
 #   - those of the list below.
-program=$1
+. test/expect.sh
 shift
 all=$#
-case $program in /*) ;; *) program=$PWD/$program ;; esac
-top=$PWD
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
 for entry in "$top"/*; do
-    case ${entry##*/} in out | asbdpt | asbdpt-lab) ;; *) ln -s "$entry" "$dir/" ;; esac
+    case ${entry##*/} in out | asbdpt | asbdpt-lab) ;; *) ln -s "$entry" . ;; esac
 done
-ln -s "$program" "$dir/asbdpt"
-ln -s "$program-lab" "$dir/asbdpt-lab"
-cd "$dir" && mkdir out || exit 1
+ln -s "$program" asbdpt
+ln -s "$lab" asbdpt-lab
+mkdir out
 [ $all -gt 0 ] || set -- README.md CONTRIBUTING.md doc/*.md doc/cluster/*.md doc/tour/*.md doc/mini/*.md
 
 # why COMMAND: a reason not to run it, or nothing.
 why() {
     case $1 in
-    "make test" | "make check"* | "make mutants" | "make san" | "make tsan" | *run.sh*) echo "other tests" ;;
-    *course.sh*) echo "other tests" ;;
-    "make portability" | "make ref" | "make experiments" | "make web" | "make inject" | \
-        "make evidence"*) echo "over a minute" ;;
+    "make test" | "make check"* | "make mutants" | "make "*san | *run.sh* | *course.sh*) echo "other tests" ;;
+    "make portability" | "make ref" | "make experiments" | "make web" | "make inject" | "make evidence"* | \
+        *"equal-time"* | *"-lab family"* | *"tune.sh"* | *"ajar.pbrt -o out/ajar.png "*) echo "over a minute" ;;
     "make install"* | "make clean") echo "changes the system or the tree" ;;
     *resampling*) echo "a method that the page adds" ;;
-    *"equal-time"* | *"-lab family"* | *"tune.sh"* | *"ajar.pbrt -o out/ajar.png "*) echo "over a minute" ;;
     *"verify --images A"*) echo "placeholder" ;;
     *) echo "$1" | grep -Eq '(^|[ /])[A-Z]{2,}([ ./]|$)|\.\.\.' && echo "placeholder" ;;
     esac
@@ -48,20 +42,19 @@ awk '
         next
     }
     quoting && !/^ *\.\.\.$/ { print "> " substr($0, 5) }' "$@" >commands.txt
-n=0 quoted=0 failures=0 reason="nothing is quoted before the first command"
-fail() { echo "FAIL: $*"; failures=$((failures + 1)); }
+n=0 quoted=0 reason="nothing is quoted before the first command"
 while IFS= read -r line; do
     text=${line#??}
     case $line in
     "> "*)
         [ -n "$reason" ] && continue
-        grep -qxF -e "$text" said.txt || fail "$command does not say: $text"
+        grep -qxF -e "$text" said.txt || fault "$command does not say: $text"
         echo "$text" | grep -Eq '^asbdpt: .*:[0-9]+:[0-9]+: ' && expected=1
         quoted=$((quoted + 1))
         continue
         ;;
     esac
-    [ "${status:-0}" = "${expected:-0}" ] || { fail "status $status: $command"; cat said.txt; }
+    [ "${status:-0}" = "${expected:-0}" ] || { fault "status $status: $command"; cat said.txt; }
     command=$text status=0 expected=0 reason=$(why "$text")
     if [ -n "$reason" ]; then
         echo "not run ($reason): $command"
@@ -72,13 +65,13 @@ while IFS= read -r line; do
     n=$((n + 1))
     echo "$(($(date +%s) - start)) s: $command"
 done <commands.txt
-[ "${status:-0}" = "${expected:-0}" ] || { fail "status $status: $command"; cat said.txt; }
+[ "${status:-0}" = "${expected:-0}" ] || { fault "status $status: $command"; cat said.txt; }
 echo "readme: $n commands run, $quoted lines of output compared, $failures failed"
 
 # What must not pass: a line that is not said, a command that fails, one that should fail, and nothing at all.
 wrong() {
     printf "$1" >wrong.md
-    sh "$top/test/readme.sh" "$program" wrong.md >wrong.txt 2>&1 && fail "not noticed: $1"
+    sh "$top/test/readme.sh" "$program" wrong.md >wrong.txt 2>&1 && fault "not noticed: $1"
 }
 if [ $all -gt 0 ]; then
     [ $failures -eq 0 ] && [ $n -gt 0 ]
