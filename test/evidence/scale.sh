@@ -74,16 +74,18 @@ bench() {
             print axis, n, "asbdpt", 1e6 / v["asbdpt_paths"]; print axis, n, "memory", v["peak_mib"]
         }' "$dir/bench.json" >>"$dir/scale.txt"
 }
-# render AXIS N INTEGRATOR OPTIONS: CPU time and memory of a render of the Cornell box.
+# render AXIS N OPTION...: CPU time and memory of renders of the Cornell box by bdpt and asbdpt.
 render() {
-    axis=$1 size=$2 integrator=$3
-    shift 3
-    ./asbdpt render scenes/cornell-box.pbrt --integrator "$integrator" --quiet "$@" -o "$dir/x.pfm" \
-        --stats "$dir/x.json" || exit 1
-    awk -v axis="$axis" -v n="$size" -v name="$integrator" -F '[":, ]+' '
-        $2 == "cpu_seconds" { cpu = $3 } $2 == "peak_memory" { memory = $3 / 1048576 }
-        END { print axis, n, name, cpu; print axis, n, name "-memory", memory }' \
-        "$dir/x.json" >>"$dir/scale.txt"
+    axis=$1 size=$2
+    shift 2
+    has "$axis" "$size" && return
+    for integrator in bdpt asbdpt; do
+        ./asbdpt render scenes/cornell-box.pbrt --integrator $integrator --quiet "$@" -o "$dir/x.pfm" \
+            --stats "$dir/x.json" || exit 1
+        awk -v axis="$axis" -v n="$size" -v name=$integrator -F '[":, ]+' '
+            $2 == "cpu_seconds" { cpu = $3 } $2 == "peak_memory" { memory = $3 / 1048576 }
+            END { print axis, n, name, cpu; print axis, n, name "-memory", memory }' "$dir/x.json"
+    done >>"$dir/scale.txt"
 }
 
 for n in $TRIANGLES; do
@@ -97,19 +99,7 @@ for n in $LIGHTS; do
     { header; hall; quad -2 0 -4  2 0 -4  2 0 2  -2 0 2; lamps "$n"; echo WorldEnd; } >"$dir/scene.pbrt"
     bench lights "$n" "$dir/scene.pbrt"
 done
-for n in $PIXELS; do
-    has pixels $((n * n)) && continue
-    render pixels $((n * n)) bdpt --spp 2 --res "${n}x$n" -j1
-    render pixels $((n * n)) asbdpt --spp 2 --res "${n}x$n" -j1
-done
-for n in $SAMPLES; do
-    has samples "$n" && continue
-    render samples "$n" bdpt --spp "$n" --res 64x64 -j1
-    render samples "$n" asbdpt --spp "$n" --res 64x64 -j1
-done
-for n in $THREADS; do
-    has threads "$n" && continue
-    render threads "$n" bdpt --spp 16 --res 128x128 -j "$n"
-    render threads "$n" asbdpt --spp 16 --res 128x128 -j "$n"
-done
+for n in $PIXELS; do render pixels $((n * n)) --spp 2 --res "${n}x$n" -j1; done
+for n in $SAMPLES; do render samples "$n" --spp "$n" --res 64x64 -j1; done
+for n in $THREADS; do render threads "$n" --spp 16 --res 128x128 -j "$n"; done
 rm -f "$dir"/floor.ply "$dir"/scene.pbrt "$dir"/x.*
