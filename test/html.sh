@@ -67,7 +67,7 @@ found=$(whole "$dir/html")
 tour="$dir/html/doc/tour"
 for text in '<msub><mi>p</mi><mrow><mi>s</mi></mrow></msub>' '<mo>&#x2211;</mo><mrow><mi>i</mi></mrow></munder>' \
     '<mrow><mi>light</mi></mrow></msub><mo>+</mo>' '</mrow></mfrac></math>' '<aside><a href="#the-formula">' \
-    '<li><a href="../../src/transport/mis.h.html#L' '<td>dVCM</td>' '<img src="figures/' '<h2 id="mirrors">'; do
+    '<li><a href="../../src/transport/mis.h.html#L' '<td>6.25</td>' '<img src="figures/' '<h2 id="mirrors">'; do
     grep -qF "$text" "$tour/06-connections.html" "$tour/07-weights.html" "$tour/07b-constant-time.html" ||
         wrong "no $text"
 done

@@ -1,5 +1,5 @@
-/* trace_json.c: a pixel sample as JSON, every number with all its digits; see trace_report.h. doc/trace.md has a table
- * of the keys. */
+/* trace_json.c: a pixel sample as JSON, every number with all its digits; see trace_report.h. doc/tour/trace.md has a
+ * table of the keys. */
 #include "base/json.h"
 #include "lab/trace_report.h"
 
