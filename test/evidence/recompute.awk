@@ -13,6 +13,7 @@ file == 1 {
     s = $at["scene"]; h = $at["half"]
     n = split(h == "both" ? "choice services" : h == "" ? "all" : h, half, " ")
     if (!(s in time)) { scene[++scenes] = s; first = $at["label"]; time[s] = $at["price_before"] + $at["spp"] }
+    mark[$at["label"], s] = $at["mark"]
     afforded = (time[s] - $at["price_before"]) / $at["price_each"] # samples
     for (h = 1; h <= n; h++)
         for (k = 1; k <= 3; k++)
@@ -48,4 +49,10 @@ section ~ /^(choice|services)$/ && /^\| / {
     compare(of, "pt", 1, " " c[3])
     for (k = 1; k <= 3; k++) compare(of, "subspaces", k, " " c[3 + k])
 }
-END { print compared + 0 " intervals computed again"; exit bad || !compared }
+section == "data" && split($0, c, " ") == 7 { # of structures.awk: asbdpt over the better of bdpt and pt, by rmse8
+    b = sum["all", "bdpt", c[1], 1]; p = sum["all", "pt", c[1], 1]; a = sum["all", "asbdpt", c[1], 1]
+    better = mark["pt", c[1]] == "" && (p < b || mark["bdpt", c[1]] != "") ? p : b
+    compared++
+    if (!near(c[2], a / better)) wrong("all", c[1], 1, " " c[2], a / better)
+}
+END { print compared + 0 " numbers computed again"; exit bad || !compared }

@@ -43,9 +43,10 @@ END {
         if (!scenes[kind]++) order[++kinds] = kind
         scenes["**all**"]++
         split(line, part, " ")
-        if (line ~ / -/) lost++
-        else for (k = 1; k <= 4; k += 3) { add(kind, k, part[k + 1] + 0); add("**all**", k, part[k + 1] + 0) }
-        if (worst && (line ~ / -/ || part[3] > worst + 0 || ratio["asbdpt", "rmse8:", s] ~ /[a-z]/)) {
+        if (part[2] == "-") lost++
+        for (k = 1; k <= 4; k += 3)
+            if (part[k + 1] != "-") { add(kind, k, part[k + 1] + 0); add("**all**", k, part[k + 1] + 0) }
+        if (worst && (part[2] == "-" || part[3] > worst + 0 || ratio["asbdpt", "rmse8:", s] ~ /[a-z]/)) {
             bad = 1
             print "structures: " line, ratio["asbdpt", "rmse8:", s] >"/dev/stderr"
         }
