@@ -1,7 +1,6 @@
 /* chain_bench.c: see chain_bench.h. */
 #include "chain_bench.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "helpers.h"
@@ -25,9 +24,7 @@ static const char ROOM[] =
 
 bool bench_room(struct test *t, int width, int height, const char *lens, const char *filter, struct scene *out)
 {
-    char text[4096];
-    snprintf(text, sizeof text, ROOM, lens, width, height, filter);
-    return scene_from_text(t, text, out);
+    return scene_from_format(t, out, ROOM, lens, width, height, filter);
 }
 
 bool bench_new(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed,

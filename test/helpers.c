@@ -169,6 +169,16 @@ bool scene_from_text(struct test *t, const char *text, struct scene *out)
     return scene_from_file(t, path, 0, 0, out);
 }
 
+bool scene_from_format(struct test *t, struct scene *out, const char *format, ...)
+{
+    char text[4096];
+    va_list args;
+    va_start(args, format);
+    int n = vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return CHECK(t, n > 0 && n < (int)sizeof text, "a text of %d bytes", n) && scene_from_text(t, text, out);
+}
+
 const char *set_method(struct scene *scene, const char *way)
 {
     static char text[256];

@@ -35,6 +35,9 @@ int check_spoilt(struct test *t, const char *what, reader *read, const uint8_t *
 /* scene_from_text: parse and prepare a scene given as text. A failure is a failed check; returns false. */
 bool scene_from_text(struct test *t, const char *text, struct scene *out);
 
+/* scene_from_format: the same, of a format and what follows it. */
+bool scene_from_format(struct test *t, struct scene *out, const char *format, ...);
+
 /* scene_from_file: the same for a file, at the given resolution (0: as it is) with a box filter. */
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out);
 

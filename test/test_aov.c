@@ -1,6 +1,5 @@
 /* test_aov.c: images of what the camera sees first: planes, mirrors and empty space, whose images are known. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,9 +56,7 @@ static const char WALL[] =
 
 static bool wall_scene(struct test *t, const char *material, int edge, struct scene *scene)
 {
-    char text[1000];
-    snprintf(text, sizeof text, WALL, material, edge, edge);
-    return scene_from_text(t, text, scene);
+    return scene_from_format(t, scene, WALL, material, edge, edge);
 }
 
 /* Where the wall is, which depends on the camera's handedness, everything is known; elsewhere nothing is seen. */
@@ -108,10 +105,8 @@ static void test_layer(struct test *t)
     static const double SIGMA[3][2] = {{0, 0}, {0.4, 0}, {0, 0.4}};
     for (int i = 0; i < 3; i++) {
         const double a = SIGMA[i][0], s = SIGMA[i][1], left = exp(-2 * (a + s));
-        char text[1200];
         struct scene scene;
-        snprintf(text, sizeof text, LAYER, a, a, a, s, s, s);
-        if (!scene_from_text(t, text, &scene))
+        if (!scene_from_format(t, &scene, LAYER, a, a, a, s, s, s))
             continue;
         struct pictures p = render_aovs(&scene, AOV_SAMPLES, 2);
         double sum = 0;

@@ -1,7 +1,6 @@
 /* test_caustic.c: chains of mirrors and glass: their derivatives, closed forms, and that no path is counted twice or
  * lost. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,14 +54,13 @@ static void test_derivatives(struct test *t)
                         "\"point P\" [-1 -1 0  1 -1 0  1 1 0.1  -1 1 0]"
                         "\"normal N\" [-.2 -.2 1  .2 -.3 1  .2 .3 1  -.1 .2 1]", -1, 1, -1}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        char text[1024];
         struct scene scene;
         struct arena arena = {NULL, NULL};
         struct rng r = rng_stream(test_seed(t), RNG_TEST, i, 0);
         int found = 0;
         double worst = 0;
-        snprintf(text, sizeof text, "WorldBegin LightSource \"point\" Rotate 20 1 1 0 %s WorldEnd", cases[i].thing);
-        if (!scene_from_text(t, text, &scene))
+        if (!scene_from_format(t, &scene, "WorldBegin LightSource \"point\" Rotate 20 1 1 0 %s WorldEnd",
+                               cases[i].thing))
             continue;
         for (int n = 0; n < 200; n++) {
             struct vertex z = {.p = vec(rng_uniform(&r) - .5, rng_uniform(&r) - .5, 1 + rng_uniform(&r))};
@@ -135,9 +133,7 @@ static struct film floor_under(struct test *t, const char *things, const char *w
 {
     struct scene scene;
     struct film film = {.sum = NULL};
-    char text[2048];
-    snprintf(text, sizeof text, FLOOR "%s WorldEnd", things);
-    if (scene_from_text(t, text, &scene)) {
+    if (scene_from_format(t, &scene, FLOOR "%s WorldEnd", things)) {
         struct render_options o = {.integrator = set_method(&scene, way), .end = spp, .max_depth = 3, .n_threads = 1};
         render_film(t, &scene, &o, &film);
         scene_free(&scene);

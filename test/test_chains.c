@@ -328,13 +328,11 @@ static void test_samples(struct test *t)
 /* The luminance of a picture of so many samples, over bdpt's. */
 static double luminance(struct test *t, const struct scene *scene, const char *integrator, long spp)
 {
-    struct error err = {.text = ""};
     struct film film;
     double sum = 0;
     struct render_options o = {.integrator = integrator, .end = spp, .max_depth = BENCH_DEPTH, .n_threads = 2,
                                .seed = test_seed(t)};
-    film_init(&film, render_crop(scene), scene->width, scene->height);
-    CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
+    render_film(t, scene, &o, &film);
     for (size_t i = 0; i < (size_t)scene->width * (size_t)scene->height; i++)
         sum += rgb_luminance(rgb_make(film_value(&film, 3 * i), film_value(&film, 3 * i + 1),
                                       film_value(&film, 3 * i + 2)));

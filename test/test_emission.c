@@ -37,12 +37,11 @@ static const char LIGHTS[] =
 
 static bool lights(struct test *t, int skies, struct scene *out)
 {
-    char text[4096], sky[1024] = "";
+    char sky[1024] = "";
     for (int i = 0; i < skies; i++)
         snprintf(sky + strlen(sky), sizeof sky - strlen(sky), "LightSource \"infinite\" \"rgb L\" [%g %g %g]\n",
                  0.02 * i, 0.01, 0.01);
-    snprintf(text, sizeof text, LIGHTS, sky);
-    return scene_from_text(t, text, out);
+    return scene_from_format(t, out, LIGHTS, sky);
 }
 
 static bool sample_point(const struct scene *s, struct rng *r, struct light_point *at)

@@ -141,15 +141,15 @@ static void test_damaged_map(struct test *t)
     static float pixels[W * H * 3];
     static const float bad[4] = {NAN, INFINITY, -INFINITY, -3};
     const double none[] = {NAN, INFINITY, -INFINITY, 0, 1e308};
-    char path[256], text[1024];
+    char path[256];
     struct error err = {.text = ""};
     struct scene scene;
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 5, 0);
     for (int i = 0; i < W * H * 3; i++)
         pixels[i] = i % 5 == 0 ? bad[i / 5 % 4] : 1;
     snprintf(path, sizeof path, "%s/map.pfm", test_tmp(t));
-    snprintf(text, sizeof text, "WorldBegin LightSource \"infinite\" \"string mapname\" \"%s\" WorldEnd\n", path);
-    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text) || !scene_from_text(t, text, &scene))
+    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text) ||
+        !scene_from_format(t, &scene, "WorldBegin LightSource \"infinite\" \"string mapname\" \"%s\" WorldEnd\n", path))
         return;
     CHECK(t, scene.lights.choice.n == scene.lights.n_cells, "there is no table of choices");
     check_sky(t, &scene, &r);
@@ -171,12 +171,10 @@ static void test_spot(struct test *t)
 {
     static const double cases[][2] = {{40, 20}, {3, 5}, {1, 5}}; /* degrees: cone and edge */
     for (int i = 0; i < 3; i++) {
-        char text[256];
         struct scene s;
         double cone = cases[i][0], inner = cos((cone - cases[i][1]) * PI / 180), outer = cos(cone * PI / 180);
-        snprintf(text, sizeof text, "WorldBegin LightSource \"spot\" \"float coneangle\" %g "
-                 "\"float conedeltaangle\" %g WorldEnd", cone, cases[i][1]);
-        if (!scene_from_text(t, text, &s))
+        if (!scene_from_format(t, &s, "WorldBegin LightSource \"spot\" \"float coneangle\" %g "
+                               "\"float conedeltaangle\" %g WorldEnd", cone, cases[i][1]))
             return;
         for (int k = 0; k < 40; k++) {
             struct light_point at = {0};
@@ -240,7 +238,7 @@ static void test_densities(struct test *t)
         "LightSource \"infinite\" \"string mapname\" \"%s\" LightSource \"goniometric\" \"string mapname\" \"%s\"\n"
         "LightSource \"projection\" \"string mapname\" \"%s\" WorldEnd\n";
     static float pixels[W * H * 3];
-    char path[256], text[2048];
+    char path[256];
     struct error err = {.text = ""};
     struct scene s;
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 9, 0);
@@ -248,8 +246,8 @@ static void test_densities(struct test *t)
         pixels[i] = (float)(i % 7 == 0 ? 0 : 1 + (i / 3) % 5);
     pixels[3 * (2 * W + 3)] = 50;
     snprintf(path, sizeof path, "%s/densities.pfm", test_tmp(t));
-    snprintf(text, sizeof text, WORLD, path, path, path);
-    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text) || !scene_from_text(t, text, &s))
+    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text) ||
+        !scene_from_format(t, &s, WORLD, path, path, path))
         return;
     CHECK(t, s.lights.n == 11, "%d lights", s.lights.n);
     for (int i = 0; i < s.lights.n; i++) {

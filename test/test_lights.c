@@ -56,10 +56,8 @@ static const char SCENE[] =
 
 static bool load(struct test *t, const char *filter, bool sky, bool warm, bool lamp, struct scene *out)
 {
-    char text[4096];
-    snprintf(text, sizeof text, SCENE, filter, sky, sky, sky, warm, warm, warm, warm, warm, warm, sky, sky, sky, lamp,
-             lamp, lamp);
-    return scene_from_text(t, text, out) &&
+    return scene_from_format(t, out, SCENE, filter, sky, sky, sky, warm, warm, warm, warm, warm, warm, sky, sky, sky,
+                             lamp, lamp, lamp) &&
            CHECK(t, out->lights.n_groups == GROUPS && strcmp(out->lights.group[1].name, "warm") == 0 &&
                      out->lights.group[2].name == NULL && out->lights.group[2].kind == LIGHT_AREA,
                  "%d groups of %d lights", out->lights.n_groups, out->lights.n);
@@ -187,11 +185,9 @@ static void test_alone(struct test *t, const char *way)
 
 static bool render_text(struct test *t, const char *text, const char *filter, int spp, struct film *film)
 {
-    char full[2048];
     struct scene scene;
     struct render_options o = {.integrator = "pt", .n_threads = 1, .end = spp, .max_depth = 2};
-    snprintf(full, sizeof full, text, filter);
-    if (!scene_from_text(t, full, &scene))
+    if (!scene_from_format(t, &scene, text, filter))
         return false;
     render_planes(t, &scene, &o, 0, true, film);
     scene_free(&scene);

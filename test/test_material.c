@@ -3,7 +3,6 @@
 #include "material/material.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -345,16 +344,14 @@ static double same_p(const struct mean *a, const struct mean *b)
 /* A walk that leaves a surface into the sky carries, on average, what uniform directions find that is scattered. */
 static void check_walks(struct test *t, const char *material)
 {
-    char text[512];
     struct scene scene;
     struct mis_counts counts = {.hit = {1, 1}};
     struct arena arena = {0}, kept = {0};
     struct vertex path[3], first[3];
     struct mean walked = {0, 0}, uniform = {0, 0};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 50, 0);
-    snprintf(text, sizeof text, "LookAt 3 0 2  0 0 0  0 0 1 Camera \"perspective\" WorldBegin\n"
-             "LightSource \"infinite\" Material %s Shape \"disk\" \"float radius\" 5 WorldEnd", material);
-    if (!scene_from_text(t, text, &scene))
+    if (!scene_from_format(t, &scene, "LookAt 3 0 2  0 0 0  0 0 1 Camera \"perspective\" WorldBegin\n"
+                           "LightSource \"infinite\" Material %s Shape \"disk\" \"float radius\" 5 WorldEnd", material))
         return;
     for (int i = 0; i < WALKS; i++) {
         struct sampler sampler = sampler_start(test_seed(t), RNG_EYE, (uint64_t)i, 0);

@@ -186,10 +186,8 @@ enum { SIDE = 16 };
 static void render_image(struct test *t, struct scene *scene, const char *method, int depth, float *image)
 {
     struct film film;
-    struct error err;
     struct render_options o = {.integrator = set_method(scene, method), .end = 4, .n_threads = 2, .max_depth = depth};
-    film_init(&film, render_crop(scene), scene->width, scene->height);
-    CHECK(t, render_scene(scene, &o, &film, &err), "%s: %s", method, err.text);
+    render_film(t, scene, &o, &film);
     film_develop(&film, 1, image);
     film_free(&film);
 }

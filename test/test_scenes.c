@@ -69,15 +69,13 @@ static void test_contact(struct test *t)
         "  \"point P\" [-1e6 0 -1e6  1e6 0 -1e6  1e6 0 1e6  -1e6 0 1e6]",
         "AttributeBegin Translate 0 -1e6 0 Shape \"sphere\" \"float radius\" 1e6 AttributeEnd"};
     for (int i = 0; i < 4; i++) {
-        char text[1024];
         struct scene scene;
-        snprintf(text, sizeof text,
-                 "LookAt 20.1 .01 0  20.1 0 0  1 0 0 Camera \"perspective\" \"float fov\" 10\n"
-                 "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
-                 "LightSource \"point\" \"point from\" [20 5 0] %s\n"
-                 "Translate %d .02 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" .5 WorldEnd\n",
-                 grounds[i / 2], 20 + i % 2 * 5);
-        if (!scene_from_text(t, text, &scene))
+        if (!scene_from_format(t, &scene,
+                               "LookAt 20.1 .01 0  20.1 0 0  1 0 0 Camera \"perspective\" \"float fov\" 10\n"
+                               "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
+                               "LightSource \"point\" \"point from\" [20 5 0] %s\n"
+                               "Translate %d .02 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" .5 WorldEnd\n",
+                               grounds[i / 2], 20 + i % 2 * 5))
             continue;
         if (i % 2 == 0)
             check_shown(t, &scene, 835, 0, "the ground under a disk");
@@ -141,11 +139,9 @@ static void test_holes(struct test *t)
     } cases[] = {{"0", "-1", "alpha", true},  {"0.5", "-1", "alpha", false}, {"1", "-1", "alpha", false},
                  {"0", "-1", "shadowalpha", false}, {"1", "-1", "shadowalpha", false}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        char filled[2048];
         struct scene scene;
         const char *z = cases[i].z;
-        snprintf(filled, sizeof filled, text, cases[i].value, cases[i].value, z, z, z, z, cases[i].name);
-        if (!scene_from_text(t, filled, &scene))
+        if (!scene_from_format(t, &scene, text, cases[i].value, cases[i].value, z, z, z, z, cases[i].name))
             continue;
         struct batches b = render_batches(t, &scene, "bdpt", 2, 4, 2, 4, 829);
         CHECK(t, (b.value[0] > 0.1) == cases[i].lit, "behind %s %s the wall shows %g", cases[i].name, cases[i].value,
@@ -214,10 +210,8 @@ static void test_filter_spot(struct test *t)
         "WorldEnd\n";
     static const char *const filters[] = {"mitchell", "sinc"};
     for (int i = 0; i < 2; i++) {
-        char filled[1024];
         struct scene scene;
-        snprintf(filled, sizeof filled, text, filters[i]);
-        if (!scene_from_text(t, filled, &scene))
+        if (!scene_from_format(t, &scene, text, filters[i]))
             continue;
         double ratio;
         struct batches pt = render_batches(t, &scene, "pt", 1, 64, 16, 1, 826);

@@ -137,9 +137,8 @@ static void check_film(struct test *t, const struct scene *scene, int way, struc
     struct film rendered, told;
     struct error err;
     int halfway = 0, added = 0, longest = 0;
-    film_init(&rendered, render_crop(scene), SIZE, SIZE);
     film_init(&told, render_crop(scene), SIZE, SIZE);
-    CHECK(t, render_scene(scene, &options, &rendered, &err), "%s", err.text);
+    render_film(t, scene, &options, &rendered);
     struct render_job job = {.scene = NULL};
     struct preparation prepared;
     if (!CHECK(t, render_prepare(scene, &options, render_crop(scene), &job, &prepared, &err), "%s", err.text))
