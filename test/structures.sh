@@ -6,8 +6,10 @@
 # scene, or more than MEAN (0.55) in the geometric mean, or no sample in that time.
 # structures.sh draw: structures.svg of structures.txt.
 draw() {
-    awk '/^== / { on = $2 == "data" } on && NF == 7 { print $1, $2, $3, $4 }' | awk -v zero=1 -v axis=log \
-        -v title="asbdpt over the better of bdpt and pt: squared error, 95 %" -f doc/tour/chart.awk
+    awk '/^== / { on = $2 == "data" } on && NF == 7 { print $1, $2, $3, $4, "-" }' | sort -t - -k 2,2 -k 1,1n |
+        awk -v title="Squared error (rmse8) in the same CPU time, relative to the better of bdpt and pt" \
+            -v dot="asbdpt, with its 95 % interval" -v axis="1: as good as the better; lower is better" \
+            -v least=0.1 -v most=5 -f doc/tour/dots.awk
 }
 [ "$1" != draw ] || { draw; exit; }
 dir=$1

@@ -18,8 +18,9 @@ END {
     print "font-family='sans-serif' font-size='13'><rect width='100%' height='100%' fill='white'/>"
     printf "<text x='10' y='18' font-weight='bold'>%s</text>\n", title
     printf "<circle cx='%d' cy='38' r='4' fill='#4393c3' stroke='#222'/><text x='%d' y='42'>%s</text>\n", left, left + 12, dot
-    printf "<circle cx='%d' cy='38' r='6' fill='white' stroke='#222'/><text x='%d' y='42'>%s</text>\n", left + 270,
-        left + 282, ring
+    if (ring != "")
+        printf "<circle cx='%d' cy='38' r='6' fill='white' stroke='#222'/><text x='%d' y='42'>%s</text>\n", left + 270,
+            left + 282, ring
     for (power = -6; power <= 6; power++)
         for (digit = 1; digit <= 3; digit += 2) {
             v = digit * exp(power * log(10))
