@@ -17,11 +17,19 @@ pre, code { font-family: "DejaVu Sans Mono", Menlo, Consolas, monospace; font-si
 code { white-space: nowrap; }
 wbr { display: none; }
 code.long { white-space: normal; overflow-wrap: anywhere; }
-pre { overflow-x: auto; padding: 0.7em 1em; background: #8881; border-radius: 4px; line-height: 1.4; }
+pre { overflow-x: auto; padding: 0.7em 1em; border-radius: 4px; line-height: 1.4; }
 .math { border-left: 3px solid #0b62b8; }
 .math td { border: none; padding: 0.3em 1.2em; vertical-align: middle; font-size: 1em; }
 math { font-size: 1.08em; margin: 0; }
 .wide { overflow-x: auto; }
+pre, .wide { /* a shadow at the side to which it scrolls; what moves with the content covers it at the end */
+    --paper: Canvas;
+    background: linear-gradient(90deg, var(--paper) 40%, transparent) left / 2em 100% no-repeat local,
+        linear-gradient(-90deg, var(--paper) 40%, transparent) right / 2em 100% no-repeat local,
+        linear-gradient(90deg, #8889, transparent) left / 0.7em 100% no-repeat,
+        linear-gradient(-90deg, #8889, transparent) right / 0.7em 100% no-repeat, var(--paper);
+}
+pre { --paper: color-mix(in srgb, Canvas, #888 7%); }
 .wide td, .wide th { font-size: 0.92em; }
 .wide:has(td > img) table { table-layout: fixed; width: 100%; }
 .wide:has(td > img) code { white-space: normal; }
@@ -55,13 +63,17 @@ sub, sup { font-size: 0.72em; line-height: 0; }
     .wide td, .wide th { padding: 0.25em 0.35em; font-size: 0.85em; }
     .math td { display: inline-block; padding: 0.2em 0.8em; font-size: 1em; }
 }
+@media screen and (max-width: 38em) {
+    .wide:has(.drawing)::before { content: "wider than the screen: scroll \2192"; position: sticky; left: 0; display: block;
+        width: max-content; font: 0.8rem sans-serif; color: #777; }
+}
 @media (prefers-color-scheme: dark) { a { color: #7db8f2; } pre i { color: #7b9; } pre b { color: #e8a; } }
 @media print {
     body { max-width: none; font-size: 10.5pt; }
     nav { display: none; }
     a { color: inherit; }
     pre { white-space: pre-wrap; font-size: 7pt; padding: 0.5em; }
-    .wide { overflow: visible; }
+    .wide { overflow: visible; background: none; }
     .many td, .many th { font-size: 7.5pt; padding: 0.2em 0.4em; }
     .many code { white-space: normal; }
     pre, tr, img { break-inside: avoid; }

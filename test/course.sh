@@ -30,35 +30,41 @@ fault() { awk -v name="$1" '!/^[-+]/ { here = $1 == name } here' test/mutants/li
 # build TREE [TARGET]: a dot for each file, and what the compiler says. -O1: it is the compiler one waits for here. What
 # is changed in a copy is built with sanitizers: they say the line in which an index leaves its array.
 build() {
-    extra=
-    [ "$1" = "$original" ] || extra=$(sane)
-    extra="-Wno-unused-parameter -Wno-unused-function $extra"
+    extra="-Wno-unused-parameter -Wno-unused-function"
+    [ "$1" = "$original" ] || extra="$extra $SANE"
     (cd "$1" && MAKEFLAGS='' ${MAKE:-make} -s -j2 CC="${CC:-cc}" BUILD=build LTO= OPT=-O1 CFLAGS="$extra" \
         ${2-asbdpt-lab build/test} 2>&1 || echo "no build") |
         awk '/^  (build|asbdpt)/ { printf "."; dots++; next } /^no build$/ { bad = 1; next } { print }
             END { if (dots) print ""; exit bad }'
 }
 
-# sane: the sanitizers' options, if programs with them can be made and run here. leaks: 1 if they see lost memory here.
-sane() {
-    if [ ! -f $work/sane ]; then
-        echo '#include <stdlib.h>
-            int main(int n, char **word) { char *lost = malloc(n); lost[0] = word[0][0]; return lost = NULL, !n; }' \
-            >$work/sane.c
-        ${CC:-cc} $SANE -o $work/sane.out $work/sane.c 2>/dev/null && ASAN_OPTIONS=detect_leaks=0 $work/sane.out &&
-            echo "$SANE" >$work/sane || echo "" >$work/sane
-        ASAN_OPTIONS=detect_leaks=1:exitcode=86 $work/sane.out >/dev/null 2>&1
-        [ $? -eq 86 ] && echo 1 >$work/leaks || echo 0 >$work/leaks
-    fi
-    cat $work/sane
+# sanitizers: none in $SANE if no program with them can be made and run here; $leaks: 1 if they see lost memory.
+sanitizers() {
+    echo '#include <stdlib.h>
+        int main(int n, char **word) { char *lost = malloc(n); lost[0] = word[0][0]; return lost = NULL, !n; }' \
+        >$work/sane.c
+    ${CC:-cc} $SANE -o $work/sane $work/sane.c 2>/dev/null && ASAN_OPTIONS=detect_leaks=0 $work/sane || SANE=
+    ASAN_OPTIONS=detect_leaks=1:exitcode=86 $work/sane >/dev/null 2>&1
+    [ $? -eq 86 ] && leaks=1 || leaks=0
 }
-leaks() { cat $work/leaks 2>/dev/null || echo 0; }
+
+# alone: a tree has one original, so its commands wait for each other.
+alone() {
+    mkdir -p $work
+    until mkdir $work/lock 2>/dev/null; do
+        say "Another course command works in this tree. This one waits. (If there is none: rmdir $work/lock)" >&2
+        sleep 10
+    done
+    trap 'rmdir $work/lock' EXIT
+    trap 'exit 130' INT TERM HUP
+}
 
 # original: a copy of all that is needed, built. Others are copies of it, and compared with it. It lies in a directory
 # of any name, which only $work/where tells: what a student hands in must not run it by its usual place.
 original() {
     [ -z "$original" ] || return 0
-    mkdir -p $work
+    alone
+    sanitizers
     home=$(cat $work/where 2>/dev/null)
     if [ ! -d "${home:-/none}/kept" ]; then
         home=$(mktemp -d "${TMPDIR:-/tmp}/XXXXXXXXXX") && mkdir "$home/kept" "$home/tree" || exit
@@ -101,7 +107,7 @@ guard() {
 run() {
     wall=$((20 * $1 + 60)) # where it does not compute but waits
     (ulimit -t "$1" && cd "$2" && shift 3 && exec env -i PATH="$PATH" TMPDIR="${TMPDIR:-/tmp}" \
-        ASAN_OPTIONS=detect_leaks=$(leaks):exitcode=86 UBSAN_OPTIONS=print_stacktrace=1:exitcode=86 \
+        ASAN_OPTIONS=detect_leaks=$leaks:exitcode=86 UBSAN_OPTIONS=print_stacktrace=1:exitcode=86 \
         ${watch:+$watch -k 2 $wall} $away "$@") >"$3" 2>&1 &
     child=$!
     { wait $child; } 2>/dev/null # no "Killed": told says it

@@ -21,6 +21,7 @@
 #include "image/picture.h"
 #include "lab/compare.h"
 #include "lab/sheet.h"
+#include "learning/learn.h"
 #include "render/render.h"
 
 char *web_words(int size);
@@ -147,12 +148,13 @@ static void show(struct watch *w)
     w->shown = os_wall_seconds();
 }
 
-/* Most of what a method learns is by the sub-paths that learn.h promises; what comes before that is short. */
+/* Most of what a method learns is by the sub-paths of learn.h; what comes before that is short. */
 static bool learns(void *context, double traced)
 {
     struct watch *w = context;
-    double pixels = (double)w->scene.width * w->scene.height, eye = fmin(fmax(4 * pixels, 2048), 49152);
-    w->learnt = fmax(w->learnt, fmin(1, traced / (eye + fmin(eye, 16384))));
+    double pixels = (double)w->scene.width * w->scene.height;
+    double eye = fmin(fmax(LEARN_PER_PIXEL * pixels, LEARN_LEAST), LEARN_MOST);
+    w->learnt = fmax(w->learnt, fmin(1, traced / (eye + fmin(eye, LEARN_LIGHT))));
     if (os_wall_seconds() - w->shown > 0.1) {
         w->shown = os_wall_seconds();
         web_learns(w->learnt);

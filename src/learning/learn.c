@@ -4,11 +4,7 @@
 #include "base/number.h"
 #include "learning/training.h"
 
-/* The budget: the least and the largest number of eye sub-paths, and their number per pixel; the largest number of
- * light sub-paths, and their number if only the mean number of their vertices is needed. */
-enum { LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LIGHT_MOST = 16 * 1024, LIGHT_COUNTED = 4 * 1024 };
-static const double LEARN_PER_PIXEL = 4;
-
+enum { LIGHT_COUNTED = 4 * 1024 }; /* light sub-paths if only the mean number of their vertices is needed */
 enum { MAX_EYE_REGIONS = 1024, MAX_LIGHT_REGIONS = 2048, MAX_IMPORTANCE_REGIONS = 1 << 17 };
 
 struct tables learn(const struct render_job *job, const struct learn_options *options)
@@ -17,7 +13,7 @@ struct tables learn(const struct render_job *job, const struct learn_options *op
                          .patience = patience_begin(job)};
     struct tables tables = NO_TABLES;
     double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
-    long n = int_within(LEARN_PER_PIXEL * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LIGHT_MOST ? n : LIGHT_MOST;
+    long n = int_within(LEARN_PER_PIXEL * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT;
     bool regions = options->importance || options->guide || options->pairs;
     long n_emission = options->importance && options->emission < 1 ? n_light / 2 : 0;
     if (regions) {

@@ -1,11 +1,11 @@
 /* learn.h: learn tables about a scene before it is rendered (tables.h).
  *
  * Learning traces a fixed number of eye sub-paths: LEARN_PER_PIXEL for each pixel of the image, but at least
- * LEARN_LEAST and at most LEARN_MOST. It traces at most as many light sub-paths. The number does not depend on the
- * number of samples, so an image that is continued or rendered in parts has one estimator. Memory is bounded: 1024 eye
- * regions and 2048 light regions, 64 MiB while learning and a quarter of that afterwards. job->watch may end learning
- * early. Then the tables have fewer sub-paths, which is valid but noisier. Tables are not stored: every render learns
- * them again.
+ * LEARN_LEAST and at most LEARN_MOST. It traces as many light sub-paths, but at most LEARN_LIGHT. The number does not
+ * depend on the number of samples, so an image that is continued or rendered in parts has one estimator. Memory is
+ * bounded: 1024 eye regions and 2048 light regions, 64 MiB while learning and a quarter of that afterwards. job->watch
+ * may end learning early. Then the tables have fewer sub-paths, which is valid but noisier. Tables are not stored:
+ * every render learns them again.
  *
  * The passes are in training.h. Each has its own sub-paths.
  *
@@ -16,6 +16,8 @@
 
 #include "tables/tables.h"
 #include "transport/tile_pass.h"
+
+enum { LEARN_PER_PIXEL = 4, LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LEARN_LIGHT = 16 * 1024 };
 
 /* What to learn. Light vertices are always counted. */
 struct learn_options {

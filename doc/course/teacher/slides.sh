@@ -22,10 +22,10 @@ mkdir -p "$(dirname "$out")" || exit 1
 body { margin: 0; background: #fff; color: #222; font: 3vmin/1.4 system-ui, sans-serif; }
 section { display: none; box-sizing: border-box; height: 100vh; padding: 4vmin; flex-direction: column; align-items: center; gap: 2vmin; }
 section.on { display: flex; justify-content: center; }
-h1 { font-size: 5vmin; margin: 0; } p { margin: 0; }
+h1 { font-size: 5vmin; margin: 0; } p { margin: 0; text-align: center; }
 img { flex: 1; min-height: 0; max-width: 92vw; object-fit: contain; image-rendering: auto; width: 92vw; }
 div { flex: 1; display: flex; gap: 2vw; width: 92vw; align-items: center; } i { flex: 1; background-image: var(--f); }
-pre { font-size: 2.6vmin; margin: 0; } aside { display: none; font-size: 2.2vmin; } .notes aside { display: block; }
+pre { font-size: 2.6vmin; margin: 0; white-space: pre-wrap; overflow-wrap: anywhere; } aside { display: none; font-size: 2.2vmin; } .notes aside { display: block; }
 </style>
 HEAD
     for page in doc/tour/[01]*.md; do
