@@ -17,15 +17,16 @@ check render -o a.pfm -o b.pfm
 check render --samples 0:1 -o c.part
 
 # ---- one name, two files ----
-same='would be written twice'
+same='an output needs a name of its own'
 mkdir sub
 for outputs in '--stats a.pfm -o a.pfm' '-o new.pfm -o new.pfm' '-o new.pfm --stats c --checkpoint c' '-o - -o -' \
     '--samples 0:1 --checkpoint new.part -o new.part' '--stats - -o -' '--aov albedo -o x.pfm -o x.albedo.pfm' \
-    '--lights sub -o sub/light00_area.pfm'; do # some names are known only when the scene is
-    refused 2 "${outputs##* } $same" render $outputs
+    '--lights sub -o sub/light00_area.pfm' '--stats scene.pbrt' \
+    '-o new.pfm --checkpoint scene.pbrt'; do # some names are known only when the scene is
+    refused 2 "${outputs##* }: $same" render $outputs
 done
 sed 's/cornell-box.png/film.png/' "$box" >film.pbrt
-refused 2 "film.png $same" "$program" render film.pbrt $tiny --stats film.png
+refused 2 "film.png: $same" "$program" render film.pbrt $tiny --stats film.png
 # What may be the same: an input and an output, which takes its place when it is whole; so a checkpoint resumed.
 cp c.part d.part
 makes c.part "$program" merge d.part --quiet -o d.part

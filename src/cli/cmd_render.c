@@ -18,7 +18,7 @@
 
 #define AT(member) offsetof(struct job_options, member)
 const struct option RENDER_OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .help = "a scene file"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .written = true, .help = "a scene file"},
     {"-o", "FILE", OPTION_TEXTS, AT(output), .alias = "--outfile", .written = true,
      .help = "image to write: linear .pfm or .exr, sRGB .png or .ppm; repeatable (default: the scene's Film name)"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
@@ -117,24 +117,21 @@ static bool open_default_output(const struct job_options *o, const struct scene 
 }
 
 /* Does every file have a name of its own? Layers are in a file that is written first without them. */
-static bool names_differ(const struct job_options *o, const struct files *f, struct error *err)
+static bool names_differ(struct job_options *o, const struct files *f, struct error *err)
 {
     struct texts names = {0};
-    for (int i = 0; i < f->pictures.n; i++)
+    options_written(RENDER_OPTIONS, o, &names);
+    for (int i = o->output.n; i < f->pictures.n; i++)
         texts_add(&names, f->pictures.item[i].file.path);
     for (int i = 0; i < f->aov.out.n && !o->layers; i++)
         texts_add(&names, f->aov.out.item[i].file.path);
-    if (o->keep.checkpoint != NULL)
-        texts_add(&names, o->keep.checkpoint);
-    if (o->stats != NULL)
-        texts_add(&names, o->stats);
     bool ok = texts_differ(&names, err);
     free(names.item);
     return ok;
 }
 
 /* What the scene names, or what is written next to that, once the scene is loaded. */
-static bool open_others(const struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
+static bool open_others(struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
 {
     return (f->pictures.n > 0 || open_default_output(o, scene, &f->pictures, err)) &&
            aov_open(&f->aov, o->layers, &f->pictures, err) && lights_open(o->lights, scene, &f->pictures, err) &&

@@ -42,7 +42,7 @@ bool texts_differ(const struct texts *outputs, struct error *err)
     for (int i = 0; i < outputs->n; i++)
         for (int k = 0; k < i; k++)
             if (strcmp(outputs->item[i], outputs->item[k]) == 0)
-                return error_usage(err, "%s would be written twice", outputs->item[i]);
+                return error_usage(err, "%s: an output needs a name of its own", outputs->item[i]);
     return true;
 }
 
@@ -282,7 +282,8 @@ void options_written(const struct option *table, void *target, struct texts *nam
         int n = 0;
         const char *const *text = o->written ? texts_of(o, target, &n) : NULL;
         for (int i = 0; i < n; i++)
-            texts_add(names, text[i]);
+            if (!is_operand(o) || strcmp(text[i], "-") != 0) /* one is standard input, the other output */
+                texts_add(names, text[i]);
     }
 }
 

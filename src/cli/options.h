@@ -50,7 +50,7 @@ struct option {
     const char *alias;           /* another name, or NULL */
     const char *fallback;        /* text of the default; NULL: the target stays zero */
     const char *help;            /* where one must be given: what it is, with an article */
-    bool written;                /* its texts name files that are written */
+    bool written;                /* its texts name files that are written; of an operand: that must not be */
     const struct option *others; /* in the row without a name: the table that goes on, or NULL */
 };
 
@@ -65,14 +65,15 @@ const struct option *options_next(const struct option *option);
 bool options_read(const struct option *table, int argc, char **argv, void *target, struct error *err);
 void options_free(const struct option *table, void *target);
 
-/* options_written: append the names of all files that the options write. options_print: the help of every row. */
+/* options_written: append the names of all files that the options write, or must not write. options_print: the help of
+ * every row. */
 void options_written(const struct option *table, void *target, struct texts *names);
 void options_print(const struct option *table);
 
 /* print_wrapped: words in lines of at most 100 columns; the first begins at `column`, the others at `indent`. */
 void print_wrapped(const char *text, int column, int indent);
 
-/* texts_differ: is no text there twice? False with a message on an output that would be written twice. */
+/* texts_differ: is no text there twice? False with a message on an output that has another file's name. */
 void texts_add(struct texts *texts, const char *text);
 bool texts_differ(const struct texts *outputs, struct error *err);
 

@@ -42,8 +42,6 @@ bool outputs_is_part(const char *name)
 bool outputs_add(struct outputs *out, const char *name, bool is_part, struct error *err)
 {
     struct output o = {.is_part = is_part};
-    if (!is_part && !image_writable(name))
-        return error_usage(err, "-o %s: images are written as " IMAGE_WRITTEN "; end the name in one of these", name);
     if (is_part ? !file_create(name, &o.file, err) : !image_create(name, &o.file, err))
         return false;
     out->item = mem_append(out->item, (size_t)out->n, sizeof *out->item);

@@ -183,19 +183,16 @@ static void put_table(struct json *j, const struct scene *scene, const struct fi
 static void put_parameters(struct json *j, const struct scene *scene, const struct render_options *o)
 {
     const struct method *m = method_find(o->integrator, &scene->settings, NULL);
-    struct render_job job;
-    struct error none;
+    struct render_job job = {.max_depth = 0};
+    parameters_read(scene, m, o->max_depth, &job, NULL); /* as before, when they were right */
     json_open(j, "parameters", '{');
-    if (m != NULL && parameters_read(scene, m, o->max_depth, &job, &none)) { /* they have been read before */
-        json_number(j, "maxdepth", job.max_depth);
-        json_text(j, "heuristic", job.power_heuristic ? "power" : "balance");
-        json_number(j, "rrthreshold", job.rr_threshold);
-        json_text(j, "lightsamplestrategy", job.spatial_lights ? "spatial" : "power");
-    }
-    if (m != NULL && m->select != NULL)
+    json_number(j, "maxdepth", job.max_depth);
+    json_text(j, "heuristic", job.power_heuristic ? "power" : "balance");
+    json_number(j, "rrthreshold", job.rr_threshold);
+    json_text(j, "lightsamplestrategy", job.spatial_lights ? "spatial" : "power");
+    if (m->select != NULL)
         json_text(j, "select", m->select);
-    if (m != NULL)
-        put_table(j, scene, method_parameters(m));
+    put_table(j, scene, method_parameters(m));
     json_close(j);
 }
 

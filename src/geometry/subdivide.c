@@ -69,8 +69,7 @@ static bool join_edges(struct level *l, struct error *err)
     struct edge *edge = mem_alloc((size_t)n, sizeof *edge);
     for (int h = 0; h < n; h++) {
         uint64_t a = l->corner[h], b = l->corner[next_half(h)];
-        struct edge e = {a < b ? a << 32 | b : b << 32 | a, h};
-        edge[h] = e;
+        edge[h] = (struct edge){a < b ? a << 32 | b : b << 32 | a, h};
     }
     qsort(edge, (size_t)n, sizeof *edge, by_ends);
     for (int i = 0, k; i < n && ok; i = k) {

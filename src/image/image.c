@@ -95,7 +95,7 @@ bool image_writable(const char *path) { return format_to_write(path) != NULL; }
 bool image_create(const char *path, struct file_output *out, struct error *err)
 {
     if (!image_writable(path))
-        return error_set(err, "%s: images are written as " IMAGE_WRITTEN "; end the name in one of these", path);
+        return error_usage(err, "%s: images are written as " IMAGE_WRITTEN "; end the name in one of these", path);
     return file_create(path, out, err);
 }
 

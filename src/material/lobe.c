@@ -8,8 +8,6 @@
 #include "material/fresnel.h"
 #include "material/microfacet.h"
 
-static const struct bsdf_value NOTHING = {{0, 0, 0}, 0, 0};
-
 bool lobe_is_delta(enum lobe_kind kind)
 {
     return kind == LOBE_SPECULAR_REFLECTION || kind == LOBE_SPECULAR_TRANSMISSION || kind == LOBE_FRESNEL_SPECULAR;
@@ -49,11 +47,11 @@ double lobe_albedo_guess(const struct lobe *l)
 
 /* --- diffuse lobes ----------------------------------------------------------------------------------- */
 
-/* NOTHING unless the directions are on the sides that the lobe is for. */
+/* NO_SCATTERING unless the directions are on the sides that the lobe is for. */
 static struct bsdf_value diffuse(bool there, rgb f, vec3 wo, vec3 wi)
 {
     struct bsdf_value v = {f, fabs(wi.z) * INV_PI, fabs(wo.z) * INV_PI};
-    return there ? v : NOTHING;
+    return there ? v : NO_SCATTERING;
 }
 
 /* The original has sin(alpha) tan(beta) with alpha the larger and beta the smaller of the two angles, and the
@@ -98,12 +96,12 @@ static double masking(const struct lobe *l, double lambda_o, double lambda_i)
 static struct bsdf_value microfacet_reflection(const struct lobe *l, vec3 wo, vec3 wi, bool reflect)
 {
     if (!(wo.z * wi.z > 0))
-        return NOTHING;
+        return NO_SCATTERING;
     vec3 wh = normalize(add(wo, wi));
     double lambda_o = microfacet_lambda(wo, l->alpha_x, l->alpha_y);
     double lambda_i = microfacet_lambda(wi, l->alpha_x, l->alpha_y);
     double d4 = 0.25 * microfacet_d(wh, l->alpha_x, l->alpha_y);
-    struct bsdf_value v = NOTHING;
+    struct bsdf_value v = NO_SCATTERING;
     v.pdf = d4 / ((1 + lambda_o) * fabs(wo.z));
     v.pdf_rev = d4 / ((1 + lambda_i) * fabs(wi.z));
     if (reflect) {
@@ -136,17 +134,17 @@ static struct bsdf_value microfacet_transmission(const struct lobe *l, vec3 wo, 
                                                  enum transport mode)
 {
     if (!(wo.z * wi.z < 0))
-        return NOTHING;
+        return NO_SCATTERING;
     double eta = wo.z > 0 ? l->eta_b / l->eta_a : l->eta_a / l->eta_b;
     vec3 wh = normalize(add(wo, mul(wi, eta)));
     wh = wh.z * wo.z < 0 ? neg(wh) : wh;
     double cos_oh = dot(wo, wh), cos_ih = dot(wi, wh);
     if (!(cos_oh > 0 && cos_ih < 0)) /* the facet's back is turned to one of them */
-        return NOTHING;
+        return NO_SCATTERING;
     double lambda_o = microfacet_lambda(wo, l->alpha_x, l->alpha_y);
     double lambda_i = microfacet_lambda(wi, l->alpha_x, l->alpha_y);
     double j = microfacet_d(wh, l->alpha_x, l->alpha_y) * cos_oh * -cos_ih / sqr(cos_oh + eta * cos_ih);
-    struct bsdf_value v = NOTHING;
+    struct bsdf_value v = NO_SCATTERING;
     v.pdf = eta * eta * j / ((1 + lambda_o) * fabs(wo.z));
     v.pdf_rev = j / ((1 + lambda_i) * fabs(wi.z));
     if (!reflect) {
@@ -197,12 +195,11 @@ static struct bsdf_value substrate(const struct lobe *l, vec3 wo, vec3 wi, bool 
 static struct bsdf_value clearcoat(const struct lobe *l, vec3 wo, vec3 wi, bool reflect)
 {
     if (!(wo.z * wi.z > 0))
-        return NOTHING;
+        return NO_SCATTERING;
     vec3 wh = normalize(add(wo, wi));
     double pdf = disney_coat_d(wh, l->of.gloss) * fabs(wh.z) / (4 * dot(wo, wh));
     double value = reflect ? disney_coat(l->of.gloss, wo, wi, wh) : 0;
-    struct bsdf_value v = {rgb_scale(l->R, value), pdf, pdf};
-    return v;
+    return (struct bsdf_value){rgb_scale(l->R, value), pdf, pdf};
 }
 
 static bool sample_clearcoat(const struct lobe *l, vec3 wo, double u1, double u2, vec3 *wi)
@@ -218,8 +215,7 @@ static bool sample_clearcoat(const struct lobe *l, vec3 wo, double u1, double u2
 static struct bsdf_value phase(double g, double cosine)
 {
     double d = 1 + g * g + 2 * g * cosine, p = INV_PI / 4 * (1 - g * g) / (d * sqrt(d));
-    struct bsdf_value v = {rgb_grey(p), p, p};
-    return v;
+    return (struct bsdf_value){rgb_grey(p), p, p};
 }
 
 static vec3 sample_phase(double g, vec3 wo, double u1, double u2)
@@ -234,9 +230,9 @@ static vec3 sample_phase(double g, vec3 wo, double u1, double u2)
 
 struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode)
 {
-    struct bsdf_value v = NOTHING;
+    struct bsdf_value v = NO_SCATTERING;
     if (l->kind != LOBE_PHASE && (wo.z == 0 || wi.z == 0)) /* along the surface */
-        return NOTHING;
+        return NO_SCATTERING;
     switch (l->kind) {
     case LOBE_LAMBERT_REFLECTION: v = diffuse(reflect, rgb_scale(l->R, INV_PI), wo, wi); break;
     case LOBE_LAMBERT_TRANSMISSION: v = diffuse(!reflect, rgb_scale(l->T, INV_PI), wo, wi); break;

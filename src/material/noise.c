@@ -36,8 +36,7 @@ struct lattice {
 static struct lattice lattice_of(double x)
 {
     double low = floor(x), t = x - low;
-    struct lattice l = {int_within(low - 256 * floor(low / 256), 0, 255), t, t * t * t * (t * (6 * t - 15) + 10)};
-    return l;
+    return (struct lattice){int_within(low - 256 * floor(low / 256), 0, 255), t, t * t * t * (t * (6 * t - 15) + 10)};
 }
 
 double noise(vec3 p)

@@ -181,11 +181,12 @@ static vec3 map_point(const struct texture_set *set, const struct mapping *m, co
 
 static rgb mix(rgb a, rgb b, double amount) { return rgb_add(rgb_scale(a, 1 - amount), rgb_scale(b, amount)); }
 
-/* The point that a texture of space sees. pbrt-v3, and so its scenes, takes the world for the texture's own space and
- * applies the current transform to it, not its inverse, as the mappings do. [pbrt-v3 textures/fbm.cpp] */
-static vec3 in_space(const struct texture_set *set, int space, const struct surface *at)
+/* The point that a texture sees. Of those of space, pbrt-v3, and so its scenes, takes the world for the texture's own
+ * space and applies the current transform to it, not its inverse, as the mappings do. [pbrt-v3 textures/fbm.cpp] */
+static vec3 point_of(const struct texture_set *set, const struct texture *t, const struct surface *at)
 {
-    return transform_point(&set->space[space], at->p);
+    bool in_space = t->kind == TEXTURE_CUBES || t->kind >= TEXTURE_FBM;
+    return in_space ? transform_point(&set->space[t->space], at->p) : map_point(set, &t->map, at);
 }
 
 static rgb noise_value(const struct texture *t, vec3 p)
@@ -204,8 +205,11 @@ static rgb evaluate(const struct texture_set *set, int id, const struct surface 
 {
     assert(id >= 0 && id < set->n_textures);
     const struct texture *t = &set->texture[id];
+    if (t->kind == TEXTURE_CONSTANT)
+        return t->constant;
+    vec3 p = point_of(set, t, at);
     switch (t->kind) {
-    case TEXTURE_CONSTANT: return t->constant;
+    case TEXTURE_CONSTANT: break;
     case TEXTURE_SCALE:
         return rgb_mul(evaluate(set, t->tex1, at, read), evaluate(set, t->tex2, at, read));
     case TEXTURE_MIX:
@@ -213,31 +217,18 @@ static rgb evaluate(const struct texture_set *set, int id, const struct surface 
                    texture_float(set, t->amount, at));
     case TEXTURE_CHECKERBOARD:
     case TEXTURE_CUBES: {
-        vec3 p = t->kind == TEXTURE_CUBES ? in_space(set, t->space, at) : map_point(set, &t->map, at);
         bool even = fmod(floor(p.x) + floor(p.y) + floor(p.z), 2) == 0;
         return evaluate(set, even ? t->tex1 : t->tex2, at, read);
     }
-    case TEXTURE_DOTS: {
-        vec3 st = map_point(set, &t->map, at);
-        return evaluate(set, noise_in_dot(st.x, st.y) ? t->tex1 : t->tex2, at, read);
-    }
-    case TEXTURE_IMAGEMAP: {
-        vec3 st = map_point(set, &t->map, at);
-        const struct image *img = &set->image[t->image];
-        return rgb_scale(bilinear(img, st.x, st.y, t->wrap, t->gamma, read), t->scale);
-    }
-    case TEXTURE_BILERP: {
-        vec3 st = map_point(set, &t->map, at);
-        return mix(mix(t->v00, t->v10, st.x), mix(t->v01, t->v11, st.x), st.y);
-    }
-    case TEXTURE_UV: {
-        vec3 st = map_point(set, &t->map, at);
-        return rgb_make(st.x - floor(st.x), st.y - floor(st.y), 0);
-    }
+    case TEXTURE_DOTS: return evaluate(set, noise_in_dot(p.x, p.y) ? t->tex1 : t->tex2, at, read);
+    case TEXTURE_IMAGEMAP:
+        return rgb_scale(bilinear(&set->image[t->image], p.x, p.y, t->wrap, t->gamma, read), t->scale);
+    case TEXTURE_BILERP: return mix(mix(t->v00, t->v10, p.x), mix(t->v01, t->v11, p.x), p.y);
+    case TEXTURE_UV: return rgb_make(p.x - floor(p.x), p.y - floor(p.y), 0);
     case TEXTURE_FBM:
     case TEXTURE_WRINKLED:
     case TEXTURE_WINDY:
-    case TEXTURE_MARBLE: return noise_value(t, in_space(set, t->space, at));
+    case TEXTURE_MARBLE: return noise_value(t, p);
     }
     return rgb_black();
 }

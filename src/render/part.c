@@ -29,10 +29,9 @@ static size_t sums_of(const struct part *p)
 struct part part_describe(const struct scene *scene, const struct render_options *o)
 {
     struct pixel_rect r = render_crop(scene);
-    struct part p = {.identity = identity_text(scene, o), .width = rect_width(r), .height = rect_height(r),
-                     .scale = scene->film_scale, .place = {r.x0, r.y0, scene->width, scene->height},
-                     .planned = o->planned, .first = o->first, .end = o->end};
-    return p;
+    return (struct part){.identity = identity_text(scene, o), .width = rect_width(r), .height = rect_height(r),
+                         .scale = scene->film_scale, .place = {r.x0, r.y0, scene->width, scene->height},
+                         .planned = o->planned, .first = o->first, .end = o->end};
 }
 
 void part_free(struct part *p)

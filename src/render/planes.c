@@ -35,6 +35,5 @@ static void add_alpha(void *context, const struct pixel_sample *sample, enum tra
 
 struct observer planes_observer(struct planes planes)
 {
-    struct observer o = {NULL, planes.alpha ? add_alpha : NULL, planes.lights > 0 ? add_light : NULL, NULL, NULL};
-    return o;
+    return (struct observer){.walked = planes.alpha ? add_alpha : NULL, .joined = planes.lights > 0 ? add_light : NULL};
 }

@@ -14,9 +14,8 @@
 struct pixel_rect render_crop(const struct scene *scene)
 {
     const double *c = scene->crop;
-    struct pixel_rect r = {(int)ceil(scene->width * c[0]), (int)ceil(scene->height * c[2]),
-                           (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3])};
-    return r;
+    return (struct pixel_rect){(int)ceil(scene->width * c[0]), (int)ceil(scene->height * c[2]),
+                               (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3])};
 }
 
 /* --- tile passes ------------------------------------------------------------------------------------- */

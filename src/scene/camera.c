@@ -87,8 +87,7 @@ struct ray camera_ray(const struct camera *c, double px, double py, double u1, d
         on_screen = sub(mul(on_screen, c->focal_distance), lens);
     }
     const struct transform *m = &c->camera_to_world;
-    struct ray r = {transform_point(m, lens), normalize(transform_vector(m, on_screen)), 0, INFINITY, 0, 0};
-    return r;
+    return (struct ray){transform_point(m, lens), normalize(transform_vector(m, on_screen)), 0, INFINITY, 0, 0};
 }
 
 /* J as below, over a piece of the unit sphere of camera space, which shrinks with sin theta towards the pole; at the

@@ -245,8 +245,7 @@ static struct ray ray_from_infinity(const struct light_set *set, vec3 towards_li
     warp_disk(u[0], u[1], &x, &y);
     struct frame f = frame_from_normal(towards_light);
     vec3 o = add(set->center, mul(to_world(&f, vec(x, y, 1)), set->radius));
-    struct ray r = {o, neg(towards_light), 0, INFINITY, 0, 0};
-    return r;
+    return (struct ray){o, neg(towards_light), 0, INFINITY, 0, 0};
 }
 
 rgb light_sample_emission(const struct light_set *set, const struct light_point *y0, const double u[2],
@@ -280,8 +279,7 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
         *pdf = light_pdf_emission(set, y0, ray->d);
         return light_Le(set, y0, ray->d);
     }
-    struct ray r = {y0->p, w, 0, INFINITY, y0->prim_id, 0};
-    *ray = r;
+    *ray = (struct ray){y0->p, w, 0, INFINITY, y0->prim_id, 0};
     *pdf = light_pdf_emission(set, y0, w);
     return *pdf > 0 ? rgb_scale(light_Le(set, y0, w), cosine) : rgb_black();
 }

@@ -18,7 +18,7 @@ enum { REFERENCE_TIMES = 32 }; /* as many samples as the first picture has */
 
 #define AT(member) offsetof(struct demo_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene), 1, .help = "a scene"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene), 1, .written = true, .help = "a scene"},
     {"--outfile", "FILE.png", OPTION_TEXTS, AT(output), 1, .alias = "-o", .written = true,
      .help = "a picture to write"},
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .fallback = METHODS_DEMO, .help = METHODS_HELP},

@@ -14,7 +14,7 @@ struct worth_options {
 
 #define AT(member) offsetof(struct worth_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .written = true, .help = "a scene file"},
     {"-o", "FILE.png", OPTION_TEXTS, AT(job.output), 1, .alias = "--outfile", .written = true,
      .help = "a picture to write"},
     {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "where the surface is seen"},
