@@ -132,15 +132,12 @@ static int group(struct parser *p)
 
 /* "group" and "visible" are no parameters of pbrt-v3; its "samples" is how often it samples a light per hit. */
 #define AT(member) offsetof(struct light_item, member)
-static const struct field POINT_LIGHT[] = {
+static const struct field SPOT_LIGHT[] = {
+    {"coneangle", FIELD_NUMBER, AT(cone), 30, NUMBER_MIN, .high = 180}, /* these three of a spot alone */
+    {"conedeltaangle", FIELD_NUMBER, AT(edge), 5, 0, .high = NUMBER_MAX},
+    {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT},
     {.name = "I"}, {.name = "scale"}, {.name = "group"}, {"from", .kind = FIELD_POINT, .place = AT(from)},
     {.name = NULL}};
-static const struct field SPOT_LIGHT[] = {
-    {.name = "I"}, {.name = "scale"}, {.name = "group"},
-    {"coneangle", FIELD_NUMBER, AT(cone), 30, NUMBER_MIN, .high = 180},
-    {"conedeltaangle", FIELD_NUMBER, AT(edge), 5, 0, .high = NUMBER_MAX},
-    {"from", .kind = FIELD_POINT, .place = AT(from)},
-    {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT}, {.name = NULL}};
 static const struct field DISTANT_LIGHT[] = {
     {.name = "L"}, {.name = "scale"}, {.name = "group"}, {"from", .kind = FIELD_POINT, .place = AT(from)},
     {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT}, {.name = NULL}};
@@ -152,7 +149,7 @@ static const struct field SLIDE[] = {
     {.name = "I"}, {.name = "scale"}, {.name = "group"}, {.name = "mapname"}, {.name = NULL}};
 
 static const struct object_type LIGHTS[] = {
-    {"point", POINT_LIGHT, LIGHT_POINT, point_light},
+    {"point", SPOT_LIGHT + 3, LIGHT_POINT, point_light},
     {"spot", SPOT_LIGHT, LIGHT_SPOT, spot_light},
     {"distant", DISTANT_LIGHT, LIGHT_DISTANT, distant_light},
     {"infinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
