@@ -65,8 +65,7 @@ const struct option *options_next(const struct option *option);
 bool options_read(const struct option *table, int argc, char **argv, void *target, struct error *err);
 void options_free(const struct option *table, void *target);
 
-/* options_written: append the names of all files that the options write, or must not write. options_print: the help of
- * every row. */
+/* options_written: append the names of all rows that are `written`. options_print: the help of every row. */
 void options_written(const struct option *table, void *target, struct texts *names);
 void options_print(const struct option *table);
 

@@ -28,7 +28,8 @@ static inline struct triangle_ray triangle_ray(const struct ray *ray)
     int kz = fabs(d[0]) > fabs(d[1]) ? 0 : 1;
     kz = fabs(d[2]) > fabs(d[kz]) ? 2 : kz;
     int kx = kz == 2 ? 0 : kz + 1, ky = kx == 2 ? 0 : kx + 1;
-    return (struct triangle_ray){ray, o[kx], o[ky], o[kz], d[kx] / d[kz], d[ky] / d[kz], kx, ky, kz};
+    struct triangle_ray r = {ray, o[kx], o[ky], o[kz], d[kx] / d[kz], d[ky] / d[kz], kx, ky, kz};
+    return r;
 }
 
 /* triangle_distance: t where the ray meets the plane of the triangle v. The edges, differences of floats, are exact in

@@ -89,8 +89,4 @@ void material_bsdf(struct material *const *materials, int id, const struct textu
  * The normal lies on ng's side. Falls back to the smooth frame where the displaced surface has no normal. */
 struct frame bump_frame(const struct texture_set *textures, int displacement, const struct surface *at);
 
-/* phase_new: the phase function of a medium as a material: Henyey and Greenstein's, -1 < g < 1; above 0: light rather
- * goes on as it came. */
-struct material *phase_new(double g);
-
 #endif

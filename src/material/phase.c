@@ -1,5 +1,5 @@
 /* phase.c: how a medium scatters light, wherever it does: no material of scene files. [PBRT3 11.2] */
-#include "material/lobe_list.h"
+#include "material/phase.h"
 
 struct phase {
     struct material is;

@@ -185,7 +185,7 @@ static rgb mix(rgb a, rgb b, double amount) { return rgb_add(rgb_scale(a, 1 - am
  * space and applies the current transform to it, not its inverse, as the mappings do. [pbrt-v3 textures/fbm.cpp] */
 static vec3 point_of(const struct texture_set *set, const struct texture *t, const struct surface *at)
 {
-    bool in_space = t->kind == TEXTURE_CUBES || t->kind >= TEXTURE_FBM;
+    bool in_space = t->kind == TEXTURE_CUBES || t->kind >= TEXTURE_FBM; /* and what follows: noise */
     return in_space ? transform_point(&set->space[t->space], at->p) : map_point(set, &t->map, at);
 }
 

@@ -44,7 +44,7 @@ enum texture_kind {
     TEXTURE_BILERP,
     TEXTURE_UV,           /* red and green are the fractions of s and t; colours only */
     TEXTURE_DOTS,         /* tex1 in dots, tex2 around them */
-    TEXTURE_FBM,          /* this and the next three, all in space: see noise.h */
+    TEXTURE_FBM,          /* this and the next three: see noise.h */
     TEXTURE_WRINKLED,
     TEXTURE_WINDY,
     TEXTURE_MARBLE        /* colours only */

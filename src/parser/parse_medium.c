@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "material/phase.h"
+
 /* Media by pbrt-v3's names. The first dozen are of [Jensen 2001], the others of [Narasimhan 2006]. */
 static const struct {
     const char *name;
