@@ -7,7 +7,7 @@
 #   sh test/course.sh variant NUMBER       what the second parts ask of the student of that number
 #   sh test/course.sh grade-all DIR [-j N] grade every folder of DIR, a student's files each: DIR/grades.csv
 #   sh test/course.sh check                does every hole apply, has every exercise an answer? (seconds)
-#   sh test/course.sh prove [N]            is every hole, and every planted mistake, found and named? (half an hour)
+#   sh test/course.sh prove [N | PLANT]    is every hole, and every planted mistake, found and named? (half an hour)
 # DIR is ../asbdpt-course/N if none is named. What is known of an assignment or exercise is in test/course/list.txt.
 set -u
 list=test/course/list.txt
@@ -51,10 +51,9 @@ sanitizers() {
 # alone: a tree has one original, so its commands wait for each other.
 alone() {
     mkdir -p $work
-    until mkdir $work/lock 2>/dev/null; do
+    [ ! -d $work/lock ] ||
         say "Another course command works in this tree. This one waits. (If there is none: rmdir $work/lock)" >&2
-        sleep 10
-    done
+    until mkdir $work/lock 2>/dev/null; do sleep 1; done
     trap 'rmdir $work/lock' EXIT
     trap 'exit 130' INT TERM HUP
 }

@@ -186,6 +186,24 @@ static void ends(struct test *t)
     }
 }
 
+/* Emitted light does not pass see-through lamps, reflected light does: here from wall to wall. */
+static void light_passes(struct test *t)
+{
+    struct room r;
+    struct vertex path[4];
+    int passed = 0;
+    if (!build(t, BOX, "AttributeBegin Material \"none\" AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] "
+               "Shape \"sphere\" \"float radius\" .9 AttributeEnd\n", &r))
+        return;
+    for (uint64_t i = 0; i < 200; i++) {
+        int n = walk(t, &r, IMPORTANCE, i, 0, path, 4);
+        for (int k = 1; k + 1 < n; k++)
+            passed += length(cross(path[k].p, normalize(sub(path[k + 1].p, path[k].p)))) < 0.85;
+    }
+    CHECK(t, passed > 10, "lamp: reflected light passes a see-through lamp %d times in 200 walks", passed);
+    tear_down(&r);
+}
+
 void test_walk(struct test *t)
 {
     for (int i = 0; i < 3; i++) {
@@ -195,6 +213,7 @@ void test_walk(struct test *t)
     }
     roulette(t);
     ends(t);
+    light_passes(t);
 }
 
 /* --- the joint --------------------------------------------------------------------------------------- */

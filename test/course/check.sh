@@ -69,22 +69,17 @@ asked() {
         doc/tour/[01]*.md
 }
 
-# prove [N]: every assignment (or assignment N) fails with its hole and passes with the original; every step that is
-# left out is found, and named.
+# prove [N | PLANT]: every assignment (or assignment N) fails with its hole and passes with the original; every mistake
+# that is planted (or PLANT alone) is found, and its step is named.
 prove() {
     bad=0
-    for n in $(names assignment | grep "^${1-}"); do
+    for n in $(names assignment | grep "^${1%%-*}"); do
         tree=$work/prove-$n
         rm -rf "$tree"
         (start "$n" "$tree") >/dev/null
-        (QUICK=1; grade "$n" "$tree") >"$tree/hole.txt" 2>&1 && say "course: $n passes with its hole" && bad=1
-        for file in $(get "$n" hole | sed 's/ .*//' | sort -u); do cat "$file" >"$tree/$file"; done
-        (grade "$n" "$tree") >"$tree/solution.txt" 2>&1 ||
-            { say "course: $n fails with the original: $tree/solution.txt"; bad=1; }
-        for plant in $(planted | grep "^${n%%-*}-"); do
-            for file in $(get "$n" hole | sed 's/ .*//' | sort -u); do
-                cmp -s "$file" "$tree/$file" || cat "$file" >"$tree/$file" # what is the same is not built anew
-            done
+        case $1 in *-*) ;; *) prove_whole "$n" "$tree" ;; esac
+        for plant in $(planted | grep "^${n%%-*}-" | grep "^$1"); do
+            filled "$n" "$tree"
             sh test/mutants/apply.sh $plants "$plant" "$tree" || exit
             step=$(awk -v plant="$plant" '$1 == plant { print $3 }' $plants)
             if (QUICK=1; grade "$n" "$tree") >"$tree/$plant.txt" 2>&1; then
@@ -102,4 +97,18 @@ prove() {
     done
     [ $bad -eq 0 ] && say "course: every hole and every step left out is found and named, and every original passes"
     return $bad
+}
+
+# prove_whole NAME TREE: with its hole, and with the original.
+prove_whole() {
+    (QUICK=1; grade "$1" "$2") >"$2/hole.txt" 2>&1 && say "course: $1 passes with its hole" && bad=1
+    filled "$1" "$2"
+    (grade "$1" "$2") >"$2/solution.txt" 2>&1 || { say "course: $1 fails with the original: $2/solution.txt"; bad=1; }
+}
+
+# filled NAME TREE: with the original's functions; what is the same is not built again.
+filled() {
+    for file in $(get "$1" hole | sed 's/ .*//' | sort -u); do
+        cmp -s "$file" "$2/$file" || cat "$file" >"$2/$file"
+    done
 }
