@@ -11,6 +11,7 @@
 
 enum { LEAST_PIXELS = 512, MOST_PIXELS = 4096 };
 static const double SHARE_OF_PIXELS = 0.25;
+static const double ENOUGH = 0.4;    /* see light_paths_useful */
 static const double CLIP = 25;       /* bound of a squared relative deviation; an image cuts larger ones at white */
 static const double CLIP_TAIL = 1e4; /* bound of a pixel's sum; large, because only this sum shows fireflies */
 
@@ -139,7 +140,7 @@ static int64_t run(struct probe *p, int64_t wanted)
 /* The divisor of squares in a pixel of brightness `local`, if the mean brightness is `all`. */
 static double scale_of(double local, double all) { return sqr(0.75 * local + 0.25 * all) + 1e-30; }
 
-/* Is the sum that path tracing adds to the second moment larger than BDPT's variance? */
+/* Is the sum that path tracing adds to the second moment large enough? */
 static bool compare(const struct pixel *pixel, int64_t n)
 {
     double all = 0, variance = 0, tail = 0;
@@ -151,7 +152,7 @@ static bool compare(const struct pixel *pixel, int64_t n)
         variance += fmin(x->splats / scale_of(all, all), CLIP); /* they land on any pixel */
         tail += fmin(x->tail / scale, CLIP_TAIL);
     }
-    return !(tail < variance);
+    return !(tail < ENOUGH * variance);
 }
 
 bool light_paths_useful(const struct render_job *job)
