@@ -13,7 +13,8 @@ failures=0
 
 # line WORDS: the build line of doc/portability.md that follows these WORDS.
 line() { tr '\n' ' ' <doc/portability.md | sed -n "s/.*- $1: \`\([^\`]*\)\`.*/\1/p"; }
-plain=$(line 'Without make') windows=$(line Windows) wasi=$(line WASI)
+plain=$(line 'Any Unix') windows=$(line Windows) wasi=$(line WASI)
+[ -n "$plain" ] && [ -n "$windows" ] && [ -n "$wasi" ] || { echo "doc/portability.md has no line for each"; exit 1; }
 
 say() { printf '%-14s %s\n' "$1" "$2"; }
 failed() {
