@@ -102,7 +102,7 @@ ref: asbdpt asbdpt-lab ## render the stored references of ref/ again (an hour; g
 	sh ref/make-ref.sh $(PROGRAM)
 
 # ---- what proves it ----
-test: asbdpt asbdpt-lab $(BUILD)/test layers standard references columns faults links limits measured stats ## build and run the test suite (three minutes on two cores)
+test: asbdpt asbdpt-lab $(BUILD)/test layers standard references columns faults links limits measured words stats ## build and run the test suite (three minutes on two cores)
 	sh test/suites.sh "sh test/mini.sh $(PROGRAM)" "sh test/cli.sh $(PROGRAM)" "sh test/keep.sh $(PROGRAM)" $(BUILD)/test \
 	    $(foreach name,outputs install hashes_test hashes,"sh test/$(name).sh $(PROGRAM)") \
 	    "LIST=test/lab/hashes.txt sh test/hashes.sh $(LAB)" \
