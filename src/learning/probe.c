@@ -19,9 +19,10 @@ static const double CLIP_TAIL = 1e4; /* bound of a pixel's sum; large, because o
 enum render { FIRST, OTHER, AGAIN, RENDERS };
 
 struct pixel {
-    double value[2]; /* luminance of FIRST and OTHER, t >= 2 */
-    double splats;   /* sum of squares of the contributions of FIRST with t = 1 */
-    double tail;     /* sum of X^2 (1/P - 1) */
+    double value[2];  /* luminance of FIRST and OTHER, t >= 2 */
+    double direct[2]; /* the part of it that is direct light */
+    double splats;    /* sum of squares of the contributions of FIRST with t = 1 */
+    double tail, direct_tail; /* sums of X^2 (1/P - 1): paths of three edges or more; direct light */
 };
 
 struct path {
@@ -51,10 +52,11 @@ static void add_tail(struct notes *n, const struct joined *now)
 {
     const struct path *before = &n->path[n->next++];
     double w = now->c->weight;
-    if (now->s + now->t < 3 || !(before->weight > 0) || !(w > 0))
+    int edges = now->s + now->t - 1;
+    if (edges < 2 || !(before->weight > 0) || !(w > 0))
         return; /* light that the camera sees directly has one strategy */
     double P = clamp((now->s <= 1 ? 2 : 1) * before->weight / w - 1, 1e-6, 1);
-    n->pixel->tail += sqr(before->x) * (1 / P - 1);
+    *(edges == 2 ? &n->pixel->direct_tail : &n->pixel->tail) += sqr(before->x) * (1 / P - 1);
 }
 
 static void note(void *context, const struct pixel_sample *sample, const struct joined *path)
@@ -69,8 +71,10 @@ static void note(void *context, const struct pixel_sample *sample, const struct 
         return;
     }
     x = fits_float(x) ? x : 0;
-    if (path->t > 1)
+    if (path->t > 1) {
         n->pixel->value[n->render] += x;
+        n->pixel->direct[n->render] += path->s + path->t == 3 ? x : 0;
+    }
     if (n->render == FIRST) {
         n->pixel->splats += path->t == 1 ? x * x : 0;
         n->path = mem_append(n->path, n->n, sizeof *n->path);
@@ -143,7 +147,7 @@ static double scale_of(double local, double all) { return sqr(0.75 * local + 0.2
 /* Is the sum that path tracing adds to the second moment large enough? */
 static bool compare(const struct pixel *pixel, int64_t n)
 {
-    double all = 0, variance = 0, tail = 0;
+    double all = 0, variance = 0, tail = 0, direct = 0, direct_square = 0, direct_tail = 0;
     for (const struct pixel *x = pixel; x < pixel + n; x++)
         all += (x->value[0] + x->value[1]) / (2 * (double)n);
     for (const struct pixel *x = pixel; x < pixel + n; x++) {
@@ -151,7 +155,12 @@ static bool compare(const struct pixel *pixel, int64_t n)
         variance += fmin(sqr(x->value[0] - x->value[1]) / 2 / scale, CLIP);
         variance += fmin(x->splats / scale_of(all, all), CLIP); /* they land on any pixel */
         tail += fmin(x->tail / scale, CLIP_TAIL);
+        direct += fmin(sqr(x->direct[0] - x->direct[1]) / 2 / scale, CLIP);
+        direct_square += fmin((sqr(x->direct[0]) + sqr(x->direct[1])) / 2 / scale, CLIP);
+        direct_tail += fmin(x->direct_tail / scale, CLIP_TAIL);
     }
+    if (direct_square > 0)
+        tail += direct_tail * direct / direct_square;
     return !(tail < ENOUGH * variance);
 }
 

@@ -7,7 +7,8 @@
  * over the paths of a BDPT sample. X is the contribution of a path, and P the share of the strategies s <= 1 in its
  * weights. Paths that are rare fireflies to a path tracer are frequent in BDPT, so few samples show them. To measure P,
  * the probe takes the same sample a second time with half the counts for s >= 2. Weights of s <= 1 become 2 / (1 + P)
- * times as large, the others 1 / (1 + P) times.
+ * times as large, the others 1 / (1 + P) times. Direct light often has little noise: its second moment is the square of
+ * its mean. So its sum is multiplied by the share of the variance in the second moment.
  *
  * Squares are divided by the square of the pixel's brightness: 3/4 of its own light plus 1/4 of the mean of all pixels,
  * so that pixels which are dark by chance do not dominate.
