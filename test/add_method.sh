@@ -26,7 +26,7 @@ must ./asbdpt-lab trace scenes/cornell-box.pbrt --integrator resampling --pixel 
 says 'CHOICE'
 must ./asbdpt-lab verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet
 says 'agree'
-must ./asbdpt-lab equal-time scenes/cornell-box.pbrt --methods bdpt,resampling:candidates=2 --seeds 3 --spp 16 \
+must ./asbdpt-lab equal-time scenes/cornell-box.pbrt --methods bdpt,resampling:candidates=2 --seeds 6 --spp 32 \
     --quiet -o equal
 says 'resampling:candidates=2'
 if grep -q '^In cornell-box, ' log; then echo "FAIL: it is marked:"; cat log; exit 1; fi
