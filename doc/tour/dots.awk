@@ -1,6 +1,6 @@
 # dots.awk: ratios on a logarithmic axis as SVG, a row for each scene; 1 is a vertical line. Reads lines
 # "LABEL VALUE LOW HIGH OTHER": VALUE is a dot with LOW to HIGH as its whisker, OTHER a ring ("-": none). What is beyond
-# the axis becomes an arrow at its end. -v title=, -v axis=, -v dot=, -v ring=: texts; -v least=, -v most=: of the axis.
+# the axis becomes an arrow at its end. -v title=, -v axis=, -v dot=, -v ring=: texts; -v least=, -v most=: of the axis; -v left=: room for labels.
 function place(v) { return left + width * log(v / least) / log(most / least) }
 function within(v) { return v < least ? least : v > most ? most : v }
 function mark(v, y, fill, radius,    x) {
@@ -10,11 +10,12 @@ function mark(v, y, fill, radius,    x) {
     else
         printf "<circle cx='%g' cy='%g' r='%g' fill='%s' stroke='#222'/>", x, y, radius, fill
 }
-BEGIN { left = 160; width = 420 }
+BEGIN { if (left == "") left = 160; width = 420; across = left + width + 60 }
 { label[NR] = $1; value[NR] = $2; from[NR] = $3; to[NR] = $4; other[NR] = $5 }
 END {
     bottom = 70 + 22 * NR
-    printf "<svg xmlns='http://www.w3.org/2000/svg' width='640' height='%d' viewBox='0 0 640 %d' ", bottom + 44, bottom + 44
+    printf "<svg xmlns='http://www.w3.org/2000/svg' width='%d' height='%d' viewBox='0 0 %d %d' ", across, bottom + 44,
+        across, bottom + 44
     print "font-family='sans-serif' font-size='13'><rect width='100%' height='100%' fill='white'/>"
     printf "<text x='10' y='18' font-weight='bold'>%s</text>\n", title
     printf "<circle cx='%d' cy='38' r='4' fill='#4393c3' stroke='#222'/><text x='%d' y='42'>%s</text>\n", left, left + 12, dot

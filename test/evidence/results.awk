@@ -10,7 +10,7 @@ function cell(i) { return part[i + 1] }
     blank = 1
     next
 }
-!on || /^!\[/ || /^Bars:/ || (/^$/ && blank) { next } # pictures are not stored
+!on || /^!\[/ || (/^$/ && blank) { next } # pictures are not stored
 {
     gsub(/asbdpt:select=/, "")
     blank = /^$/

@@ -59,7 +59,7 @@ static const struct option SHARED[] = {
 static const struct option EXPERIMENT[] = {
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_EXPERIMENT ")"},
     {"--sweep", "LIST", OPTION_TEXTS, AT(sweeps),
-     .help = "such a list in a plot of its own, one seed (default: two, unless there are --methods)"},
+     .help = "such a list, rendered with one seed (default: two, unless there are --methods)"},
     {"--quick", NULL, OPTION_ON, AT(quick), .help = "at the sizes of the references, 8 to 64 spp (default)"},
     {"--full", NULL, OPTION_ON, AT(full), .help = "320 pixels wide, 32 to 512 spp, and longer sweeps"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .help = "most samples per pixel"},

@@ -7,7 +7,6 @@
 #include "lab/claims.h"
 #include "lab/equal.h"
 #include "lab/pictures.h"
-#include "lab/plot.h"
 #include "lab/table.h"
 
 /* The methods that a table or figure shows, the first of them that which all are compared with. */
@@ -189,11 +188,9 @@ static void services_table(FILE *f, const struct results *e)
     table_end(&t);
 }
 
-static void write_half(FILE *f, const struct results *e, enum half half, const char *figure)
+static void write_half(FILE *f, const struct results *e, enum half half)
 {
     summary_table(f, e, half);
-    fprintf(f, "![Squared error over that of %s, a row for each method: mean, interval and scenes](%s)\n\n",
-            label(e, 0), figure);
     for (int k = 0; k < N_SQUARES; k++)
         ratio_table(f, e, half, (enum square)k);
 }
@@ -203,105 +200,19 @@ void family_tables(FILE *f, const struct results *e)
     bool both = has_halves(e);
     for (int h = 0; both && h < N_HALVES; h++) {
         fprintf(f, "## %s\n\n", HALVES[h]);
-        write_half(f, e, (enum half)h, h == HALF_CHOICE ? "family-choice.svg" : "family.svg");
+        write_half(f, e, (enum half)h);
         claims_table(f, e, (enum half)h);
     }
     if (both)
         services_table(f, e);
     else
-        write_half(f, e, HALF_SERVICES, "family.svg");
+        write_half(f, e, HALF_SERVICES);
     write_notes(f, e);
 }
 
-/* --- the figure -------------------------------------------------------------------------------------- */
-
-enum { LEFT = 264, WIDTH = 520, TOP = 40, ROW = 20, BELOW = 130 };
-static const double LEAST = 0.02, MOST = 50; /* ratios outside are drawn at the edge */
-
-/* Markers of plot.h. */
-enum { DOT = 0, RING = 4, TRIANGLE = 6, DIAMOND = 7 };
-
-static struct interval mean_of(const struct results *e, int method, enum square which)
-{
-    int n;
-    return equal_mean(e, method, 0, which, AT_EQUAL_TIME, NULL, &n);
-}
-
-/* By the mean of relmse, the lowest first; a method without one comes last. The first stays. */
-static void sort_by_mean(const struct results *e, struct view *view)
-{
-    double mean[METHODS_MAX];
-    for (int v = 1; v < view->n; v++) {
-        int method = view->method[v], at = v;
-        double value = mean_of(e, method, SQUARE_RELMSE).value;
-        for (value = isfinite(value) ? value : HUGE_VAL; at > 1 && mean[at - 1] > value; at--) {
-            mean[at] = mean[at - 1];
-            view->method[at] = view->method[at - 1];
-        }
-        mean[at] = value;
-        view->method[at] = method;
-    }
-}
-
-/* A method in its row: a ring for each scene, or a triangle where it is marked; over them the means of all scenes. */
-static void draw_method(struct plot *p, const struct results *e, int row, int method)
-{
-    for (const struct scene_results *s = e->scene; s < e->scene + e->plan->n_scenes; s++) {
-        double ratio = equal_ratio(s, method, 0, SQUARE_RELMSE).value;
-        bool marked = s->mark[method] != MARK_NONE;
-        char said[128];
-        snprintf(said, sizeof said, "%.60s: %.3g %s", s->name, ratio, MARKS[s->mark[method]]);
-        plot_point(p, marked ? "marked" : "scene", marked ? TRIANGLE : RING, ratio, -row, NAN, NAN, true, said);
-    }
-    struct interval r = mean_of(e, method, SQUARE_RELMSE);
-    plot_point(p, "c3", DIAMOND, mean_of(e, method, SQUARE_BLOCKS).value, -row, NAN, NAN, true, "mean, 8x8");
-    plot_point(p, r.high < 1 ? "gain" : r.low > 1 ? "loss" : "open", DOT, r.value, -row, r.low, r.high, true, "mean");
-}
-
-/* A marker, with a bar or without, and what it means, in row number k below the panel. */
-static void draw_key(struct plot *p, int top, int k, const char *class, int marker, double bar, const char *text)
-{
-    struct plot sample = {.f = p->f, .left = LEFT, .top = top + 44 + 16 * k, .width = 28, .height = 8};
-    sample.x = sample.y = axis_make(false, 0, 1);
-    plot_point(&sample, class, marker, 0.5, 0.5, 0.5 - bar, 0.5 + bar, true, text);
-    plot_text(p, LEFT + 36, top + 52 + 16 * k, "start", 0, text);
-}
-
-static void write_figure(FILE *f, const struct results *e, enum half half)
-{
-    struct view view = view_of(e, half);
-    int height = ROW * (view.n - 1), bottom = TOP + height;
-    char title[200], axis[200];
-    sort_by_mean(e, &view);
-    snprintf(title, sizeof title, "Squared error after the same CPU time, over %d scenes", e->plan->n_scenes);
-    snprintf(axis, sizeof axis, "relmse, relative to %.60s = 1; lower is better", label(e, 0));
-    struct plot p = plot_begin(f, LEFT + WIDTH + 24, bottom + BELOW, title);
-    p.x = axis_make(true, LEAST, MOST);
-    p.y = axis_make(false, 0.5 - view.n, -0.5);
-    p.y.n_ticks = 0;
-    plot_text(&p, LEFT, TOP - 16, "start", 0, title);
-    plot_panel(&p, LEFT, TOP, WIDTH, height, axis, "");
-    for (int v = 1; v < view.n; v++) {
-        plot_text(&p, LEFT - 8, TOP + (int)(height * (1 - axis_position(&p.y, -v))) + 4, "end", 0,
-                  label(e, view.method[v]));
-        draw_method(&p, e, v, view.method[v]);
-    }
-    draw_key(&p, bottom, 0, "gain", DOT, 0.5, "geometric mean over scenes with its 95 % interval, below 1");
-    draw_key(&p, bottom, 1, "loss", DOT, 0.5, "the same, above 1 (grey: undecided)");
-    draw_key(&p, bottom, 2, "c3", DIAMOND, NAN, "geometric mean of the error of means over 8x8 pixels");
-    draw_key(&p, bottom, 3, "scene", RING, NAN, "one scene");
-    draw_key(&p, bottom, 4, "marked", TRIANGLE, NAN, "one scene, in which the method misses light or is biased");
-    plot_end(&p);
-}
-
-static void family_choice_figure(FILE *f, const struct results *e) { write_figure(f, e, HALF_CHOICE); }
-void family_figure(FILE *f, const struct results *e) { write_figure(f, e, HALF_SERVICES); }
-
 bool family_write(const struct results *r, const char *page, struct error *err)
 {
-    bool ok = results_write(r, "runs.csv", results_csv, err) && results_write(r, page, family_tables, err) &&
-              results_write(r, "family.svg", family_figure, err) &&
-              (!has_halves(r) || results_write(r, "family-choice.svg", family_choice_figure, err));
+    bool ok = results_write(r, "runs.csv", results_csv, err) && results_write(r, page, family_tables, err);
     for (int i = 0; ok && i < r->plan->n_scenes; i++)
         ok = pictures_write(&r->scene[i], err);
     return ok;

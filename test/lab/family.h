@@ -1,8 +1,7 @@
 /* family.h: methods compared at equal time (equal.h): what `asbdpt-lab equal-time` and `family` write.
  *
- * Files: a page of Markdown, runs.csv with every picture's errors, family.svg with the ratios to the first method and
- * their intervals, and images/SCENE.png with all pictures and their errors; where there are both halves (methods.h),
- * family-choice.svg with the ratios of the choice alone.
+ * Files: a page of Markdown with the ratios to the first method and their intervals, runs.csv with every picture's
+ * errors, and images/SCENE.png with all pictures and their errors.
  *
  * Tests: test_equal_time.c.
  */
@@ -12,7 +11,6 @@
 #include "lab/results.h"
 
 void family_tables(FILE *f, const struct results *r); /* Markdown */
-void family_figure(FILE *f, const struct results *r); /* SVG: a row for each method, a column for each scene */
 
 /* family_write: all files, into the plan's directory, the tables by the name of `page`. False with a message. */
 bool family_write(const struct results *r, const char *page, struct error *err);

@@ -255,7 +255,7 @@ static void judge(struct subject *s)
 /* Not before a scene has been read: what is refused leaves nothing behind. */
 static bool make_directories(const struct plan *p, struct error *err)
 {
-    static const char *const names[] = {"store", "images", "plots"};
+    static const char *const names[] = {"store", "images"};
     char path[4096];
     bool ok = true;
     for (size_t i = 0; ok && p->directory != NULL && i < sizeof names / sizeof names[0]; i++) {

@@ -23,27 +23,19 @@ bool plan_set_methods(struct plan *p, const char *list, struct error *err)
 {
     bool ok = methods_read(list, &p->methods, err);
     p->n_compared = p->methods.n;
-    p->n_sweeps = 0;
     return ok;
 }
 
 bool plan_add_sweep(struct plan *p, const char *list, struct error *err)
 {
     struct methods more;
-    if (p->n_sweeps == PLAN_MAX_SWEEPS)
-        return error_set(err, "more than %d sweeps", PLAN_MAX_SWEEPS);
     if (!methods_read(list, &more, err))
         return false;
-    if (more.n > SWEEP_MAX || p->methods.n + more.n > METHODS_MAX)
+    if (p->methods.n + more.n > METHODS_MAX)
         return error_set(err, "%s: too many methods", list);
-    struct sweep *s = &p->sweep[p->n_sweeps++];
-    s->text = list;
-    for (s->n = 0; s->n < more.n; s->n++) {
-        int known = methods_find(&p->methods, more.item[s->n].text);
-        s->method[s->n] = known >= 0 ? known : p->methods.n;
-        if (known < 0)
-            p->methods.item[p->methods.n++] = more.item[s->n];
-    }
+    for (int i = 0; i < more.n; i++)
+        if (methods_find(&p->methods, more.item[i].text) < 0)
+            p->methods.item[p->methods.n++] = more.item[i];
     return true;
 }
 

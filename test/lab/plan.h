@@ -11,22 +11,13 @@
 #include "base/file.h"
 #include "lab/methods.h"
 
-enum { PLAN_MAX_STEPS = 16, PLAN_MAX_SEEDS = 16, PLAN_MAX_SWEEPS = 4, SWEEP_MAX = 8 };
-
-/* Methods that differ in one parameter. */
-struct sweep {
-    const char *text;      /* as it was given; borrowed */
-    int method[SWEEP_MAX]; /* [n], numbers of the plan's methods */
-    int n;
-};
+enum { PLAN_MAX_STEPS = 16, PLAN_MAX_SEEDS = 16 };
 
 struct plan {
     const char **scene; /* [n_scenes] paths, borrowed */
     int n_scenes;
     struct methods methods;
     int n_compared; /* of these; the others are in sweeps alone */
-    struct sweep sweep[PLAN_MAX_SWEEPS];
-    int n_sweeps;
     long spp[PLAN_MAX_STEPS]; /* [n_steps] rising; errors are measured at each */
     int n_steps;
     bool equal;               /* these are the first method's samples; the others are given its time, see equal.h */

@@ -6,7 +6,6 @@
 
 #include "lab/numbers.h"
 #include "lab/pictures.h"
-#include "lab/plot.h"
 #include "lab/table.h"
 
 #define PLUS_MINUS "\xc2\xb1" /* U+00B1 in UTF-8 */
@@ -139,109 +138,6 @@ static void setup_table(FILE *f, const struct results *r)
     table_end(&t);
 }
 
-/* --- plots -------------------------------------------------------------------------------------------- */
-
-/* A scene's figure: panels two by two, each a quantity of some methods after a rising number of samples. */
-enum { LEFT = 68, TOP = 44, WIDTH = 290, HEIGHT = 230, ACROSS = 380, DOWN = 300, KEYS = 20 };
-
-struct panel {
-    const char *title, *y_label;
-    enum quantity quantity;
-    bool over_seconds;
-    const struct sweep *sweep; /* its methods, and the first; NULL: what is compared */
-};
-
-/* Points of a method in a panel. */
-struct curve {
-    int method, n;
-    double x[PLAN_MAX_STEPS], y[PLAN_MAX_STEPS], error[PLAN_MAX_STEPS];
-};
-
-static struct curve curve_of(const struct scene_results *s, const struct panel *panel, int number)
-{
-    int method = panel->sweep == NULL || number == 0 ? number : panel->sweep->method[number - 1];
-    struct curve c = {.method = method, .n = s->plan->n_steps};
-    for (int i = 0; i < c.n; i++) {
-        struct estimate e = results_mean(s, method, i, panel->quantity);
-        double scale = panel->quantity == Q_MEAN_ERROR ? 100 : 1; /* per cent */
-        c.x[i] = panel->over_seconds ? results_mean(s, method, i, Q_SECONDS).mean : (double)s->plan->spp[i];
-        c.y[i] = scale * e.mean;
-        c.error[i] = isfinite(e.error) ? scale * e.error : 0;
-    }
-    return c;
-}
-
-static int curves_of(const struct scene_results *s, const struct panel *panel)
-{
-    return panel->sweep != NULL ? 1 + panel->sweep->n : s->plan->n_compared;
-}
-
-/* Both axes hold all points; the axis of a signed error is linear and holds 0. */
-static void choose_axes(struct plot *p, const struct scene_results *s, const struct panel *panel)
-{
-    bool is_signed = panel->quantity == Q_MEAN_ERROR;
-    double x0 = HUGE_VAL, x1 = 0, y0 = is_signed ? 0 : HUGE_VAL, y1 = 0;
-    for (int k = 0; k < curves_of(s, panel); k++) {
-        struct curve c = curve_of(s, panel, k);
-        for (int i = 0; i < c.n; i++) {
-            x0 = fmin(x0, c.x[i]);
-            x1 = fmax(x1, c.x[i]);
-            if (is_signed || c.y[i] > 0)
-                y0 = fmin(y0, is_signed ? c.y[i] - c.error[i] : fmax(c.y[i] - c.error[i], 0.2 * c.y[i]));
-            y1 = fmax(y1, c.y[i] + c.error[i]);
-        }
-    }
-    p->x = axis_make(true, x0, x1);
-    p->y = axis_make(!is_signed, y0, y1);
-    for (int i = 0; !panel->over_seconds && i < s->plan->n_steps; i++) {
-        p->x.tick[i] = (double)s->plan->spp[i];
-        p->x.n_ticks = i + 1;
-    }
-}
-
-static void draw_panel(struct plot *p, const struct scene_results *s, const struct panel *panel, int left, int top)
-{
-    choose_axes(p, s, panel);
-    plot_panel(p, left, top, WIDTH, HEIGHT, panel->over_seconds ? "seconds of CPU" : "samples per pixel",
-               panel->y_label);
-    plot_text(p, left, top - 8, "start", 0, panel->title);
-    for (int k = 0; k < curves_of(s, panel); k++) {
-        struct curve c = curve_of(s, panel, k);
-        plot_line(p, c.method, c.n, c.x, c.y);
-        for (int i = 0; i < c.n; i++)
-            plot_point(p, plot_colour(c.method), c.method, c.x[i], c.y[i], c.y[i] - c.error[i], c.y[i] + c.error[i],
-                       false, s->plan->methods.item[c.method].text);
-    }
-}
-
-static void draw_scene(FILE *f, const struct scene_results *s)
-{
-    static const char rmse[] = "RMSE, 8-bit scale";
-    struct panel panel[3 + PLAN_MAX_SWEEPS] = {{"error against time", rmse, Q_RMSE8, true, NULL},
-                                               {"error against samples", rmse, Q_RMSE8, false, NULL},
-                                               {"signed error of the mean", "per cent", Q_MEAN_ERROR, false, NULL}};
-    int n = 3 + s->plan->n_sweeps, rows = (n + 1) / 2, methods = s->plan->methods.n;
-    for (int i = 3; i < n; i++)
-        panel[i] = (struct panel){s->plan->sweep[i - 3].text, rmse, Q_RMSE8, false, &s->plan->sweep[i - 3]};
-    struct plot p = plot_begin(f, 2 * ACROSS, rows * DOWN + KEYS * (1 + (methods + 1) / 2) + TOP, s->name);
-    for (int i = 0; i < n; i++)
-        draw_panel(&p, s, &panel[i], LEFT + i % 2 * ACROSS, TOP + i / 2 * DOWN);
-    for (int v = 0; v < methods; v++)
-        plot_key(&p, v, LEFT + v % 2 * ACROSS, TOP + rows * DOWN + KEYS * (v / 2), s->plan->methods.item[v].text);
-    plot_end(&p);
-}
-
-static bool write_plot(const struct scene_results *s, struct error *err)
-{
-    struct file_output f;
-    char name[300];
-    snprintf(name, sizeof name, "plots/%s.svg", s->name);
-    if (!plan_create(s->plan, name, &f, err))
-        return false;
-    draw_scene(f.stream, s);
-    return file_commit(&f, err);
-}
-
 /* --- the page ------------------------------------------------------------------------------------------ */
 
 /* What the numbers mean; nothing here depends on the results. */
@@ -268,9 +164,6 @@ static void write_scene(FILE *f, const struct results *r, const struct scene_res
     fprintf(f, "## %s\n\n![Each method's picture and below it where it errs, and the reference](images/%s.png)\n\n",
             s->name, s->name);
     scene_table(f, r, s);
-    fprintf(f, "![Errors after a rising number of samples](plots/%s.svg)\n", s->name);
-    fprintf(f, "\nBars: one standard error over seeds. The strategies of %s, one by one: `./asbdpt-lab strategies %s "
-            "-o DIR`.\n\n", METHOD_REFERENCE, s->path);
 }
 
 static void write_page(FILE *f, const struct results *r)
@@ -291,7 +184,7 @@ static void write_page(FILE *f, const struct results *r)
 bool report_write(const struct results *r, struct error *err)
 {
     for (int i = 0; i < r->plan->n_scenes; i++)
-        if (!pictures_write(&r->scene[i], err) || !write_plot(&r->scene[i], err))
+        if (!pictures_write(&r->scene[i], err))
             return false;
     return results_write(r, "runs.csv", results_csv, err) && results_write(r, "results.md", write_page, err);
 }

@@ -1,5 +1,5 @@
-/* report.h: everything an experiment leaves in its directory with its runs: numbers, pictures, plots, and the tables
- * with all these as one page of Markdown, which doc/html.sh makes HTML of.
+/* report.h: everything an experiment leaves in its directory with its runs: numbers, pictures, and a page of Markdown
+ * with the tables.
  *
  * Tests: test_report.c.
  */
@@ -8,7 +8,7 @@
 
 #include "lab/results.h"
 
-/* report_write: images/, plots/, runs.csv and results.md in plan->directory. False with a message. */
+/* report_write: images/, runs.csv and results.md in plan->directory. False with a message. */
 bool report_write(const struct results *r, struct error *err);
 
 #endif

@@ -1,6 +1,6 @@
 /* results.h: one table of runs: what was measured, in memory and as runs.csv, and the statistics over its seeds.
  *
- * Every number shown anywhere (tables, plots) is a query on this table. runs.csv has a line for each scene, method,
+ * Every number shown anywhere in a table is a query on this table. runs.csv has a line for each scene, method,
  * seed and number of samples: errors, squares, CPU time, price, and whether the method is marked. A number that is not
  * known is left out.
  *
