@@ -397,11 +397,7 @@ expect 2 'lights: 65 images, one for each light, and 64 are the most' \
     "$program" render many.pbrt --res 2x2 --spp 1 --quiet --lights many -o b.pfm
 expect 0 '' "$program" render many.pbrt --res 2x2 --spp 1 --quiet --alpha -o b.pfm
 expect 2 'alpha: the samples of mmlt are a chain' "$lab" render lamps.pbrt --integrator mmlt --alpha -o b.png
-expect 0 '' "$lab" trace lamps.pbrt --res 24x16 --spp 4 --worst 3 --json
-check [ "$(grep -c '"sample"' stdout.txt)" = 3 ]
-prints 'SAMPLES\|contribute most' "$lab" trace lamps.pbrt --res 24x16 --spp 4 --worst 1 --svg worst.svg
-check [ -s worst.svg ]
-expect 1 'no pixel has one to tell of' "$lab" trace lamps.pbrt --res 4x4 --spp 4 --worst 1 --integrator pssmlt
+expect 1 'no pixel has one to tell of' "$lab" trace lamps.pbrt --res 4x4 --spp 4 --integrator pssmlt
 
 # --- help
 # help: as a whole no wider than a terminal, with every integrator once.
@@ -412,7 +408,6 @@ expect 0 '' "$program" help integrators
 check [ "$(grep -c '^asbdpt$' stdout.txt)" = 1 ] # however many selections it has
 says '^    lightsamplestrategy *spatial '
 expect 2 'there is no help on rendering' "$program" help rendering
-prints '"triangles": ' "$lab" info "$box" --json
 printf 'P3\n3 2\n255\n0 0 0 255 0 0 0 0 0\n0 0 0 0 0 0 0 255 255\n' >picture.ppm
 prints '^format        .ppm, sRGB, here made linear$' "$lab" info picture.ppm
 says '^size          3x2$' '^B             0 to 1, mean 0.166667$'
@@ -427,7 +422,7 @@ prints 'bounds  *(4, 5, 6) to (6, 7, 8)' \
     "$lab" info lamp.pbrt # bounds are those of the surfaces that rays pass through, too
 
 # --- trace
-# trace: a sample told in words, as JSON and drawn; what it says to have added is what a render's film holds.
+# trace: a sample told in words and drawn; what it says to have added is what a render's film holds.
 one="--res 12x12 --integrator bdpt --maxdepth 3 --pixel 3,9"
 expect 1 'cannot be created' "$lab" trace "$box" --pixel 3,9 --svg no/such/dir.svg # before the work
 check [ ! -s stdout.txt ]
@@ -455,13 +450,9 @@ check awk '/<svg x=/ { n = 0 }
         y[n++] = part[4]
     }
     END { exit bad || all < 14 }' names.svg
-prints '"probability": 0' "$lab" trace "$box" $one --spp 4 --sample 3 -P select=vertices --integrator asbdpt --json
-if command -v python3 >/dev/null; then
-    check python3 -c 'import json; o = json.load(open("stdout.txt")); s = [0, 0, 0]
-for c in o["connections"]:
-    if c["t"] > 1: s = [a + b for a, b in zip(s, c["added"])]
-assert s == o["sum"] and o["sample"] == 3'
-fi
+prints '^CHOICE of what to connect with: ' "$lab" trace "$box" $one --spp 4 --brightest -P select=vertices \
+    --integrator asbdpt --all
+check grep -Eq '^  \([2-9],[2-9]\) +y_[0-9(]+\)? - z_[0-9] +0\.' stdout.txt # with its probability
 expect 2 'sample 4 is not taken: they are numbered 0 to 3' "$lab" trace "$box" $one --spp 4 --sample 4
 
 # --- worth

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "lab/trace.h"
-#include "lab/worst.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -104,39 +103,17 @@ static int differing(const struct film *a, const struct film *b)
     return n;
 }
 
-/* The most that a sample brings to a pixel, by what its witness says. */
-static struct brought most_of_trace(const struct scene *scene, const struct trace *trace)
-{
-    const struct pixel_rect all = {0, 0, SIZE, SIZE};
-    struct brought most = {rgb_luminance(trace_sum(trace)), trace->x, trace->y, trace->iteration, trace->x, trace->y};
-    for (int i = 0; i < trace->n_connections; i++) {
-        const struct trace_connection *k = &trace->connection[i];
-        const struct splat s = {k->c.px, k->c.py, k->added, 0};
-        struct pixel_rect r = splat_pixels(&s, &scene->filter, all);
-        float part[3] = {0, 0, 0};
-        for (int n = 0; k->t == 1 && r.x1 > r.x0 && n < (int)rect_pixels(r); n++) {
-            int x = r.x0 + n % rect_width(r), y = r.y0 + n / rect_width(r);
-            splat_part(&s, &scene->filter, x, y, part);
-            double brought = rgb_luminance(rgb_make((double)part[0], (double)part[1], (double)part[2]));
-            if (brought > most.luminance) {
-                most.luminance = brought;
-                most.to_x = x;
-                most.to_y = y;
-            }
-        }
-    }
-    return most;
-}
-
-/* Every pixel and sample told one by one gives the film of the render, and half of them do not. *most: the most that
- * each brings. */
-static void check_film(struct test *t, const struct scene *scene, int way, struct brought *most)
+/* Every pixel and sample told one by one gives the film of the render, and half of them do not. The brightest
+ * sample of a pixel is found. */
+static void check_film(struct test *t, const struct scene *scene, int way)
 {
     const char *name = WAYS[way].name;
     struct render_options options = options_of(way);
     struct film rendered, told;
     struct error err;
     int halfway = 0, added = 0, longest = 0;
+    double most[SIZE * SIZE] = {0};
+    long brightest[SIZE * SIZE] = {0};
     film_init(&told, render_crop(scene), SIZE, SIZE);
     render_film(t, scene, &options, &rendered);
     struct render_job job = {.scene = NULL};
@@ -153,7 +130,11 @@ static void check_film(struct test *t, const struct scene *scene, int way, struc
         if (2 * i == ALL)
             halfway = differing(&rendered, &told);
         add_trace(scene, &trace, &told);
-        most[i] = most_of_trace(scene, &trace);
+        double luminance = rgb_luminance(trace_sum(&trace));
+        if (luminance > most[i % (SIZE * SIZE)]) {
+            most[i % (SIZE * SIZE)] = luminance;
+            brightest[i % (SIZE * SIZE)] = trace.iteration;
+        }
         trace_free(&trace);
     }
     method_release(&prepared);
@@ -163,85 +144,12 @@ static void check_film(struct test *t, const struct scene *scene, int way, struc
           name, differing(&rendered, &told), halfway);
     film_free(&rendered);
     film_free(&told);
-}
-
-/* --- what brings most -------------------------------------------------------------------------------- */
-
-static int by_luminance(const void *a, const void *b)
-{
-    const struct brought *x = a, *y = b;
-    return x->luminance > y->luminance ? -1 : x->luminance < y->luminance;
-}
-
-static void sort_by_luminance(struct brought *item, int n) { qsort(item, (size_t)n, sizeof *item, by_luminance); }
-
-/* Those that a render finds, on any number of threads, are those of all samples told one by one, which come in any
- * order. */
-static void check_worst(struct test *t, const struct scene *scene, int way, struct brought *told)
-{
-    enum { MOST = 10 };
-    struct render_options o = options_of(way);
-    struct error err;
-    int splats = 0;
-    o.block = 1; /* a pass for each sample, where the method does not say how long one is: more than one list */
-    sort_by_luminance(told, ALL);
-    for (o.n_threads = 1; o.n_threads <= 3; o.n_threads++) {
-        struct worst found = {.most = MOST};
-        struct film film;
-        film_init(&film, render_crop(scene), SIZE, SIZE);
-        CHECK(t, worst_render(scene, &o, &film, &found, &err), "%s", err.text);
-        film_free(&film);
-        CHECK(t, found.n == MOST, "%s: %d samples", WAYS[way].name, found.n);
-        for (int i = 0; i < found.n; i++) {
-            const struct brought *f = &found.item[i], *b = &told[i];
-            splats += f->to_x != f->x || f->to_y != f->y;
-            CHECK(t, f->luminance == b->luminance && f->x == b->x && f->y == b->y && f->iteration == b->iteration &&
-                         f->to_x == b->to_x && f->to_y == b->to_y,
-                  "%s: the worst but %d brings %g, of all samples told it is %g", WAYS[way].name, i, f->luminance,
-                  b->luminance);
-        }
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        struct trace trace = {.x = i % SIZE, .y = i / SIZE, .iteration = TRACE_BRIGHTEST};
+        CHECK(t, trace_render(scene, &options, &trace, &err) && trace.iteration == brightest[i],
+              "%s: the brightest sample of pixel %d is %ld, not %ld", name, i, brightest[i], trace.iteration);
+        trace_free(&trace);
     }
-    CHECK(t, strcmp(WAYS[way].integrator, "lt") != 0 || splats > 0, "%s: no splat is among the worst", WAYS[way].name);
-}
-
-/* Offers in any order leave the same list, equal ones among them and several of one sample. */
-static void test_offers(struct test *t)
-{
-    enum { N = 200, MOST = 20, ROUNDS = 20 };
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 77, 0);
-    struct brought offer[N];
-    struct worst first = {.most = MOST}, nothing = {.most = MOST};
-    const double NONE[] = {0, -1, NAN, INFINITY};
-    for (int i = 0; i < N; i++) {
-        struct brought b = {1 + (int)(30 * rng_uniform(&r)), (int)(5 * rng_uniform(&r)), (int)(5 * rng_uniform(&r)),
-                            (int)(5 * rng_uniform(&r)), 0, 0};
-        offer[i] = b;
-    }
-    for (int round = 0; round < ROUNDS; round++) {
-        struct worst w = {.most = MOST};
-        for (int i = N - 1; i >= 0; i--) {
-            int k = (int)((i + 1) * rng_uniform(&r));
-            struct brought b = offer[k];
-            offer[k] = offer[i];
-            offer[i] = b;
-            worst_offer(&w, b);
-        }
-        first = round == 0 ? w : first;
-        int wrong = 0;
-        for (int i = 0; i < MOST; i++) {
-            const struct brought *a = &w.item[i], *b = &first.item[i];
-            wrong += a->luminance != b->luminance || a->x != b->x || a->y != b->y || a->iteration != b->iteration;
-            wrong += i > 0 && a->luminance > w.item[i - 1].luminance;
-            for (int k = 0; k < i; k++)
-                wrong += w.item[k].x == a->x && w.item[k].y == a->y && w.item[k].iteration == a->iteration;
-        }
-        CHECK(t, w.n == MOST && wrong == 0, "another order, another list: %d differ of %d", wrong, w.n);
-    }
-    for (int i = 0; i < 4; i++) {
-        struct brought b = {NONE[i], 0, 0, i, 0, 0};
-        worst_offer(&nothing, b);
-    }
-    CHECK(t, nothing.n == 0, "%d that no film takes", nothing.n);
 }
 
 /* --- densities --------------------------------------------------------------------------------------- */
@@ -290,7 +198,7 @@ static void test_refused(struct test *t, const struct scene *scene)
         long sample;
         const char *says;
     } cases[] = {{SIZE, 0, 0, "pixel 4,0"}, {0, -1, 0, "pixel 0,-1"}, {0, 0, SAMPLES, "sample 2"},
-                 {0, 0, -1, "sample -1"}};
+                 {0, 0, -2, "sample -2"}};
     struct render_options options = options_of(0);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct error err = {.text = ""};
@@ -308,13 +216,10 @@ void test_trace(struct test *t)
         return;
     test_pdf_rev(t, &scene);
     test_refused(t, &scene);
-    test_offers(t);
     for (int way = 0; way < N_WAYS; way++) {
         if (WAYS[way].select[0] != '\0')
             settings_set(&scene.settings, "select", WAYS[way].select, "test");
-        struct brought told[ALL];
-        check_film(t, &scene, way, told);
-        check_worst(t, &scene, way, told);
+        check_film(t, &scene, way);
     }
     scene_free(&scene);
 }

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/json.h"
 #include "base/os.h"
 #include "base/progress.h"
 #include "cli/job_options.h"
@@ -59,59 +58,11 @@ static void print_scene(const struct scene *s, const struct method *m, double se
     printf("loaded in     %.2f s\n", seconds);
 }
 
-/* --- for programs -------------------------------------------------------------------------------------- */
-
-static void put_lights(struct json *j, const struct light_set *lights)
-{
-    json_open(j, "lights", '[');
-    for (int i = 0; i < lights->n; i++) {
-        json_open(j, NULL, '{');
-        json_text(j, "kind", LIGHT_NAMES[lights->light[i].kind]);
-        json_number(j, "power", lights->light[i].power);
-        json_close(j);
-    }
-    json_close(j);
-}
-
-static void put_settings(struct json *j, const struct settings *settings)
-{
-    json_open(j, "parameters", '{');
-    for (int i = 0; i < settings->n; i++)
-        json_text(j, settings->item[i].name, settings->item[i].value);
-    json_close(j);
-}
-
-static void print_json(const struct scene *s, const char *path, const struct method *m, long spp, double seconds)
-{
-    struct json j = json_start(stdout);
-    json_open(&j, NULL, '{');
-    json_text(&j, "scene", path);
-    json_number(&j, "width", s->width);
-    json_number(&j, "height", s->height);
-    json_text(&j, "output", s->film_filename);
-    json_number(&j, "spp", (double)spp);
-    json_text(&j, "integrator", m->name);
-    put_settings(&j, &s->settings);
-    json_number(&j, "triangles", s->geo.n_triangles);
-    json_number(&j, "quadrics", s->geo.n_quadrics);
-    json_number(&j, "shapes", s->geo.n_groups);
-    json_number(&j, "materials", s->n_materials);
-    json_number(&j, "textures", s->textures.n_textures);
-    put_lights(&j, &s->lights);
-    vec3 lo, hi;
-    scene_bounds(s, &lo, &hi);
-    json_numbers(&j, "low", (const double[]){lo.x, lo.y, lo.z}, 3);
-    json_numbers(&j, "high", (const double[]){hi.x, hi.y, hi.z}, 3);
-    json_number(&j, "seconds", seconds);
-    json_close(&j);
-}
-
 /* --- pictures ------------------------------------------------------------------------------------------ */
 
 struct info_options {
     struct job_options job;
     const char *pixel; /* NULL: all of the picture */
-    bool json;
 };
 
 /* Least, largest, mean of the finite values of a channel, and how many the others are. */
@@ -187,10 +138,7 @@ static int run(void *options)
     int status = job_load(&o->job, &scene, &integrator);
     if (status != EXIT_OK)
         return status;
-    if (o->json)
-        print_json(&scene, o->job.scene_path, integrator, job_spp(&o->job, &scene), os_wall_seconds() - start);
-    else
-        print_scene(&scene, integrator, os_wall_seconds() - start);
+    print_scene(&scene, integrator, os_wall_seconds() - start);
     scene_free(&scene);
     return EXIT_OK;
 }
@@ -199,10 +147,9 @@ static int run(void *options)
 static const struct option OPTIONS[] = {
     {"FILE", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file, or a picture"},
     {"--pixel", "X,Y", OPTION_TEXT, AT(pixel), .help = "of a picture: only this pixel's values; 0,0 is top left"},
-    {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
     {.others = JOB_OPTIONS},
 };
 
 const struct command command_info = {
-    "info", "describe a scene, or a picture", {"SCENE.pbrt [--json] [options]", "PICTURE [--pixel X,Y]"}, OPTIONS,
+    "info", "describe a scene, or a picture", {"SCENE.pbrt [options]", "PICTURE [--pixel X,Y]"}, OPTIONS,
     sizeof(struct info_options), run, true, "info scenes/bathroom.pbrt"};

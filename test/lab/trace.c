@@ -104,7 +104,7 @@ static bool check_sample(const struct render_options *o, struct pixel_rect film,
     if (t->x < film.x0 || t->x >= film.x1 || t->y < film.y0 || t->y >= film.y1)
         return error_usage(err, "--pixel %d,%d is not rendered: x is %d to %d here, y is %d to %d", t->x, t->y, film.x0,
                          film.x1 - 1, film.y0, film.y1 - 1);
-    return (t->iteration >= 0 && t->iteration < o->end) ||
+    return (t->iteration >= TRACE_BRIGHTEST && t->iteration < o->end) ||
            error_usage(err, "--sample %ld is not taken: they are numbered 0 to %ld, see --spp", t->iteration,
                      o->end - 1);
 }
@@ -115,27 +115,62 @@ static bool pixels_have(struct tile_pixels p, int x, int y)
     return i >= 0 && pixels_get(p, i, &has_x, &has_y) && x == has_x && y == has_y;
 }
 
-/* The tile pass that holds the sample, from where what it depends on begins: in blocks of a length that the integrator
- * has chosen one iteration builds on another. */
-void trace_sample(const struct render_job *job, const struct preparation *prepared, struct trace *trace)
+/* The tile pass that holds the pixel, of iterations `first` to below `end`. */
+static void observe(const struct render_job *job, const struct preparation *prepared, const struct trace *trace,
+                    long first, long end, const struct observer *observer)
 {
     const struct tiling tiling = tiling_of(job->film_rect, &prepared->size);
-    const struct observer observer = {trace, walked, joined, NULL, NULL};
     struct tile tile = {.sum = NULL};
     struct workspace *work = workspaces_new(1, job->max_depth);
-    long block = prepared->size.block > 0 ? prepared->size.block : 1;
     int64_t number = 0;
     while (!pixels_have(tiling_pixels(&tiling, number), trace->x, trace->y))
         number++;
     work->scratch = method_scratch(prepared);
-    struct tile_pass pass = {job, trace->iteration / block * block, trace->iteration + 1, &tile, work, &observer};
+    struct tile_pass pass = {job, first, end, &tile, work, observer};
     tile_start(&tile, tiling_pixels(&tiling, number), job->film_rect, &job->scene->filter);
     prepared->method->render(prepared, &pass);
     tile_free(&tile);
     method_scratch_free(prepared, work->scratch);
     workspaces_free(work, 1);
+}
+
+/* From where what the sample depends on begins: in blocks of a length that the integrator has chosen one iteration
+ * builds on another. */
+void trace_sample(const struct render_job *job, const struct preparation *prepared, struct trace *trace)
+{
+    const struct observer observer = {trace, walked, joined, NULL, NULL};
+    long block = prepared->size.block > 0 ? prepared->size.block : 1;
+    observe(job, prepared, trace, trace->iteration / block * block, trace->iteration + 1, &observer);
     trace->why = prepared->method->why;
     memcpy(trace->number, prepared->number, sizeof trace->number);
+}
+
+/* The sample that contributes most to the pixel. */
+struct brightest {
+    const struct trace *trace;
+    double luminance;
+    long iteration;
+};
+
+static void ended(void *context, const struct pixel_sample *sample)
+{
+    struct brightest *b = context;
+    double luminance = rgb_luminance(sample->value);
+    if (b->trace->x == sample->x && b->trace->y == sample->y && luminance > b->luminance) {
+        b->luminance = luminance;
+        b->iteration = sample->iteration;
+    }
+}
+
+static long find_brightest(const struct render_job *job, const struct preparation *prepared, const struct trace *trace,
+                           long end)
+{
+    struct brightest found = {trace, 0, 0};
+    const struct observer observer = {&found, NULL, NULL, ended, NULL};
+    long block = prepared->size.block > 0 ? prepared->size.block : end;
+    for (long first = 0; first < end; first += block)
+        observe(job, prepared, trace, first, first + block < end ? first + block : end, &observer);
+    return found.iteration;
 }
 
 bool trace_render(const struct scene *scene, const struct render_options *options, struct trace *trace,
@@ -148,6 +183,8 @@ bool trace_render(const struct scene *scene, const struct render_options *option
     if (m == NULL || !method_observable(m, err) || !check_sample(options, film, trace, err) ||
         !render_prepare(scene, options, film, &job, &prepared, err))
         return false;
+    if (trace->iteration == TRACE_BRIGHTEST)
+        trace->iteration = find_brightest(&job, &prepared, trace, options->end);
     trace_sample(&job, &prepared, trace);
     method_release(&prepared);
     return true;

@@ -27,9 +27,11 @@ struct trace_connection {
     rgb added;           /* C* times scale times weight, as it was added; t = 1: at raster point (c.px, c.py) */
 };
 
+enum { TRACE_BRIGHTEST = -1 };
+
 struct trace {
     int x, y;       /* the sample to watch */
-    long iteration;
+    long iteration; /* TRACE_BRIGHTEST: the one that contributes most to the pixel, light joined to the lens left out */
     double filter_weight;
     struct trace_path eye;
     struct trace_path *light; /* [n_lights], those that were connected or chosen; owned */

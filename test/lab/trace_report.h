@@ -1,4 +1,4 @@
-/* trace_report.h: what the witness of a pixel sample (trace.h) has to tell, for people and for programs.
+/* trace_report.h: what the witness of a pixel sample (trace.h) has to tell.
  *
  * Tests: test_trace.c, test/cli.sh.
  */
@@ -18,11 +18,9 @@ struct trace_story {
     const struct trace *trace;
 };
 
-/* trace_tell: some ten lines, and with `all` trace_text after them, a page to read. trace_json: one JSON object with
- * every number; doc/tour/trace.md names its keys. */
+/* trace_tell: some ten lines, and with `all` trace_text after them, a page to read. */
 void trace_tell(FILE *f, const struct trace_story *story, bool all);
 void trace_text(FILE *f, const struct trace_story *story);
-void trace_json(FILE *f, const struct trace_story *story);
 
 /* trace_name_joined: what a connection joins: "y_2 - z_1", or "y_2(5) - z_1" of the fifth light sub-path. */
 enum { TRACE_JOINED = 64 };
