@@ -65,14 +65,14 @@ floor_of() { # NUMBER: of triangles, in a PLY file
 }
 # bench AXIS N SCENE: what `bench` says of it.
 bench() {
-    $lab bench "$3" --json "$dir/bench.json" >/dev/null || exit 1
-    awk -v axis="$1" -v n="$2" -F '[":, ]+' '
-        $2 ~ /^(load_s|build_s|closest_incoherent|bdpt_paths|asbdpt_paths|peak_mib)$/ { v[$2] = $3 + 0 }
+    $lab bench "$3" >"$dir/bench.txt" || exit 1
+    awk -v axis="$1" -v n="$2" '
+        $1 ~ /^(load_s|build_s|closest|bdpt_us|asbdpt_us|peak_mib)$/ { v[$1] = $2 }
         END {
             print axis, n, "load", v["load_s"]; print axis, n, "build", v["build_s"]
-            print axis, n, "ray", 1 / v["closest_incoherent"]; print axis, n, "bdpt", 1e6 / v["bdpt_paths"]
-            print axis, n, "asbdpt", 1e6 / v["asbdpt_paths"]; print axis, n, "memory", v["peak_mib"]
-        }' "$dir/bench.json" >>"$dir/scale.txt"
+            print axis, n, "ray", 1 / v["closest"]; print axis, n, "bdpt", v["bdpt_us"]
+            print axis, n, "asbdpt", v["asbdpt_us"]; print axis, n, "memory", v["peak_mib"]
+        }' "$dir/bench.txt" >>"$dir/scale.txt"
 }
 # render AXIS N OPTION...: CPU time and memory of renders of the Cornell box by bdpt and asbdpt.
 render() {

@@ -9,26 +9,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/file.h"
 #include "base/vec.h"
-#include "base/json.h"
 #include "base/mem.h"
 #include "base/os.h"
-#include "base/progress.h"
 #include "base/sampler.h"
 #include "base/warp.h"
 #include "lab/commands.h"
-#include "lab/tree.h"
 #include "lab/methods.h"
 #include "lab/timed.h"
 #include "parser/parser.h"
 #include "render/parameters.h"
 #include "render/render.h"
 
-enum measure {
-    LOAD, BUILD, TRIANGLES, NODES, REFERENCES, COST, CLOSEST, ANY, PT, BDPT, ASBDPT, WALL_1, CPU_1, WALL_N,
-    CPU_N, MEMORY, N_MEASURES
-};
+enum measure { LOAD, BUILD, TRIANGLES, CLOSEST, ANY, PT, BDPT, ASBDPT, GAIN, MEMORY, N_MEASURES };
 
 static const struct {
     const char *key, *text;
@@ -36,32 +29,23 @@ static const struct {
     {"load_s", "reading the scene, s of CPU"},
     {"build_s", "building the kd-tree, s of CPU"},
     {"triangles", "triangles"},
-    {"nodes", "kd-tree nodes"},
-    {"references", "kd-tree references"},
-    {"sah_cost", "kd-tree cost, triangle tests per ray"},
-    {"closest_incoherent", "closest hit, incoherent, Mray/s"},
-    {"any_incoherent", "any hit, incoherent, Mray/s"},
-    {"pt_paths", "pt, sample paths per s of CPU"},
-    {"bdpt_paths", "bdpt, sample paths per s of CPU"},
-    {"asbdpt_paths", "asbdpt, sample paths per s of CPU"},
-    {"wall_1", "bdpt, 1 thread, s"},
-    {"cpu_1", "bdpt, 1 thread, s of CPU"},
-    {"wall_n", "bdpt, all threads, s"},
-    {"cpu_n", "bdpt, all threads, s of CPU"},
+    {"closest", "closest hit, incoherent, Mray/s"},
+    {"any", "any hit, incoherent, Mray/s"},
+    {"pt_us", "pt, a sample path, us of CPU"},
+    {"bdpt_us", "bdpt, a sample path, us of CPU"},
+    {"asbdpt_us", "asbdpt, a sample path, us of CPU"},
+    {"gain", "bdpt, by all threads: their number times CPU time of one over that of all"},
     {"peak_mib", "peak memory so far, MiB"},
 };
 
 struct bench_options {
     struct texts scenes;
-    const char *json, *baseline; /* or NULL */
     int spp, max_depth, n_threads;
 };
 
 #define AT(member) offsetof(struct bench_options, member)
 static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes), 1, .help = "at least one scene"},
-    {"--json", "FILE", OPTION_TEXT, AT(json), .written = true, .help = "write the figures"},
-    {"--baseline", "FILE", OPTION_TEXT, AT(baseline), .help = "such a file, to print what has changed since"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1000, .fallback = "8", .help = "samples per pixel"},
     {"--maxdepth", "N", OPTION_INTEGER, AT(max_depth), 1, 1000, .fallback = "8", .help = "longest path"},
     {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1000, .alias = "-j", .fallback = "2", .help = "all threads"},
@@ -135,7 +119,7 @@ static void measure_rays(const struct scene *s, double *value)
 /* --- whole renders ------------------------------------------------------------------------------------ */
 
 static bool render_once(const struct scene *s, const struct bench_options *o, const char *integrator, int n_threads,
-                        double *wall, double *cpu, struct error *err)
+                        double *cpu, struct error *err)
 {
     struct render_options options = {
         .integrator = integrator, .end = o->spp, .max_depth = o->max_depth, .n_threads = n_threads};
@@ -143,7 +127,6 @@ static bool render_once(const struct scene *s, const struct bench_options *o, co
     if (!timed_render(s, &options, &took, err))
         return false;
     free(took.pixels);
-    *wall = took.wall;
     *cpu = took.seconds;
     return true;
 }
@@ -151,16 +134,16 @@ static bool render_once(const struct scene *s, const struct bench_options *o, co
 static bool measure_renders(const struct scene *s, const struct bench_options *o, double *value, struct error *err)
 {
     static const char *const NAMES[] = {METHODS_BENCH};
-    double paths = (double)o->spp * rect_width(render_crop(s)) * rect_height(render_crop(s));
-    double wall[3], cpu[3];
+    double paths = (double)o->spp * rect_width(render_crop(s)) * rect_height(render_crop(s)), all;
     for (int i = 0; i < 3; i++) {
-        if (!render_once(s, o, NAMES[i], 1, &wall[i], &cpu[i], err))
+        if (!render_once(s, o, NAMES[i], 1, &value[PT + i], err))
             return false;
-        value[PT + i] = paths / cpu[i];
+        value[PT + i] *= 1e6 / paths;
     }
-    value[WALL_1] = wall[BDPT - PT];
-    value[CPU_1] = cpu[BDPT - PT];
-    return render_once(s, o, METHOD_REFERENCE, o->n_threads, &value[WALL_N], &value[CPU_N], err);
+    if (!render_once(s, o, METHOD_REFERENCE, o->n_threads, &all, err))
+        return false;
+    value[GAIN] = o->n_threads * value[BDPT] / (1e6 / paths * all);
+    return true;
 }
 
 /* --- one scene ---------------------------------------------------------------------------------------- */
@@ -186,11 +169,7 @@ static bool measure_scene(const char *path, const struct bench_options *o, doubl
     start = os_cpu_seconds();
     scene_prepare(&scene);
     value[BUILD] = os_cpu_seconds() - start;
-    const struct tree_figures tree = tree_figures(&scene.kd);
     value[TRIANGLES] = scene.geo.n_triangles;
-    value[NODES] = scene.kd.n_nodes;
-    value[REFERENCES] = (double)tree.references;
-    value[COST] = tree.cost;
     measure_rays(&scene, value);
     bool ok = measure_renders(&scene, o, value, err);
     scene_free(&scene);
@@ -198,83 +177,19 @@ static bool measure_scene(const char *path, const struct bench_options *o, doubl
     return ok;
 }
 
-/* --- output ------------------------------------------------------------------------------------------- */
-
-/* The number after "key" in the baseline's object of a scene, or 0: the file is one that write_json wrote. */
-static double baseline_value(const char *text, const char *scene, const char *key)
-{
-    char name[1024], field[64];
-    snprintf(name, sizeof name, "\"scene\": \"%s\"", scene);
-    snprintf(field, sizeof field, "\"%s\": ", key);
-    const char *object = text != NULL ? strstr(text, name) : NULL;
-    const char *at = object != NULL ? strstr(object, field) : NULL;
-    const char *end = object != NULL ? strchr(object, '}') : NULL;
-    return at != NULL && (end == NULL || at < end) ? strtod(at + strlen(field), NULL) : 0;
-}
-
-static void print_table(const struct bench_options *o, const double *values, const char *baseline)
-{
-    for (int i = 0; i < o->scenes.n; i++) {
-        const double *value = values + (size_t)i * N_MEASURES;
-        printf("%s\n", o->scenes.item[i]);
-        for (int m = 0; m < N_MEASURES; m++) {
-            double before = baseline_value(baseline, o->scenes.item[i], MEASURES[m].key);
-            printf("    %-40s %12.4g", MEASURES[m].text, value[m]);
-            printf(before > 0 ? "   %5.2f of the baseline's\n" : "\n", value[m] / (before > 0 ? before : 1));
-        }
-        printf("    %-40s %12.3g\n", "scaling: threads x CPU at 1 / CPU at all",
-               value[CPU_N] > 0 ? o->n_threads * value[CPU_1] / value[CPU_N] : 0);
-    }
-}
-
-static void write_json(FILE *f, const struct bench_options *o, const double *values)
-{
-    struct json j = json_start(f);
-    json_open(&j, NULL, '{');
-    json_count(&j, "threads", (uint64_t)o->n_threads);
-    json_count(&j, "spp", (uint64_t)o->spp);
-    json_count(&j, "maxdepth", (uint64_t)o->max_depth);
-    json_open(&j, "scenes", '[');
-    for (int i = 0; i < o->scenes.n; i++) {
-        json_open(&j, NULL, '{');
-        json_text(&j, "scene", o->scenes.item[i]);
-        for (int m = 0; m < N_MEASURES; m++)
-            json_number(&j, MEASURES[m].key, values[(size_t)i * N_MEASURES + (size_t)m]);
-        json_close(&j);
-    }
-    json_close(&j);
-    json_close(&j);
-}
-
-/* --- the command ------------------------------------------------------------------------------------- */
-
-static bool measure(const struct bench_options *o, struct error *err)
-{
-    uint8_t *baseline = NULL;
-    size_t size;
-    double *values = mem_alloc((size_t)o->scenes.n * N_MEASURES, sizeof *values);
-    struct file_output out;
-    bool opened = o->json != NULL && file_create(o->json, &out, err);
-    bool ok = (opened || o->json == NULL) && (o->baseline == NULL || file_read(o->baseline, &baseline, &size, err));
-    for (int i = 0; ok && i < o->scenes.n; i++)
-        ok = measure_scene(o->scenes.item[i], o, values + (size_t)i * N_MEASURES, err);
-    if (ok)
-        print_table(o, values, (const char *)baseline);
-    if (ok && opened)
-        write_json(out.stream, o, values);
-    if (opened && ok)
-        ok = file_commit(&out, err);
-    else if (opened)
-        file_abandon(&out);
-    free(baseline);
-    free(values);
-    return ok;
-}
-
 static int run(void *options)
 {
+    const struct bench_options *o = options;
     struct error err;
-    return measure(options, &err) ? EXIT_OK : fail(&err);
+    for (int i = 0; i < o->scenes.n; i++) {
+        double value[N_MEASURES];
+        if (!measure_scene(o->scenes.item[i], o, value, &err))
+            return fail(&err);
+        printf("%s\n", o->scenes.item[i]);
+        for (int m = 0; m < N_MEASURES; m++)
+            printf("    %-10s %10.6g   %s\n", MEASURES[m].key, value[m], MEASURES[m].text);
+    }
+    return EXIT_OK;
 }
 
 const struct command command_bench = {
