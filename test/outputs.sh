@@ -62,7 +62,7 @@ expect 1 'standard output: cannot be written' sh -c '"$LAB" info scene.pbrt >&-'
 expect 1 'Bad file descriptor|cannot be read' sh -c '"$ASBDPT" render - -o x.png <&-'
 # What cannot be printed is said.
 if [ -e /dev/full ]; then
-    for words in --help --version 'help all' 'info scene.pbrt' 'compare a.pfm b.pfm --json' \
+    for words in --help --version 'help all' 'info scene.pbrt' 'compare a.pfm b.pfm' \
         'trace scene.pbrt --res 8x8'; do
         expect 1 'asbdpt: standard output: cannot be written' sh -c "\"\$LAB\" $words >/dev/full"
         check [ "$(wc -l <stderr.txt)" = 1 ]

@@ -101,7 +101,7 @@ static void test_demo(struct test *t)
     struct sheet sheet;
     enum { SIDES = 2 };
     const char *scene = "scenes/cornell-box.pbrt";
-    struct plan plan = {.scene = &scene, .n_scenes = 1, .n_seeds = 1, .equal = true, .scale = 2, .n_threads = 1,
+    struct plan plan = {.scene = &scene, .n_scenes = 1, .n_seeds = 1, .equal = true, .n_threads = 1,
                         .seed = 7, .quiet = true};
     struct results r = {0};
     plan_set_spp(&plan, 2, 2, &err);
@@ -112,15 +112,14 @@ static void test_demo(struct test *t)
     if (ok)
         sheet = pictures_sheet(&r.scene[0]);
     for (int i = 0; ok && i < SIDES; i++) {
-        /* Pictures of 64 x 64 pixels, each a square of k x k, 24 pixels apart: take one back out of the sheet. */
-        int k = (sheet.width - 4 * 24) / 3 / 64, left = 24 + i * (64 * k + 24), top = sheet.height - 24 - 64 * k;
-        float mean[32 * 32 * 3] = {0};
-        for (int y = 0; y < 64; y++)
-            for (int x = 0; x < 64; x++)
-                for (int c = 0; c < 3; c++)
-                    mean[3 * (y / 2 * 32 + x / 2) + c] +=
-                        0.25f * sheet.pixels[3 * ((top + y * k) * sheet.width + left + x * k) + c];
-        double rmse8 = compare_pixels(mean, ref, 32 * 32 * 3).rmse8, said = r.scene[0].run[i][0][0].value[Q_RMSE8];
+        /* Pictures of 32 x 32 pixels, each a square of k x k: take one back out of the sheet. */
+        int k = COLUMN_WIDTH / 32, left = COLUMN_GAP + i * (32 * k + COLUMN_GAP), top = COLUMN_GAP + COLUMN_LABEL;
+        float taken[32 * 32 * 3];
+        for (int y = 0; y < 32; y++)
+            for (int x = 0; x < 32; x++)
+                memcpy(&taken[3 * (y * 32 + x)], &sheet.pixels[3 * ((top + y * k) * sheet.width + left + x * k)],
+                       3 * sizeof *taken);
+        double rmse8 = compare_pixels(taken, ref, 32 * 32 * 3).rmse8, said = r.scene[0].run[i][0][0].value[Q_RMSE8];
         CHECK(t, fabs(rmse8 - said) < 0.01 && said > 1, "label %d says %g, the picture has %g", i, said, rmse8);
     }
     if (ok) {

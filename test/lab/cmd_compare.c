@@ -8,11 +8,12 @@
 #include "image/image.h"
 #include "lab/compare.h"
 
+enum { PERCENTILE = 99 };
+
 struct compare_options {
     const char *image, *reference, *heatmap;
-    double most, percentile; /* of the heat map's colours; most 0: the percentile decides */
-    double max_rmse;         /* 0: any will do */
-    bool json;
+    double most;     /* of the heat map's colours; 0: PERCENTILE decides */
+    double max_rmse; /* 0: any will do */
 };
 
 #define AT(member) offsetof(struct compare_options, member)
@@ -22,35 +23,21 @@ static const struct option OPTIONS[] = {
     {"--heatmap", "FILE.png", OPTION_TEXT, AT(heatmap), .written = true,
      .help = "write where they differ, as colours (viridis)"},
     {"--max", "X", OPTION_NUMBER, AT(most), 1e-30, 1e30,
-     .help = "the brightest colour stands for this error (default: that of --percentile)"},
-    {"--percentile", "P", OPTION_NUMBER, AT(percentile), 1, 100,
-     .help = "or for this percentile of all errors (default 99)"},
+     .help = "the brightest colour stands for this error (default: what 99 % of all errors are below)"},
     {"--max-rmse", "X", OPTION_NUMBER, AT(max_rmse), 1e-30, 1e30,
      .help = "exit with status 1 if rmse is larger, or if a value is NaN or infinite"},
-    {"--json", NULL, OPTION_ON, AT(json), .help = "print an object of JSON"},
     {.name = NULL},
 };
 
-static void print_number(const char *before, const char *name, double value, bool json)
+static void print(const struct difference *d, double blocks)
 {
-    if (!json)
-        printf("%-10s %.6g\n", name, value);
-    else if (isfinite(value))
-        printf("%s\"%s\": %.9g", before, name, value);
-    else /* JSON has no infinity or NaN */
-        printf("%s\"%s\": null", before, name);
-}
-
-static void print(const struct difference *d, double blocks, bool json)
-{
-    print_number("{", "rmse", d->rmse, json);
-    print_number(", ", "rmse8", d->rmse8, json);
-    print_number(", ", "relmse", d->relmse, json);
-    print_number(", ", "relmse8x8", blocks, json);
-    print_number(", ", "mean_ratio", d->mean_ratio, json);
-    printf(json ? ", \"nonfinite\": %ld" : "nonfinite  %ld\n", d->nonfinite);
-    print_number(", ", "psnr", d->psnr, json);
-    fputs(json ? "}\n" : "", stdout);
+    const struct {
+        const char *name;
+        double value;
+    } lines[] = {{"rmse", d->rmse}, {"rmse8", d->rmse8}, {"relmse", d->relmse}, {"relmse8x8", blocks},
+                 {"mean_ratio", d->mean_ratio}, {"nonfinite", (double)d->nonfinite}, {"psnr", d->psnr}};
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+        printf("%-10s %.6g\n", lines[i].name, lines[i].value);
 }
 
 /* Into a file that is open. */
@@ -60,12 +47,12 @@ static bool write_heatmap(const struct compare_options *o, struct file_output *f
     long pixels = (long)width * height;
     float *error = mem_alloc((size_t)pixels, sizeof *error), *map = mem_alloc((size_t)pixels * 3, sizeof *map);
     compare_errors(x, r, pixels, error);
-    double most = o->most > 0 ? o->most : picture_percentile(error, pixels, o->percentile > 0 ? o->percentile : 99);
+    double most = o->most > 0 ? o->most : picture_percentile(error, pixels, PERCENTILE);
     compare_heatmap(error, pixels, most, map);
     const struct raster picture = {{0, 0, 0, 0}, width, height, map, NULL, 0};
     bool ok = image_finish(f, &picture, err);
     if (ok)
-        fprintf(o->json ? stderr : stdout, "heatmap    0 to %.6g%s\n", most, o->most > 0 ? "" : " (percentile)");
+        printf("heatmap    0 to %.6g%s\n", most, o->most > 0 ? "" : " (percentile)");
     free(error);
     free(map);
     return ok;
@@ -97,7 +84,7 @@ static bool compare_files(const struct compare_options *o, struct error *err)
         compare_squares(x, r, r, w1, h1, square);
         if (about1.linear != about2.linear)
             warn_of_display(about1.linear ? o->reference : o->image, about1.linear ? o->image : o->reference);
-        print(&d, square[SQUARE_BLOCKS], o->json);
+        print(&d, square[SQUARE_BLOCKS]);
         ok = !mapped || write_heatmap(o, &map, x, r, w1, h1, err);
         mapped = false;
         if (ok && o->max_rmse > 0 && d.nonfinite > 0)
@@ -116,8 +103,6 @@ static int run(void *options)
 {
     const struct compare_options *o = options;
     struct error err;
-    if (o->most > 0 && o->percentile > 0)
-        return usage_error(&command_compare, "--max and --percentile exclude each other");
     if (o->heatmap != NULL && !image_writable(o->heatmap))
         return usage_error(&command_compare, "--heatmap %s: images are written as " IMAGE_WRITTEN, o->heatmap);
     return compare_files(o, &err) ? EXIT_OK : fail(&err);

@@ -24,8 +24,8 @@ static const struct option OPTIONS[] = {
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .fallback = METHODS_DEMO, .help = METHODS_HELP},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "24",
      .help = "samples per pixel of the first; the others are given the same time"},
-    {"--scale", "K", OPTION_INTEGER, AT(plan.scale), 1, 64, .fallback = "1",
-     .help = "the pictures are K times as wide and high as the reference"},
+    {"--res", "WIDTH", OPTION_INTEGER, AT(plan.width), 1, 8192,
+     .help = "width in pixels (default: that of a stored reference, or 160)"},
     {"--reference", "PATH", OPTION_TEXT, AT(plan.reference),
      .help = "picture, or directory of NAME.pfm (default: ref/ next to the scene, else rendered)"},
     {"--nthreads", "N", OPTION_INTEGER, AT(plan.n_threads), 1, 1024, .alias = "-j", .help = "threads (default: all)"},
@@ -76,4 +76,4 @@ static int run(void *options)
 
 const struct command command_demo = {
     "demo", "methods at equal time, in one labelled picture", {"SCENE.pbrt -o FILE.png [options]"}, OPTIONS,
-    sizeof(struct demo_options), run, true, "demo scenes/bathroom.pbrt --scale 5 -o out/demo.png"};
+    sizeof(struct demo_options), run, true, "demo scenes/bathroom.pbrt --res 160 -o out/demo.png"};

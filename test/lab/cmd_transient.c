@@ -16,7 +16,7 @@
 struct transient_options {
     struct job_options job;
     const char *directory;
-    double range[2]; /* 0, 0: to be found */
+    double range[2]; /* 0, 0: across the scene */
     int n;
 };
 
@@ -25,7 +25,8 @@ static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
     {"-o", "DIR", OPTION_TEXT, AT(directory), 1, .help = "a directory for gate000.pfm ... and transient.png"},
     {"--gates", "N", OPTION_INTEGER, AT(n), 1, 256, .fallback = "16", .help = "how many pictures"},
-    {"--gate", "L0:L1", OPTION_LENGTHS, AT(range), 0, 1e30, .help = "what they divide (default: where light is)"},
+    {"--gate", "L0:L1", OPTION_LENGTHS, AT(range), 0, 1e30,
+     .help = "path lengths that they divide (default: from 0 to the way across the scene and back)"},
     {.others = RUN_OPTIONS},
 };
 
@@ -47,26 +48,11 @@ static float *render(const struct scene *scene, const struct render_options *o, 
     return out;
 }
 
-/* N gates where light is: from the first hundredth of it to nine tenths, by one sample per pixel. */
-static bool find_range(const struct scene *scene, struct render_options o, struct gates *out, struct error *err)
+static void choose_range(const struct scene *scene, struct gates *out)
 {
-    enum { FINE = 256 };
     const struct light_set *l = &scene->lights;
-    struct gates fine = {0, 8 * (l->radius + length(sub(scene->camera.position, l->center))) / FINE, FINE};
-    double sum[3 * FINE] = {0}, until[FINE + 1] = {0};
-    struct film film;
-    o.end = 1;
-    film_init(&film, render_crop(scene), scene->width, scene->height);
-    bool ok = gates_total(scene, &o, &fine, &film, sum, err);
-    film_free(&film);
-    for (int i = 0; i < FINE; i++)
-        until[i + 1] = until[i] + sum[3 * i] + sum[3 * i + 1] + sum[3 * i + 2];
-    int first = 0, end = 1;
-    for (; end < FINE && until[end] < 0.9 * until[FINE]; end++)
-        first = until[end] < 0.01 * until[FINE] ? end : first;
-    out->begin = first * fine.width;
-    out->width = (end - first) * fine.width / out->n;
-    return ok;
+    out->begin = 0;
+    out->width = 2 * (l->radius + length(sub(scene->camera.position, l->center))) / out->n;
 }
 
 /* A file for each picture, and a sheet of all in rows of four, by one exposure. */
@@ -107,8 +93,9 @@ static int run(void *options)
         return status;
     struct pixel_rect r = render_crop(&scene);
     struct render_options by = job_render(&o->job, &scene, method);
-    bool ok = file_make_directory(o->directory, &err) &&
-              (o->range[1] > 0 || find_range(&scene, by, &gates, &err));
+    if (!(o->range[1] > 0))
+        choose_range(&scene, &gates);
+    bool ok = file_make_directory(o->directory, &err);
     float *pictures = ok ? render(&scene, &by, gates, &err) : NULL;
     ok = pictures != NULL && write_all(o->directory, gates, pictures, rect_width(r), rect_height(r), &err);
     free(pictures);

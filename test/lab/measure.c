@@ -13,7 +13,6 @@
 #include "lab/files.h"
 #include "lab/equal.h"
 #include "lab/plan_scene.h"
-#include "lab/sheet.h"
 #include "lab/subject.h"
 #include "lab/timed.h"
 
@@ -59,20 +58,16 @@ static void compare_picture(struct subject *s, int method, int seed, int step)
         to->square[k] -= ref->noise[k];
 }
 
-/* The picture of the last step is kept; of the first seed as it is. */
+/* The picture of the last step is kept. */
 static void take_step(struct subject *s, int method, int seed, int step, long spp, struct record *r)
 {
     struct run *to = &s->out->run[method][seed - 1][step];
-    float **picture = &s->picture[method][seed - 1], **image = &s->out->image[method];
-    bool shown = method < s->plan->n_compared && seed == 1;
+    float **picture = &s->picture[method][seed - 1];
     free(*picture);
-    *picture = sheet_shrink(r->pixels, s->scene.width, s->scene.height, plan_scale(s->plan));
+    *picture = r->pixels;
     to->spp = spp;
     to->value[Q_SECONDS] = r->number[0];
     to->nonfinite = (long)r->number[1];
-    free(shown ? *image : r->pixels);
-    if (shown)
-        *image = r->pixels;
     compare_picture(s, method, seed, step);
 }
 
@@ -199,18 +194,6 @@ static bool make_reference(struct subject *s)
                           &r->reference, s->err);
 }
 
-/* From the size of its errors to that of its pictures. */
-static bool enlarge(struct subject *s)
-{
-    int k = plan_scale(s->plan);
-    if (!picture_size_ok((uint64_t)s->out->width * (uint64_t)k, (uint64_t)s->out->height * (uint64_t)k, s->err))
-        return false;
-    s->scene.width = s->out->width * k;
-    s->scene.height = s->out->height * k;
-    camera_prepare(&s->scene.camera, s->scene.width, s->scene.height);
-    return true;
-}
-
 /* What is about to take long. */
 static void announce(struct subject *s)
 {
@@ -272,12 +255,14 @@ static bool measure_scene(struct pace *pace, struct scene_results *out, struct e
         return false;
     out->width = s.scene.width;
     out->height = s.scene.height;
-    bool ok = make_directories(s.plan, err) && make_reference(&s) && enlarge(&s) && measure_methods(&s);
+    bool ok = make_directories(s.plan, err) && make_reference(&s) && measure_methods(&s);
     if (ok)
         judge(&s);
-    for (int v = 0; v < METHODS_MAX; v++)
-        for (int i = 0; i < PLAN_MAX_SEEDS; i++)
+    for (int v = 0; v < METHODS_MAX; v++) {
+        out->image[v] = s.picture[v][0];
+        for (int i = 1; i < PLAN_MAX_SEEDS; i++)
             free(s.picture[v][i]);
+    }
     scene_free(&s.scene);
     return ok;
 }

@@ -93,7 +93,7 @@ bool paths_render(const struct scene *scene, const struct render_options *option
 
 struct gate_sums {
     const struct gates *gates;
-    size_t pixels; /* 1: all are one */
+    size_t pixels;
     double *sum;
 };
 
@@ -103,29 +103,18 @@ static void take_by_gate(void *context, const struct path_told *p, size_t pixel,
     double number = floor((p->length - g->gates->begin) / g->gates->width);
     if (!(number >= 0 && number < g->gates->n))
         return;
-    double *at = &g->sum[3 * ((size_t)number * g->pixels + (g->pixels > 1 ? pixel : 0))];
+    double *at = &g->sum[3 * ((size_t)number * g->pixels + pixel)];
     for (int c = 0; c < 3; c++)
         at[c] += (double)p->unweighted[c] * (double)p->weight * factor;
-}
-
-static bool render_sums(const struct scene *scene, const struct render_options *options, struct film *film,
-                        struct gate_sums sums, struct error *err)
-{
-    const struct path_taker taker = {&sums, take_by_gate};
-    const struct method *m = method_find(options->integrator, &scene->settings, err);
-    if (m != NULL && method_merges(m))
-        return error_set(err, "%s adds paths of many lengths at once: no gate can tell them apart", m->name);
-    return m != NULL && paths_render(scene, options, film, &taker, err);
 }
 
 bool gates_render(const struct scene *scene, const struct render_options *options, const struct gates *gates,
                   struct film *film, double *sum, struct error *err)
 {
-    return render_sums(scene, options, film, (struct gate_sums){gates, rect_pixels(film->rect), sum}, err);
-}
-
-bool gates_total(const struct scene *scene, const struct render_options *options, const struct gates *gates,
-                 struct film *film, double *sum, struct error *err)
-{
-    return render_sums(scene, options, film, (struct gate_sums){gates, 1, sum}, err);
+    struct gate_sums sums = {gates, rect_pixels(film->rect), sum};
+    const struct path_taker taker = {&sums, take_by_gate};
+    const struct method *m = method_find(options->integrator, &scene->settings, err);
+    if (m != NULL && method_merges(m))
+        return error_set(err, "%s adds paths of many lengths at once: no gate can tell them apart", m->name);
+    return m != NULL && paths_render(scene, options, film, &taker, err);
 }

@@ -35,11 +35,8 @@ struct gates {
 };
 
 /* gates_render: add to sum, [n][pixels*3], what comes by each of neighbouring gates (scene/tile.h), all from one
- * render; the film is rendered as ever. gates_total: the same to sum, [n][3], for all pixels together. False with a
- * message. */
+ * render; the film is rendered as ever. False with a message. */
 bool gates_render(const struct scene *scene, const struct render_options *options, const struct gates *gates,
                   struct film *film, double *sum, struct error *err);
-bool gates_total(const struct scene *scene, const struct render_options *options, const struct gates *gates,
-                 struct film *film, double *sum, struct error *err);
 
 #endif

@@ -51,11 +51,7 @@ static float *display_errors(const struct scene_results *s, long *n)
 
 double pictures_blocks(const struct scene_results *s, int method)
 {
-    int k = plan_scale(s->plan);
-    float *small = sheet_shrink(s->image[method], s->width * k, s->height * k, k);
-    double rmse8 = compare_shown_blocks(small, s->reference.pixels, s->width, s->height);
-    free(small);
-    return rmse8;
+    return compare_shown_blocks(s->image[method], s->reference.pixels, s->width, s->height);
 }
 
 /* How many times as wide and high as it is a picture is shown: of many methods less. */
@@ -88,25 +84,21 @@ struct sheet pictures_sheet(const struct scene_results *s)
 {
     const struct plan *p = s->plan;
     struct sheet sheet;
-    int scale = plan_scale(p), width = s->width * scale, height = s->height * scale, k = enlarged(width, p->n_compared);
-    int rows = scale > 1 ? 1 : 2;
+    int k = enlarged(s->width, p->n_compared);
     char text[100];
-    sheet_init(&sheet, (p->n_compared + 1) * (width * k + COLUMN_GAP) + COLUMN_GAP,
-               COLUMN_GAP + COLUMN_LABEL + rows * (height * k + COLUMN_GAP), SHEET_PAPER);
-    int told = snprintf(text, sizeof text, "%.14s", s->reference.origin);
-    if (scale > 1)
-        snprintf(text + told, sizeof text - (size_t)told, "; %d x %d in one", scale, scale);
+    sheet_init(&sheet, (p->n_compared + 1) * (s->width * k + COLUMN_GAP) + COLUMN_GAP,
+               COLUMN_GAP + COLUMN_LABEL + 2 * (s->height * k + COLUMN_GAP), SHEET_PAPER);
+    snprintf(text, sizeof text, "%.14s", s->reference.origin);
     draw_column(&sheet, p->n_compared, "reference", "noise", s->reference.noise8, text, s->reference.pixels, s->width,
-                s->height, k * scale);
+                s->height, k);
     for (int v = 0; v < p->n_compared; v++) {
         const struct run *last = &s->run[v][0][plan_last_step(p)];
         snprintf(text, sizeof text, "%ld spp, %.1f s; 8x8 means %.1f", last->spp, last->value[Q_SECONDS],
                  pictures_blocks(s, v));
-        draw_column(&sheet, v, p->methods.item[v].label, "rmse8", last->value[Q_RMSE8], text, s->image[v], width,
-                    height, k);
+        draw_column(&sheet, v, p->methods.item[v].label, "rmse8", last->value[Q_RMSE8], text, s->image[v], s->width,
+                    s->height, k);
     }
-    if (scale == 1)
-        draw_errors(s, &sheet, k);
+    draw_errors(s, &sheet, k);
     return sheet;
 }
 

@@ -2,10 +2,8 @@
  * map, and the reference.
  *
  * Columns are labelled with the root mean square of the errors of all 8-bit values, and with that of means over 8x8
- * pixels. Where pictures are k times as wide and high as the reference (plan.h, scale), the mean of k x k of their
- * pixels is compared with one of the reference: with a box filter both have the same expectation. The heat maps share
- * one scale, so that they can be compared: dark is no error, bright is the 99th percentile of all their errors, and
- * more. Errors are those of the displayed 8-bit values, as in the tables.
+ * pixels. The heat maps share one scale, so that they can be compared: dark is no error, bright is the 99th percentile
+ * of all their errors, and more. Errors are those of the displayed 8-bit values, as in the tables.
  *
  * Tests: test_report.c, test_pictures.c, test/cli.sh.
  */
@@ -17,8 +15,8 @@
 
 enum { COLUMN_GAP = 24, COLUMN_LABEL = 60, COLUMN_WIDTH = 480, PICTURES_PERCENTILE = 99 };
 
-/* pictures_sheet: the sheet, with heat maps only if the plan's pictures have the reference's size; to be released with
- * sheet_free. pictures_write: the same as images/SCENE.png; false with a message. */
+/* pictures_sheet: the sheet, to be released with sheet_free. pictures_write: the same as
+ * images/SCENE.png; false with a message. */
 struct sheet pictures_sheet(const struct scene_results *s);
 bool pictures_write(const struct scene_results *s, struct error *err);
 

@@ -26,7 +26,6 @@ struct plan {
     int n_seeds;              /* repetitions of what is compared; what is in sweeps alone has one */
     int width, height;        /* width 0: the stored reference's; height 0: from the scene's aspect ratio */
     int max_depth;            /* 0: the stored reference's if the width is 0 too, else the scene's */
-    int scale;                /* pictures are so many times as wide and high, and their errors of means; 0: 1 */
     uint64_t seed;            /* 0, or another set of random numbers */
     int reference_spp;        /* of a reference made here */
     int n_threads;
@@ -48,9 +47,6 @@ bool plan_add_sweep(struct plan *p, const char *list, struct error *err);
 /* plan_last_step: the one after all samples. plan_last_spp: samples per pixel of the finished pictures. */
 static inline int plan_last_step(const struct plan *p) { return p->n_steps - 1; }
 static inline long plan_last_spp(const struct plan *p) { return p->spp[p->n_steps - 1]; }
-
-/* plan_scale: so many times as wide and high are pictures. */
-static inline int plan_scale(const struct plan *p) { return p->scale > 1 ? p->scale : 1; }
 
 /* plan_seeds: how often the plan renders a method. plan_seed: the seed of repetition i = 1, 2, ... Methods have seeds
  * of their own, so that their errors are independent, whatever else is measured. */

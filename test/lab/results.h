@@ -53,7 +53,7 @@ struct scene_results {
     struct price price[METHODS_MAX]; /* of equal time */
     double seconds;                  /* of equal time: CPU seconds of a sample of the first method */
     struct run run[METHODS_MAX][PLAN_MAX_SEEDS][PLAN_MAX_STEPS]; /* the first plan_seeds() and n_steps of each */
-    float *image[METHODS_MAX]; /* of what is compared: first seed, all samples; owned */
+    float *image[METHODS_MAX]; /* [height*width*3] of the first seed, all samples; owned */
 };
 
 struct results {

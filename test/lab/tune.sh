@@ -46,9 +46,10 @@ measure() {
         render as-it-is "$2" 1 "$REFERENCE_SPP" "$picture" && mv "$picture" "$reference" # only if it is complete
     } || return
     render "$1" "$2" "$3" "$SPP" "$picture" || return
-    errors=$("$dir/programs/asbdpt-lab" compare "$picture" "$reference" --json) || return
+    errors=$("$dir/programs/asbdpt-lab" compare "$picture" "$reference") || return
     seconds=$(sed -n 's/.*"cpu_seconds": \([0-9.e-]*\).*/\1/p' "$picture.json")
-    echo "$1 $2 $3 $(echo "$errors" | tr -d ',' | awk '{ print $4, $6, $8 }') $seconds" >>"$dir/runs.txt"
+    errors=$(echo "$errors" | awk '/^(rmse8|relmse|relmse8x8) / { printf "%s ", $2 }')
+    echo "$1 $2 $3 $errors$seconds" >>"$dir/runs.txt"
     rm "$picture" "$picture.json"
 }
 
