@@ -1,4 +1,4 @@
-/* test_hdr.c: images of linear light: OpenEXR, Radiance, and the tone curve.
+/* test_hdr.c: images of linear light: OpenEXR and the tone curve.
  *
  * Facts: files that OpenEXR's own library and ImageMagick made of picture.pfm have its pixels, compressed and laid out
  * in every way that is read. Faults: every other kind is refused; truncation, random changes, absurd sizes. */
@@ -306,82 +306,6 @@ static void test_place(struct test *t)
     }
 }
 
-/* --- Radiance ------------------------------------------------------------------------------------------ */
-
-/* ImageMagick's file, with runs; it cuts light off at 1. */
-static void test_rgbe_fixture(struct test *t)
-{
-    size_t n = 0;
-    struct image picture, img;
-    struct error err = {.text = ""};
-    int wrong = 0;
-    uint8_t *data = load(t, "picture.hdr", &n);
-    if (data == NULL || !CHECK(t, image_read(FIXTURES "picture.pfm", &picture, &err), "%s", err.text))
-        return;
-    if (CHECK(t, read_exactly(rgbe_read, data, n, &img, &err), "%s", err.text)) {
-        CHECK(t, img.width == picture.width && img.height == picture.height && img.channels == 3, "shape");
-        for (int i = 0; i < picture.width * picture.height * 3; i++)
-            wrong += fabsf(img.f32[i] - fminf(picture.f32[i], 1)) > 1.0f / 128;
-        CHECK(t, wrong == 0, "picture.hdr: %d samples are wrong", wrong);
-        image_free(&img);
-        check_spoilt(t, "picture.hdr", rgbe_read, data, n);
-    }
-    image_free(&picture);
-    free(data);
-}
-
-/* A header and pixels given as text, of which the first n bytes count. */
-static size_t make_rgbe(uint8_t *out, const char *size, const char *pixels, size_t n)
-{
-    int head = sprintf((char *)out, "#?RADIANCE\n# made by hand\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n%s\n", size);
-    memcpy(out + head, pixels, n);
-    return (size_t)head + n;
-}
-
-static void test_rgbe_by_hand(struct test *t)
-{
-    static const struct {
-        const char *size, *pixels;
-        size_t n;
-        const char *message; /* NULL: it is read */
-        float first, last;   /* reds */
-    } CASES[] = {
-        {"-Y 1 +X 2", "\200\0\0\201\100\0\0\201", 8, NULL, 1, 0.5f},
-        {"-Y 1 +X 8", "\2\2\0\10\207\200\1\100\210\0\210\0\210\201", 14, NULL, 1, 0.5f},
-        {"-Y 1 +X 1", "\200\0\0\0", 4, NULL, 0, 0},
-        {"-Y 1 +X 5", "\200\0\0\201\1\1\1\3\100\0\0\201", 12, "in row 0", 0, 0},
-        {"-Y 1 +X 3", "\200\0\0\201\1\1\1\3\100\0\0\201", 12, "old kind of runs in row 0", 0, 0},
-        {"+X 2 -Y 1", "", 0, "size \"+X 2 -Y 1\"", 0, 0},
-        {"-Y 2 +X ", "", 0, "empty", 0, 0},
-        {"-Y 2 +X 3x", "", 0, "size \"-Y 2 +X 3x\"", 0, 0},
-        {"-Y 99999 +X 99999", "", 0, "too many", 0, 0},
-        {"-Y 16384 +X 16384", "", 0, "do not fit", 0, 0},
-        {"-Y 1 +X 2", "\200\0\0\201\100\0\0", 7, "in row 0", 0, 0},
-        {"-Y 1 +X 8", "\2\2\0\10\211\200", 6, "in row 0", 0, 0}, /* a run beyond the end */
-        {"-Y 1 +X 8", "\2\2\0\10\0\200", 6, "in row 0", 0, 0},  /* an empty run */
-        {"-Y 1 +X 8", "\2\2\0\10\4\200\200", 7, "in row 0", 0, 0},
-    };
-    uint8_t data[256];
-    struct image img;
-    struct error err = {.text = ""};
-    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
-        size_t n = make_rgbe(data, CASES[i].size, CASES[i].pixels, CASES[i].n);
-        if (CASES[i].message != NULL) {
-            check_no_picture(t, rgbe_read, data, n, CASES[i].message);
-            continue;
-        }
-        if (!CHECK(t, read_exactly(rgbe_read, data, n, &img, &err), "%s: %s", CASES[i].size, err.text))
-            continue;
-        const float *last = img.f32 + 3 * ((size_t)img.width * (size_t)img.height - 1);
-        CHECK(t, img.f32[0] == CASES[i].first && last[0] == CASES[i].last && last[1] == 0, "%s: %g, %g",
-              CASES[i].size, img.f32[0], last[0]);
-        image_free(&img);
-        check_spoilt(t, CASES[i].size, rgbe_read, data, n);
-    }
-    static const char XYZ[] = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n";
-    check_no_picture(t, rgbe_read, (const uint8_t *)XYZ, sizeof XYZ - 1, "format \"32-bit_rle_xyze\"");
-}
-
 /* --- tone ---------------------------------------------------------------------------------------------- */
 
 static void test_tone(struct test *t)
@@ -413,7 +337,5 @@ void test_hdr(struct test *t)
     test_refused_blocks(t);
     test_alpha(t);
     test_place(t);
-    test_rgbe_fixture(t);
-    test_rgbe_by_hand(t);
     test_tone(t);
 }

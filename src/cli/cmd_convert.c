@@ -20,7 +20,7 @@ struct convert_options {
 #define AT(member) offsetof(struct convert_options, member)
 static const struct option OPTIONS[] = {
     {"IN", NULL, OPTION_TEXTS, AT(in), 1,
-     .help = "an image to read: .exr .pfm .hdr .pic .png .tga .ppm .pgm; several are added up"},
+     .help = "an image to read: .exr .pfm .png .tga .ppm .pgm; several are added up"},
     {"--weights", "LIST", OPTION_TEXT, AT(weights), .help = "factor of each image, as 1,0.5,2 (default: 1)"},
     {"-o", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "--outfile", .written = true,
      .help = "an image to write: linear .pfm or .exr, sRGB .png or .ppm; repeatable"},

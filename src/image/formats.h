@@ -52,9 +52,4 @@ bool exr_read(const uint8_t *data, size_t size, struct image *out, struct error 
 void exr_write_half(FILE *f, const struct raster *r);
 void exr_write_float(FILE *f, const struct raster *r);
 
-/* Radiance pictures [Radiance], RGB with a common exponent: flat or with runs; rows from the top, pixels from the left.
- * EXPOSURE and the like have no meaning. */
-bool rgbe_matches(const uint8_t *data, size_t size);
-bool rgbe_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
-
 #endif

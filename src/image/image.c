@@ -23,8 +23,6 @@ static const struct format FORMATS[] = {
     {".pfm", pfm_matches, pfm_read, pfm_write, false, false},
     {".float.exr", exr_matches, exr_read, exr_write_float, false, true},
     {".exr", exr_matches, exr_read, exr_write_half, false, true},
-    {".hdr", rgbe_matches, rgbe_read, NULL, false, false},
-    {".pic", rgbe_matches, rgbe_read, NULL, false, false},
     {".ppm", ppm_matches, ppm_read, ppm_write, true, false},
     {".pgm", ppm_matches, ppm_read, NULL, true, false},
     {".png", png_matches, png_read, png_write, true, false},
@@ -54,7 +52,7 @@ static bool read_bytes(const char *path, const uint8_t *data, size_t size, struc
     if (format == NULL)
         format = format_by_name(path);
     if (format == NULL)
-        return error_set(err, "unknown image format; convert it to PFM, OpenEXR, Radiance, PNG, PPM or TGA");
+        return error_set(err, "unknown image format; convert it to PFM, OpenEXR, PNG, PPM or TGA");
     return format->read(data, size, out, err);
 }
 

@@ -1,8 +1,7 @@
 /* image.h: pictures in memory and their files.
  *
- * Formats are rows of one table in image.c: PFM, OpenEXR and Radiance (linear RGB), PPM, PNG and TGA (8-bit sRGB when
- * written; read as stored). Radiance and TGA are only read. The pixels in memory are picture.h's, the formats
- * formats.h's.
+ * Formats are rows of one table in image.c: PFM and OpenEXR (linear RGB), PPM, PNG and TGA (8-bit sRGB when written;
+ * read as stored). TGA is only read. The pixels in memory are picture.h's, the formats formats.h's.
  * Tests: test_image.c, test_hdr.c. */
 #ifndef ASBDPT_IMAGE_H
 #define ASBDPT_IMAGE_H

@@ -39,7 +39,7 @@ for target; do
         } >build-fuzz/scene.dict
         words=-dict=build-fuzz/scene.dict
         ;;
-    exr | hdr | pfm) cp test/fixtures/pictures/* "$seeds" ;;
+    exr | pfm) cp test/fixtures/pictures/* "$seeds" ;;
     esac
     TARGET=$target nice -n 15 build-fuzz/fuzz -fork=1 -ignore_crashes=1 -ignore_timeouts=1 -ignore_ooms=1 -timeout=60 \
         -rss_limit_mb=1500 -max_len=4096 $words -max_total_time="$seconds" -artifact_prefix="build-fuzz/$target-" \

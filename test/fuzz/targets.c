@@ -130,7 +130,6 @@ static void fuzz_tga(const uint8_t *data, size_t size, const char *dir) { read_p
 static void fuzz_pfm(const uint8_t *data, size_t size, const char *dir) { read_picture(pfm_read, data, size, dir); }
 static void fuzz_ppm(const uint8_t *data, size_t size, const char *dir) { read_picture(ppm_read, data, size, dir); }
 static void fuzz_exr(const uint8_t *data, size_t size, const char *dir) { read_picture(exr_read, data, size, dir); }
-static void fuzz_hdr(const uint8_t *data, size_t size, const char *dir) { read_picture(rgbe_read, data, size, dir); }
 
 /* Two bytes say how long the output is; what unpacks must come back when it is packed and unpacked. */
 static void fuzz_inflate(const uint8_t *data, size_t size, const char *directory)
@@ -306,9 +305,9 @@ static void fuzz_hostile(const uint8_t *data, size_t size, const char *directory
 /* --- the table ------------------------------------------------------------------------------------------ */
 
 const struct fuzz_target fuzz_targets[] = {
-    {"png", fuzz_png},   {"tga", fuzz_tga}, {"pfm", fuzz_pfm},     {"ppm", fuzz_ppm},
-    {"exr", fuzz_exr},   {"hdr", fuzz_hdr}, {"inflate", fuzz_inflate}, {"ply", fuzz_ply},
-    {"part", fuzz_part}, {"record", fuzz_record}, {"scene", fuzz_scene}, {"hostile", fuzz_hostile}, {NULL, NULL}};
+    {"png", fuzz_png}, {"tga", fuzz_tga},         {"pfm", fuzz_pfm}, {"ppm", fuzz_ppm},   {"exr", fuzz_exr},
+    {"ply", fuzz_ply}, {"inflate", fuzz_inflate}, {"part", fuzz_part}, {"record", fuzz_record}, {"scene", fuzz_scene},
+    {"hostile", fuzz_hostile}, {NULL, NULL}};
 
 const struct fuzz_target *fuzz_find(const char *name)
 {

@@ -89,7 +89,7 @@ static void print_channel(const float *value, int channel, long pixels)
 /* The format's, if it is the name of a picture; else NULL. */
 static const char *extension(const char *path)
 {
-    static const char *const KNOWN[] = {".pfm", ".float.exr", ".exr", ".hdr", ".pic", ".ppm", ".pgm", ".png", ".tga"};
+    static const char *const KNOWN[] = {".pfm", ".float.exr", ".exr", ".ppm", ".pgm", ".png", ".tga"};
     for (size_t i = 0; i < sizeof KNOWN / sizeof KNOWN[0]; i++)
         if (file_has_extension(path, KNOWN[i]))
             return KNOWN[i];
