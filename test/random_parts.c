@@ -291,7 +291,7 @@ void put_shape(struct writer *w, bool lamp)
     if (chance(w, 0.3))
         put(w, "ReverseOrientation ");
     put(w, "Shape ");
-    switch (pick(w, lamp ? 5 : 10)) {
+    switch (pick(w, lamp ? 5 : 9)) {
     case 0:
         put(w, "\"disk\" ");
         put_float(w, "height", between(w, -0.3, 0.3));
@@ -328,12 +328,6 @@ void put_shape(struct writer *w, bool lamp)
         put(w, "\"integer indices\" [ 0 2 1 0 3 2 0 1 3 1 2 3 ] \"point P\" [ ");
         for (int i = 0; i < 4; i++)
             put_vec(w, i == 0 ? vec(0, 0, 1.2) : cylindrical(1.2, i * 2 * PI / 3, -0.6));
-        put(w, "] ");
-        break;
-    case 9:
-        put(w, "\"heightfield\" \"integer nu\" 3 \"integer nv\" 3 \"float Pz\" [ ");
-        for (int i = 0; i < 9; i++)
-            put(w, "%.3f ", between(w, -0.3, 0.3));
         put(w, "] ");
         break;
     }

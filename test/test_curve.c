@@ -1,4 +1,4 @@
-/* test_curve.c: curves and NURBS as triangles: points and normals against closed forms. */
+/* test_curve.c: curves as triangles: points and normals against closed forms. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,6 @@
 #include "helpers.h"
 #include "tests.h"
 
-enum { MOST = 2 * 29 * 29 }; /* triangles of a NURBS surface */
 enum { RING = 9 }; /* points of a tube's row; the first and the last are one */
 
 /* What a scene file says of a curve; a ribbon if it has normals. */
@@ -175,90 +174,9 @@ static void ribbon(struct test *t)
     CHECK(t, curve_mesh(&c, &m, most, &err) && m.n_triangles == 0, "no width, no triangles");
 }
 
-struct nurbs_axis {
-    int n, order;
-    const double *knot; /* [n + order] */
-    double from, to;
-};
-
-static bool nurbs_mesh(const struct nurbs_axis *u, const struct nurbs_axis *v, const double *Pw, struct mesh *m,
-                       int most, struct error *err)
-{
-    struct shape_fields f = shape_fields_of("nurbs");
-    struct field_list points = {Pw, u->n * v->n};
-    shape_fields_set(&f, "Pw", &points, sizeof points);
-    for (int i = 0; i < 2; i++) {
-        const struct nurbs_axis *a = i == 0 ? u : v;
-        struct field_list knots = {a->knot, a->n + a->order};
-        shape_fields_set(&f, i == 0 ? "nu" : "nv", &a->n, sizeof a->n);
-        shape_fields_set(&f, i == 0 ? "uorder" : "vorder", &a->order, sizeof a->order);
-        shape_fields_set(&f, i == 0 ? "uknots" : "vknots", &knots, sizeof knots);
-        shape_fields_set(&f, i == 0 ? "u0" : "v0", &a->from, sizeof a->from);
-        shape_fields_set(&f, i == 0 ? "u1" : "v1", &a->to, sizeof a->to);
-    }
-    return shape_fields_mesh(&f, most, m, err);
-}
-
-/* A quarter of a cone, exact as a rational surface: points, normals, parameters. */
-static void rational(struct test *t)
-{
-    const double h = sqrt(0.5), uk[] = {0, 0, 0, 1, 1, 1}, vk[] = {2, 2, 4, 4};
-    const double Pw[] = {1, 0, 0, 1, h, h, 0, h, 0, 1, 0, 1, 2, 0, 1, 1, 2 * h, 2 * h, h, h, 0, 2, 1, 1};
-    struct nurbs_axis u = {3, 3, uk, 0, 1}, v = {2, 2, vk, 2, 3};
-    struct mesh m = {0};
-    struct error err = {.text = ""};
-    CHECK(t, nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "%s", err.text);
-    for (size_t i = 0; i < (size_t)m.n_vertices; i++) {
-        vec3 p = load3(m.P, i), n = load3(m.N, i), want = normalize(vec(p.x, p.y, -sqrt(p.x * p.x + p.y * p.y)));
-        CHECK(t, fabs(sqrt(p.x * p.x + p.y * p.y) - 1 - p.z) < 1e-6, "a cone: %g %g %g", p.x, p.y, p.z);
-        CHECK(t, length(sub(n, want)) < 1e-5 && fabs(p.z - (m.UV[2 * i + 1] - 2) / 2) < 1e-6, "normal and v");
-    }
-    CHECK(t, m.P[3 * 29] == 0 && m.UV[2 * 29] == 1 && m.n_triangles == 2 * 29 * 29, "u runs first");
-    mesh_free(&m);
-}
-
-/* The spline of control points that lie on a line, at the means of the knots behind them, is that line, whatever the
- * knots. */
-static void knots(struct test *t)
-{
-    const double k[] = {0, 0, 0, 0, 0, 1, 3, 3, 4, 7, 7, 7.5, 8}, line[] = {0, 0, 1, 1};
-    enum { ORDER = 4, POINTS = 9 };
-    double Pw[POINTS * 2 * 4];
-    for (int i = 0; i < POINTS * 2; i++) {
-        const double *at = k + i % POINTS;
-        const double p[4] = {(at[1] + at[2] + at[3]) / 3, i / POINTS, 0, 1};
-        for (int j = 0; j < 4; j++)
-            Pw[4 * i + j] = p[j];
-    }
-    struct nurbs_axis u = {POINTS, ORDER, k, 0, 7}, v = {2, 2, line, 0, 1};
-    struct mesh m = {0};
-    struct error err = {.text = ""};
-    CHECK(t, nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "%s", err.text);
-    for (size_t i = 0; i < (size_t)m.n_vertices; i++)
-        CHECK(t, fabs(m.P[3 * i] - m.UV[2 * i]) < 1e-5 && m.N[3 * i + 2] > 0.9999, "at %g: %g", m.UV[2 * i],
-              m.P[3 * i]);
-    mesh_free(&m);
-    CHECK(t, !nurbs_mesh(&u, &v, Pw, &m, MOST - 1, &err) && m.P == NULL, "too many triangles are refused");
-    Pw[4 * 2 + 3] = -9;
-    CHECK(t, !nurbs_mesh(&u, &v, Pw, &m, MOST, &err), "negative weights are refused");
-    mesh_free(&m);
-    struct nurbs_axis wide = u, empty = u, falling = u;
-    const double fall[] = {0, 0, 0, 0, 0, 1, 3, 2, 4, 7, 7, 7.5, 8};
-    wide.to = 7.1;
-    empty.to = 0;
-    falling.knot = fall;
-    Pw[4 * 2 + 3] = 1;
-    const struct nurbs_axis *const useless[] = {&wide, &empty, &falling};
-    for (int i = 0; i < 3; i++)
-        CHECK(t, !nurbs_mesh(useless[i], &v, Pw, &m, MOST, &err) && strstr(err.text, "a nurbs needs") != NULL,
-              "axis %d is of no use: %s", i, err.text);
-}
-
 void test_curve(struct test *t)
 {
     straight(t);
     bases(t);
     ribbon(t);
-    rational(t);
-    knots(t);
 }

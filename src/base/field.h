@@ -20,8 +20,7 @@ enum field_kind {
     FIELD_MATERIAL,      /* int: a material made before */
     FIELD_FOURIER_TABLE, /* int: of the texture set, from a file */
     FIELD_FILE,          /* const char *: a path that may be read, or NULL; borrowed */
-    FIELD_FLOATS,        /* struct field_list, and the next, too: `low` of them make an entry */
-    FIELD_INDICES, FIELD_POINTS, FIELD_VECTORS, FIELD_NORMALS, FIELD_PAIRS, /* entries of three, and of two */
+    FIELD_INDICES, FIELD_POINTS, FIELD_VECTORS, FIELD_NORMALS, FIELD_PAIRS, /* struct field_list: of three, of two */
     FIELD_IGNORED        /* nothing depends on it */
 };
 
@@ -40,8 +39,7 @@ struct field_list {
     int n;
 };
 
-#define FIELD_KEPT ((double)NAN) /* the fallback is the value that is there already; of numbers, points and textures; */
-#define FIELD_NONE INFINITY       /* or is what no number can be */
+#define FIELD_KEPT ((double)NAN) /* the fallback is the value that is there already; of numbers, points and textures */
 
 /* field_find: the one of that name in a table, which ends with one without, or NULL. field_fallback: of the three kinds
  * that methods have: the default as text [size]. */

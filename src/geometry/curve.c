@@ -7,6 +7,7 @@
  *
  * Tests: test_curve.c.
  */
+#include "base/mem.h"
 #include "base/number.h"
 #include "base/vec.h"
 #include "geometry/mesh.h"
@@ -92,6 +93,26 @@ static int pieces(const vec3 b[4], double width, double turn)
     return n >= 1 ? n < MOST_PIECES ? (int)n : MOST_PIECES : 1;
 }
 
+/* Make an empty mesh a net of points, both numbers >= 2, with two triangles between each four. The points, row by row,
+ * and their N and UV are to be filled in. */
+static void make_net(struct mesh *m, int columns, int rows)
+{
+    size_t n = (size_t)columns * (size_t)rows;
+    m->n_vertices = columns * rows;
+    m->P = mem_alloc(n, 3 * sizeof *m->P);
+    m->N = mem_alloc(n, 3 * sizeof *m->N);
+    m->UV = mem_alloc(n, 2 * sizeof *m->UV);
+    m->index = mem_alloc(n, 6 * sizeof *m->index);
+    for (int i = 0; i < m->n_vertices - columns; i++) {
+        if (i % columns == columns - 1)
+            continue;
+        const int corner[6] = {i, i + 1, i + 1 + columns, i, i + 1 + columns, i + columns};
+        for (int k = 0; k < 6; k++)
+            m->index[3 * m->n_triangles + k] = (uint32_t)corner[k];
+        m->n_triangles += 2;
+    }
+}
+
 /* A row of the mesh around or across the curve at p, where x is a normal of it and y across both. */
 static void put_row(struct mesh *m, int row, bool tube, vec3 p, vec3 x, vec3 y, double width)
 {
@@ -133,7 +154,7 @@ static bool make(const struct curve *c, int segments, struct mesh_task *task, st
         return true;
     if (!mesh_take_room(task, 2 * rows * (columns - 1)))
         return false;
-    mesh_grid(m, columns, (int)rows, true);
+    make_net(m, columns, (int)rows);
     for (int s = 0; s < segments; s++) {
         bezier(c, s, b);
         double turn = ribbon_turn(c, s, ends);

@@ -23,24 +23,6 @@ void mesh_free(struct mesh *m)
     memset(m, 0, sizeof *m);
 }
 
-void mesh_grid(struct mesh *m, int columns, int rows, bool has_n)
-{
-    size_t n = (size_t)columns * (size_t)rows;
-    m->n_vertices = columns * rows;
-    m->P = mem_alloc(n, 3 * sizeof *m->P);
-    m->N = has_n ? mem_alloc(n, 3 * sizeof *m->N) : NULL;
-    m->UV = mem_alloc(n, 2 * sizeof *m->UV);
-    m->index = mem_alloc(n, 6 * sizeof *m->index);
-    for (int i = 0; i < m->n_vertices - columns; i++) {
-        if (i % columns == columns - 1)
-            continue;
-        const int corner[6] = {i, i + 1, i + 1 + columns, i, i + 1 + columns, i + columns};
-        for (int k = 0; k < 6; k++)
-            m->index[3 * m->n_triangles + k] = (uint32_t)corner[k];
-        m->n_triangles += 2;
-    }
-}
-
 void geometry_free(struct geometry *geo)
 {
     free(geo->P);

@@ -72,10 +72,6 @@ struct mesh {
 /* mesh_free: release its arrays; the mesh is empty then. geometry_free: the same of a geometry. */
 void mesh_free(struct mesh *m);
 
-/* mesh_grid: make an empty mesh a net of columns times rows points, both >= 2, with two triangles between each four.
- * The points, row by row, their UV and, if it has some, their N are to be filled in. */
-void mesh_grid(struct mesh *m, int columns, int rows, bool has_n);
-
 /* shape_add_mesh: transform a mesh to world space and append it as one group.
  *   group  material, alpha and light fields to use; first_prim, flip (from reverse_orientation), has_n, has_s
  *          and has_uv are filled in here

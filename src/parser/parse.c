@@ -182,7 +182,6 @@ static void read_field(struct parser *p, const struct field *f, void *place)
     case FIELD_MATERIAL: *whole = parse_part(p, f->name); break;
     case FIELD_FOURIER_TABLE: *whole = parse_fourier_table(p, f->name); break;
     case FIELD_FILE: *(const char **)place = path_of(p, f->name); break;
-    case FIELD_FLOATS: *list = params_list(q, f->name, 1u << PARAM_FLOAT, (int)f->low); break;
     case FIELD_INDICES: *list = params_list(q, f->name, 1u << PARAM_INTEGER, 3); break;
     case FIELD_POINTS: *list = params_list(q, f->name, 1u << PARAM_POINT, 3); break;
     case FIELD_VECTORS: *list = params_list(q, f->name, 1u << PARAM_VECTOR, 3); break;

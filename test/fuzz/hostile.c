@@ -85,7 +85,6 @@ static const struct open {
     {"filename", "string", "parts/grey.tga,parts/map.pfm,missing.png,."},
     {"screenwindow", "float", "-1 1 -1 1,0 1e-30 0 1,1 0 0 1,-1e30 1e30 0 1"},
     {"cropwindow", "float", "0 1 0 1,0.4 0.6 0 1,0.9 0.1 0 1,0 1e-30 0 1"},
-    {"uknots", "float", "0 0 1 1,0 1 2 3,0 1e-30 1e30 1e30"}, {"vknots", "float", "0 0 1 1,0 1e-30 1e30 1e30"},
     {NULL, "float", NULL}};
 
 /* What a kind of field is in a scene file, and how many numbers it takes: four points, so that lists fit together. */
@@ -97,7 +96,7 @@ static const struct open OF_KIND[] = {
     [FIELD_OPERAND] = {NULL, "rgb", NULL}, [FIELD_VALUE] = {NULL, "rgb", NULL},
     [FIELD_MATERIAL] = {NULL, "string", "m1,m0"},
     [FIELD_FOURIER_TABLE] = {NULL, "string", "../../scenes/features/layered.bsdf,parts/broken.ply"},
-    [FIELD_FILE] = {NULL, "string", "parts/triangle.ply,parts/broken.ply"}, [FIELD_FLOATS] = {NULL, "float", NULL},
+    [FIELD_FILE] = {NULL, "string", "parts/triangle.ply,parts/broken.ply"},
     [FIELD_INDICES] = {NULL, "integer", "0 1 2 0 2 3,0 1 2,0 1 2 3,0 -1 2 0 2 4"},
     [FIELD_POINTS] = {NULL, "point", NULL}, [FIELD_VECTORS] = {NULL, "vector", NULL},
     [FIELD_NORMALS] = {NULL, "normal", NULL}, [FIELD_PAIRS] = {NULL, "float", NULL}};
@@ -126,14 +125,14 @@ static void number_of(struct writer *w, const struct field *f)
     }
 }
 
-static bool is_list(enum field_kind kind) { return kind >= FIELD_FLOATS && kind <= FIELD_PAIRS; }
+static bool is_list(enum field_kind kind) { return kind >= FIELD_INDICES && kind <= FIELD_PAIRS; }
 
 static unsigned count(const struct field *f, const char *type)
 {
     bool three = strcmp(type, "rgb") == 0 || strcmp(type, "point") == 0 || strcmp(type, "vector") == 0 ||
                  strcmp(type, "normal") == 0;
     unsigned one = three ? 3 : strcmp(type, "spectrum") == 0 || f->kind == FIELD_PAIRS ? 2 : 1;
-    return !is_list(f->kind) ? one : f->kind == FIELD_FLOATS && f->low > 1 ? 4 * (unsigned)f->low : 4 * one;
+    return is_list(f->kind) ? 4 * one : one;
 }
 
 static void parameter(struct writer *w, const struct field *f)
@@ -141,7 +140,7 @@ static void parameter(struct writer *w, const struct field *f)
     const struct open *o = OPEN, *kind = &OF_KIND[f->kind];
     while (o->name != NULL && strcmp(o->name, f->name) != 0)
         o++;
-    if (f->kind != FIELD_OTHER && !(f->kind == FIELD_FLOATS && o->values != NULL))
+    if (f->kind != FIELD_OTHER)
         o = kind;
     bool textured = f->kind == FIELD_FLOAT_TEXTURE || f->kind == FIELD_RGB_TEXTURE || f->kind == FIELD_OPERAND;
     unsigned wanted = count(f, o->type);
