@@ -10,7 +10,6 @@
 #include "lab/stats.h"
 #include "image/image.h"
 #include "lab/compare.h"
-#include "lab/markup.h"
 #include "lab/measure.h"
 #include "lab/pictures.h"
 #include "lab/report.h"
@@ -109,26 +108,12 @@ static void test_marks(struct test *t)
     CHECK(t, met == TRIALS, "%d of %d marks are right", met, TRIALS);
 }
 
-/* --- text -------------------------------------------------------------------------------------------- */
-
 static int lines_of(const char *text)
 {
     int n = 0;
     for (; (text = strchr(text, '\n')) != NULL; text++)
         n++;
     return n;
-}
-
-static void test_markup(struct test *t)
-{
-    char path[256];
-    snprintf(path, sizeof path, "%s/markup", test_tmp(t));
-    FILE *f = fopen(path, "w");
-    xml_print(f, "<%s>%s</p> %d %04ld %.1f %s|", "p", "a<b & \"c\" %d", 3, 14L, 0.25, "x");
-    fclose(f);
-    char *text = text_of(t, test_tmp(t), "markup");
-    CHECK(t, strcmp(text, "<p>a&lt;b &amp; &quot;c&quot; %d</p> 3 0014 0.2 x|") == 0, "markup printed: %s", text);
-    free(text);
 }
 
 /* --- a tiny experiment ------------------------------------------------------------------------------- */
@@ -380,7 +365,6 @@ void test_report(struct test *t)
     test_statistics(t);
     test_pairs_of_seeds(t);
     test_marks(t);
-    test_markup(t);
     test_experiment(t);
     test_plan(t);
     test_equal_time(t);

@@ -60,11 +60,6 @@ static void print_scene(const struct scene *s, const struct method *m, double se
 
 /* --- pictures ------------------------------------------------------------------------------------------ */
 
-struct info_options {
-    struct job_options job;
-    const char *pixel; /* NULL: all of the picture */
-};
-
 /* Least, largest, mean of the finite values of a channel, and how many the others are. */
 static void print_channel(const float *value, int channel, long pixels)
 {
@@ -96,46 +91,34 @@ static const char *extension(const char *path)
     return NULL;
 }
 
-static bool print_picture(const struct info_options *o, struct error *err)
+static bool print_picture(const char *path, struct error *err)
 {
-    int width, height, x = 0, y = 0;
-    char more;
+    int width, height;
     struct image about;
-    if (o->pixel != NULL && (sscanf(o->pixel, "%5d,%5d%c", &x, &y, &more) != 2 || x < 0 || y < 0))
-        return error_usage(err, "--pixel %s: two numbers are wanted, as in 20,10", o->pixel);
-    float *value = image_read_linear(o->job.scene_path, &width, &height, &about, err);
+    float *value = image_read_linear(path, &width, &height, &about, err);
     if (value == NULL)
         return false;
-    bool ok = x < width && y < height;
-    if (ok && o->pixel != NULL) {
-        const float *p = value + 3 * ((size_t)y * (size_t)width + (size_t)x);
-        printf("%.9g %.9g %.9g\n", (double)p[0], (double)p[1], (double)p[2]);
-    } else if (ok) {
-        printf("format        %s, %s\nsize          %dx%d\nchannels      %s", extension(o->job.scene_path),
-               about.linear ? "linear" : "sRGB, here made linear", width, height,
-               about.channels == 1 ? "1, grey" : "3, RGB");
-        printf("\n");
-        for (int c = 0; c < 3; c++)
-            print_channel(value, c, (long)width * height);
-    }
+    printf("format        %s, %s\nsize          %dx%d\nchannels      %s\n", extension(path),
+           about.linear ? "linear" : "sRGB, here made linear", width, height,
+           about.channels == 1 ? "1, grey" : "3, RGB");
+    for (int c = 0; c < 3; c++)
+        print_channel(value, c, (long)width * height);
     free(value);
-    return ok || error_usage(err, "--pixel %s: the picture is %dx%d, and 0,0 at its top left", o->pixel, width, height);
+    return true;
 }
 
 /* --- the command --------------------------------------------------------------------------------------- */
 
 static int run(void *options)
 {
-    const struct info_options *o = options;
+    const struct job_options *o = options;
     struct scene scene;
     const struct method *integrator;
     double start = os_wall_seconds();
     struct error err;
-    if (extension(o->job.scene_path) != NULL)
-        return print_picture(o, &err) ? EXIT_OK : fail(&err);
-    if (o->pixel != NULL)
-        return usage_error(&command_info, "--pixel is for pictures; asbdpt-lab trace tells of a scene's");
-    int status = job_load(&o->job, &scene, &integrator);
+    if (extension(o->scene_path) != NULL)
+        return print_picture(o->scene_path, &err) ? EXIT_OK : fail(&err);
+    int status = job_load(o, &scene, &integrator);
     if (status != EXIT_OK)
         return status;
     print_scene(&scene, integrator, os_wall_seconds() - start);
@@ -143,13 +126,11 @@ static int run(void *options)
     return EXIT_OK;
 }
 
-#define AT(member) offsetof(struct info_options, member)
 static const struct option OPTIONS[] = {
-    {"FILE", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file, or a picture"},
-    {"--pixel", "X,Y", OPTION_TEXT, AT(pixel), .help = "of a picture: only this pixel's values; 0,0 is top left"},
+    {"FILE", NULL, OPTION_TEXT, offsetof(struct job_options, scene_path), 1, .help = "a scene file, or a picture"},
     {.others = JOB_OPTIONS},
 };
 
 const struct command command_info = {
-    "info", "describe a scene, or a picture", {"SCENE.pbrt [options]", "PICTURE [--pixel X,Y]"}, OPTIONS,
-    sizeof(struct info_options), run, true, "info scenes/bathroom.pbrt"};
+    "info", "describe a scene, or a picture", {"SCENE.pbrt [options]", "PICTURE"}, OPTIONS,
+    sizeof(struct job_options), run, true, "info scenes/bathroom.pbrt"};

@@ -129,14 +129,6 @@ struct interval equal_over_best(const struct results *r, int method, const int *
 
 /* --- the words --------------------------------------------------------------------------------------- */
 
-double equal_seconds(const struct scene_results *s)
-{
-    double sum = 0;
-    for (int v = 0; v < s->plan->methods.n; v++)
-        sum += s->price[v].before + (double)equal_samples(s, v) * s->price[v].each;
-    return sum * s->seconds;
-}
-
 /* "0.8 (95 %: 0.6 to 1.1): undecided; more seeds may decide". What is marked has less error, but no gain. */
 static void say(FILE *f, const struct results *all, struct interval r, bool marked)
 {

@@ -54,9 +54,6 @@ struct interval equal_mean(const struct results *r, int method, int over, enum s
 struct interval equal_over_best(const struct results *r, int method, const int *others, int n_others,
                                 enum square which);
 
-/* equal_seconds: CPU seconds of one seed of all methods, by their prices. */
-double equal_seconds(const struct scene_results *s);
-
 /* equal_verdict: is the first method beaten? Two lines for each other, and one; where that is undecided, what would
  * decide it. Before these a line for each scene where a method is marked, which has no gain. */
 void equal_verdict(FILE *f, const struct results *r);

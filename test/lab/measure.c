@@ -194,18 +194,6 @@ static bool make_reference(struct subject *s)
                           &r->reference, s->err);
 }
 
-/* What is about to take long. */
-static void announce(struct subject *s)
-{
-    const struct plan *p = s->plan;
-    double seed = equal_seconds(s->out);
-    char all[32];
-    progress_duration(p->n_seeds * seed, all, sizeof all);
-    progress_end(&s->pace->bar);
-    fprintf(stderr, "%s, %dx%d: %d renders of %.2g s each: some %s of CPU, less what is kept from before\n",
-            s->out->name, s->out->width, s->out->height, p->n_seeds * p->methods.n, seed / p->methods.n, all);
-}
-
 /* Seeds come before methods, so that a machine that slows down in between slows down all alike. */
 static bool measure_methods(struct subject *s)
 {
@@ -213,8 +201,6 @@ static bool measure_methods(struct subject *s)
     bool ok = true;
     for (int v = 0; ok && p->equal && v < p->methods.n; v++)
         ok = subject_price(s, v);
-    if (ok && p->equal && !p->quiet)
-        announce(s);
     for (int seed = 1; ok && seed <= p->n_seeds; seed++)
         for (int v = 0; ok && v < p->methods.n; v++)
             ok = seed > plan_seeds(p, v) || read_or_render_run(s, v, seed);

@@ -57,14 +57,13 @@ static void add_columns(struct table *t, const char *const *name, int n)
 /* --- the table --------------------------------------------------------------------------------------- */
 
 /* A row is a method in a scene after a step. */
-static struct table begin_rows(FILE *f, const char *first)
+static struct table begin_rows(FILE *f)
 {
-    static const char *const heads[] = {"method", "RMSE", "over the first's [95 %]", "printed", "seconds",
+    static const char *const heads[] = {"spp", "method", "RMSE", "over the first's [95 %]", "printed", "seconds",
                                         "cost over the first's [95 %]", "mean off by, %", "tested"};
     struct table t = table_begin(f, "RMSE on the 8-bit scale, mean over seeds and its standard error; printed: the "
                                  "dissertation's; cost: squared error times seconds of CPU");
-    table_column(&t, "%s", first);
-    add_columns(&t, heads, 8);
+    add_columns(&t, heads, 9);
     return t;
 }
 
@@ -100,23 +99,11 @@ static void scene_table(FILE *f, const struct results *r, const struct scene_res
     if (isfinite(s->reference.mean_error))
         snprintf(own, sizeof own, "%.2g %%", 100 * s->reference.mean_error);
     fprintf(f, "The standard error of the reference's own mean is %s.\n\n", own);
-    struct table t = begin_rows(f, "spp");
+    struct table t = begin_rows(f);
     for (int v = 0; v < r->plan->methods.n; v++)
         for (int i = 0; i < r->plan->n_steps; i++) {
             table_add(&t, "%ld", r->plan->spp[i]);
             add_row(&t, s, v, i);
-        }
-    table_end(&t);
-}
-
-static void last_table(FILE *f, const struct results *r)
-{
-    fprintf(f, "After %ld samples per pixel.\n\n", plan_last_spp(r->plan));
-    struct table t = begin_rows(f, "scene");
-    for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
-        for (int v = 0; v < r->plan->n_compared; v++) {
-            table_add(&t, "%.90s", s->name);
-            add_row(&t, s, v, plan_last_step(r->plan));
         }
     table_end(&t);
 }
@@ -175,7 +162,6 @@ static void write_page(FILE *f, const struct results *r)
             p->n_seeds == 1 ? "" : "s");
     plan_write_command(f, p);
     setup_table(f, r);
-    last_table(f, r);
     for (int i = 0; i < p->n_scenes; i++)
         write_scene(f, r, &r->scene[i]);
     fputs(NOTES, f);

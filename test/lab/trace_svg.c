@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab/markup.h"
 #include "lab/trace_report.h"
 
 enum { WIDTH = 560, MARGIN = 20, TOP = 64, CELLS = 320, PIECES = 48 };
@@ -160,7 +159,7 @@ static void draw_outlines(FILE *f, const struct view *v)
             struct ray ray = ray_through(v, i + 0.5, j + 0.5);
             hit[j * v->nx + i] = scene_intersect(v->scene, &ray, &at[j * v->nx + i]);
         }
-    xml_print(f, "<path class=\"scene\" d=\"");
+    fprintf(f, "<path class=\"scene\" d=\"");
     for (int across = 0; across < 2; across++) {
         int lines = across ? v->ny : v->nx, length = across ? v->nx : v->ny;
         int step = across ? 1 : v->nx, back = across ? v->nx : 1;
@@ -171,12 +170,12 @@ static void draw_outlines(FILE *f, const struct view *v)
                 if (edge && !open)
                     begun = i;
                 if (!edge && open)
-                    xml_print(f, across ? "M%.1f %.1fh%.1f" : "M%.1f %.1fv%.1f", v->scale * (across ? begun : k),
+                    fprintf(f, across ? "M%.1f %.1fh%.1f" : "M%.1f %.1fv%.1f", v->scale * (across ? begun : k),
                               v->scale * (across ? k : begun), v->scale * (i - begun));
                 open = edge;
             }
     }
-    xml_print(f, "\"/>\n");
+    fprintf(f, "\"/>\n");
     free(at);
     free(hit);
 }
@@ -185,7 +184,7 @@ static void draw_outlines(FILE *f, const struct view *v)
 static void draw_section(FILE *f, const struct view *v)
 {
     enum { MOST = 64 };
-    xml_print(f, "<path class=\"section\" d=\"");
+    fprintf(f, "<path class=\"section\" d=\"");
     for (int across = 0; across < 2; across++)
         for (int k = 0; k < (across ? v->ny : v->nx); k++) {
             vec3 step = across ? v->x : v->y, start = add(v->origin, mul(across ? v->y : v->x, k + 0.5));
@@ -194,11 +193,11 @@ static void draw_section(FILE *f, const struct view *v)
             for (int n = 0; n < MOST && scene_intersect(v->scene, &ray, &at); n++) {
                 double x, y;
                 if (project(v, at.p, &x, &y))
-                    xml_print(f, "M%.1f %.1fh0", x, y);
+                    fprintf(f, "M%.1f %.1fh0", x, y);
                 ray.tmin = length(sub(at.p, start)) + 1e-4 * length(step);
             }
         }
-    xml_print(f, "\"/>\n");
+    fprintf(f, "\"/>\n");
 }
 
 /* --- the paths --------------------------------------------------------------------------------------- */
@@ -209,18 +208,18 @@ static void draw_line(FILE *f, const struct view *v, vec3 a, vec3 b, const char 
 {
     bool open = false;
     double before = 0;
-    xml_print(f, "<path class=\"%s\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", dashed ? "path none" : "path", colour,
+    fprintf(f, "<path class=\"%s\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", dashed ? "path none" : "path", colour,
               width);
     for (int i = 0; i <= PIECES; i++) {
         double x = 0, y = 0;
         bool seen = project(v, lerp3((double)i / PIECES, a, b), &x, &y) && fabs(x) < 1e5 && fabs(y) < 1e5;
         bool on = open && seen && fabs(x - before) < WIDTH / 2.0; /* an environment camera's picture has a seam */
         if (seen)
-            xml_print(f, on ? "L%.1f %.1f" : "M%.1f %.1f", x, y);
+            fprintf(f, on ? "L%.1f %.1f" : "M%.1f %.1f", x, y);
         open = seen;
         before = x;
     }
-    xml_print(f, "\"><title>%s</title></path>\n", title);
+    fprintf(f, "\"><title>%s</title></path>\n", title);
 }
 
 static bool is_free(const struct view *v, const double box[4])
@@ -253,7 +252,7 @@ static void draw_name(FILE *f, const struct view *v, double x, double y, const c
     }
     if (v->labels->n < MAX_LABELS)
         memcpy(v->labels->box[v->labels->n++], at, sizeof at);
-    xml_print(f, "<text x=\"%.1f\" y=\"%.1f\" fill=\"%s\">%s</text>\n", at[0], at[3] - 2, colour, name);
+    fprintf(f, "<text x=\"%.1f\" y=\"%.1f\" fill=\"%s\">%s</text>\n", at[0], at[3] - 2, colour, name);
 }
 
 static void draw_vertex(FILE *f, const struct view *v, vec3 p, const char *colour, const char *name)
@@ -261,7 +260,7 @@ static void draw_vertex(FILE *f, const struct view *v, vec3 p, const char *colou
     double x, y;
     if (!project(v, p, &x, &y))
         return;
-    xml_print(f, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"/>", x, y, colour);
+    fprintf(f, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"/>", x, y, colour);
     if (name[0] != '\0')
         draw_name(f, v, x, y, colour, name);
 }
@@ -335,9 +334,9 @@ static void draw_view(FILE *f, struct view *v, const struct trace *t, double lef
     v->labels = &labels;
     for (int i = 0; i < t->n_connections; i++)
         most = fmax(most, t->connection[i].t > 1 ? rgb_luminance(t->connection[i].added) : 0);
-    xml_print(f, "<text class=\"title\" x=\"%.0f\" y=\"%d\">%s</text>\n", left, TOP - 10, title);
-    xml_print(f, "<svg x=\"%.0f\" y=\"%d\" width=\"%d\" height=\"%.0f\">\n", left, TOP, WIDTH, v->scale * v->ny);
-    xml_print(f, "<rect width=\"%d\" height=\"%.0f\" fill=\"#fff\" stroke=\"#ccc\"/>\n", WIDTH, v->scale * v->ny);
+    fprintf(f, "<text class=\"title\" x=\"%.0f\" y=\"%d\">%s</text>\n", left, TOP - 10, title);
+    fprintf(f, "<svg x=\"%.0f\" y=\"%d\" width=\"%d\" height=\"%.0f\">\n", left, TOP, WIDTH, v->scale * v->ny);
+    fprintf(f, "<rect width=\"%d\" height=\"%.0f\" fill=\"#fff\" stroke=\"#ccc\"/>\n", WIDTH, v->scale * v->ny);
     draw_outlines(f, v);
     if (v->plan)
         draw_section(f, v);
@@ -348,10 +347,20 @@ static void draw_view(FILE *f, struct view *v, const struct trace *t, double lef
         draw_path(f, v, t, i);
     draw_path(f, v, t, -1);
     v->labels = NULL;
-    xml_print(f, "</svg>\n");
+    fprintf(f, "</svg>\n");
 }
 
 /* --- the sheet --------------------------------------------------------------------------------------- */
+
+/* Text as XML wants it. */
+static void put_text(FILE *f, const char *text)
+{
+    for (; *text != '\0'; text++)
+        if (*text == '&' || *text == '<')
+            fputs(*text == '&' ? "&amp;" : "&lt;", f);
+        else
+            fputc(*text, f);
+}
 
 static void draw_legend(FILE *f, const struct trace_story *s, int height)
 {
@@ -361,13 +370,15 @@ static void draw_legend(FILE *f, const struct trace_story *s, int height)
     } entries[] = {{BLUE, "", "eye sub-path z", 0}, {ORANGE, "", "light sub-path y", 195},
                    {GREEN, "", "connection, wider if it adds more", 405},
                    {GREY, "4 3", "connection that adds nothing", 790}};
-    xml_print(f, "<text class=\"title\" x=\"%d\" y=\"26\">%s, pixel %d,%d, sample %ld, %s</text>\n", MARGIN,
-              s->scene_path, s->trace->x, s->trace->y, s->trace->iteration, s->integrator->name);
+    fprintf(f, "<text class=\"title\" x=\"%d\" y=\"26\">", MARGIN);
+    put_text(f, s->scene_path);
+    fprintf(f, ", pixel %d,%d, sample %ld, %s</text>\n", s->trace->x, s->trace->y, s->trace->iteration,
+            s->integrator->name);
     for (int i = 0; i < 4; i++) {
         int x = MARGIN + entries[i].x;
-        xml_print(f, "<path d=\"M%d %dh34\" stroke=\"%s\" stroke-width=\"2.5\" stroke-dasharray=\"%s\"/>", x,
+        fprintf(f, "<path d=\"M%d %dh34\" stroke=\"%s\" stroke-width=\"2.5\" stroke-dasharray=\"%s\"/>", x,
                   height - 18, entries[i].colour, entries[i].dashes);
-        xml_print(f, "<text x=\"%d\" y=\"%d\" fill=\"#333\">%s</text>\n", x + 42, height - 12, entries[i].text);
+        fprintf(f, "<text x=\"%d\" y=\"%d\" fill=\"#333\">%s</text>\n", x + 42, height - 12, entries[i].text);
     }
 }
 
@@ -376,15 +387,15 @@ void trace_svg(FILE *f, const struct trace_story *s)
     struct view camera = camera_view(s->scene), plan = plan_view(s->scene, s->trace);
     int most = camera.ny > plan.ny ? camera.ny : plan.ny;
     int width = 2 * WIDTH + 3 * MARGIN, height = TOP + (int)(camera.scale * most) + 50;
-    xml_print(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\">\n", width,
+    fprintf(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\">\n", width,
               height, width, height);
-    xml_print(f, "<style>text{font:18px sans-serif;paint-order:stroke;stroke:#fff;stroke-width:3px}"
+    fprintf(f, "<style>text{font:18px sans-serif;paint-order:stroke;stroke:#fff;stroke-width:3px}"
                  ".title{font-size:20px;fill:#222}.scene{stroke:#9a9a9a;stroke-width:.8;fill:none}"
                  ".section{stroke:#333;stroke-width:2.2;stroke-linecap:round}"
                  ".path{fill:none;stroke-linecap:round}.none{stroke-dasharray:4 3}</style>\n");
-    xml_print(f, "<rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n", width, height);
+    fprintf(f, "<rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n", width, height);
     draw_view(f, &camera, s->trace, MARGIN, "from the camera");
     draw_view(f, &plan, s->trace, 2 * MARGIN + WIDTH, "from above, cut at the height of the camera");
     draw_legend(f, s, height);
-    xml_print(f, "</svg>\n");
+    fprintf(f, "</svg>\n");
 }
