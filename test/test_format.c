@@ -85,26 +85,6 @@ static void check_directives(struct test *t, const char *page, const char *headi
             check_types(t, page, heading, d->types);
 }
 
-/* The names of measured media. */
-static void check_presets(struct test *t, const char *page)
-{
-    struct error err;
-    size_t size;
-    int n = 0;
-    char *code = text_read("src/parser/parse_medium.c", &size, &err);
-    char *table = strstr(code, "PRESETS[] = {");
-    *strstr(table, "};") = '\0';
-    for (char *name = table; (name = strstr(name, "{\"")) != NULL; n++) {
-        char *end = strchr(name + 2, '"');
-        name[0] = name[1] = end[0] = '`';
-        end[1] = '\0';
-        CHECK(t, strstr(page, name + 1) != NULL, "the preset %s is not listed", name + 1);
-        name = end + 2;
-    }
-    CHECK(t, n > 40, "%d presets", n);
-    free(code);
-}
-
 void test_format(struct test *t)
 {
     struct error err;
@@ -120,6 +100,5 @@ void test_format(struct test *t)
     check_types(t, page, "\n## Materials\n", types);
     check_types(t, page, "\n## Textures\n", TEXTURE_TYPES);
     check_directives(t, page, "\n## Lights\n", LIGHT_DIRECTIVES);
-    check_presets(t, page);
     free(page);
 }
