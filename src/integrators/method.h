@@ -18,9 +18,6 @@
 
 #define DEFAULT_RR_THRESHOLD 0.5
 
-/* One eye sub-path, one light sub-path, and all connections between them. */
-#define NUMBERS_OF_BDPT {.path_pixels = 1, .draws = {1, 1}, .light_points = 1, .path_tracing = true}
-
 struct method;
 
 /* What makes any choice among a tile's light sub-paths better, whichever it is: parameters (services.h). */

@@ -166,7 +166,7 @@ static bool compare(const struct pixel *pixel, int64_t n)
 
 bool light_paths_useful(const struct render_job *job)
 {
-    const struct numbers bdpt = {.path_pixels = 1, .draws = {1, 1}, .light_points = 1, .path_tracing = true};
+    const struct numbers bdpt = NUMBERS_OF_BDPT;
     const struct mis_counts counts = counts_of(bdpt, NO_CREDITS, pixel_light_count(job));
     struct probe p = {.job = job, .counts = {counts, counts, counts}};
     int64_t wanted = int_within(SHARE_OF_PIXELS * pixel_light_count(job), LEAST_PIXELS, MOST_PIXELS);

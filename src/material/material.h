@@ -1,6 +1,6 @@
 /* material.h: from a material and a surface point to a BSDF. Parameters, defaults and formulas are pbrt-v3's.
  *
- * A material is one file and one row of rows.c; lobe_list.h has what rows make their lobes with.
+ * A material is one row of rows.c; lobe_list.h has what rows make their lobes with.
  *
  * Tests: test_material.c, test_format.c.
  */
@@ -65,6 +65,10 @@ enum { MATERIAL_MAX_LOBES = 16 };
 
 /* material_new: a material whose fields are to be filled in, its textures -1; to be given to free(). */
 struct material *material_new(const struct material_row *row);
+
+/* material_medium: one that scatters as Henyey and Greenstein's medium, -1 < g < 1; above 0: light rather goes on as it
+ * came. */
+struct material *material_medium(double g);
 
 /* material_settle: to be called when they are: what follows from them, and from the materials that it is made of. A mix
  * shades with the frame of its first one, as in pbrt-v3. */

@@ -1,4 +1,4 @@
-/* rows.c: the materials; see material.h. A new one is a new file and a line here. */
+/* rows.c: the materials; see material.h. A new one is a row of simple.c, or of a file of its own, and a line here. */
 #include "material/material.h"
 
 extern const struct material_row material_matte, material_mirror, material_glass, material_metal, material_plastic,

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "material/phase.h"
 
 enum { MEDIUM_UNKNOWN = INT32_MAX }; /* in place of the number of one of another type than ours */
 
@@ -13,7 +12,7 @@ static void add_medium(struct parser *p, const char *name, const struct medium *
     struct medium_set *media = &p->scene->media;
     media->medium = mem_append(media->medium, (size_t)media->n, sizeof *media->medium);
     media->medium[media->n] = *m;
-    media->medium[media->n].material = scene_add_material(p->scene, phase_new(g));
+    media->medium[media->n].material = scene_add_material(p->scene, material_medium(g));
     symbols_add(&p->media.known, name, ++media->n);
 }
 

@@ -16,6 +16,9 @@ struct numbers {
     bool path_tracing;   /* does it use the strategies of path tracing, s = 0 (t >= 3) and s = 1? */
 };
 
+/* One eye sub-path, one light sub-path, and all connections between them. */
+#define NUMBERS_OF_BDPT {.path_pixels = 1, .draws = {1, 1}, .light_points = 1, .path_tracing = true}
+
 /* How many independent samples one sample counts as (see struct mis_counts). */
 struct credits {
     double direct; /* direct light at a first hit: s = 1, and s = 0 if the edge before the light begins there */
