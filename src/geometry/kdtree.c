@@ -62,14 +62,13 @@ static void prepare_ray(struct block_ray *r, const struct ray *ray, double size)
 
 /* Which lanes may the ray hit? Sets near[i] to 1 or 0 and returns whether any is 1. A quadric's zeros always may, the
  * NaNs of an unused lane never. The names are those of triangle_hit. */
-static inline bool block_near(const struct kd_block *b, const struct block_ray *r, int near[KD_LANES])
+static inline bool block_near(const struct kd_block *b, const struct block_ray *r, uint32_t near[KD_LANES])
 {
     const float *a_x = b->v[0][r->exact.kx], *a_y = b->v[0][r->exact.ky], *a_z = b->v[0][r->exact.kz];
     const float *b_x = b->v[1][r->exact.kx], *b_y = b->v[1][r->exact.ky], *b_z = b->v[1][r->exact.kz];
     const float *c_x = b->v[2][r->exact.kx], *c_y = b->v[2][r->exact.ky], *c_z = b->v[2][r->exact.kz];
     const float ox = r->ox, oy = r->oy, oz = r->oz, sx = r->sx, sy = r->sy, factor = r->slack, *reach = b->reach;
     const uint32_t *prim = b->prim, from = r->from, to = r->to;
-    int any = 0;
 #pragma GCC unroll 1 /* else gcc writes the lanes one after the other, and does not put them side by side again */
     for (int i = 0; i < KD_LANES; i++) {
         float az = a_z[i] - oz, bz = b_z[i] - oz, cz = c_z[i] - oz;
@@ -82,9 +81,10 @@ static inline bool block_near(const struct kd_block *b, const struct block_ray *
         most = ec > most ? ec : most;
         float outside = -least < most ? -least : most;
         near[i] = (outside <= factor * reach[i] + FLT_MIN) & (prim[i] != from) & (prim[i] != to);
-        any |= near[i];
     }
-    return any != 0;
+    uint64_t pair[KD_LANES / 2]; /* two lanes at a time */
+    memcpy(pair, near, sizeof pair);
+    return (pair[0] | pair[1]) != 0;
 }
 
 static bool lane_hit(const struct kd_block *b, int lane, const struct geometry *geo, const struct block_ray *r,
@@ -118,7 +118,7 @@ static bool quadrics_hit(const struct kd_block *b, const struct geometry *geo, c
 }
 
 /* The first hit within (ray->tmin, tmax) among the near lanes, honouring alpha; false, with *hit untouched, if none. */
-static bool block_hit(const struct kd_block *b, const int near[KD_LANES], const struct geometry *geo,
+static bool block_hit(const struct kd_block *b, const uint32_t near[KD_LANES], const struct geometry *geo,
                       const struct block_ray *r, double tmax, bool shadow, struct hit *hit)
 {
     bool found = false;
@@ -240,7 +240,7 @@ static inline bool traverse(const struct kdtree *kd, const struct geometry *geo,
     if (!traversal_start(&w, kd, ray))
         return false;
     double nearest = ray->tmax, range[2];
-    int near[KD_LANES];
+    uint32_t near[KD_LANES];
     bool found = false;
     do {
         struct kd_node leaf = traversal_to_leaf(&w, kd->node, range);
