@@ -170,7 +170,7 @@ static void check_unpacked(struct test *t)
 static void check_many_errors(struct test *t)
 {
     struct hearing *heard = mem_alloc(1, sizeof *heard);
-    struct message_sink sink = {hear_warning, hear_error, heard};
+    struct message_sink sink = {hear_message, heard};
     struct error err = {.text = ""};
     char path[TEXT];
     parse_repeated(t, "Shpae", 1000, &err);

@@ -20,9 +20,8 @@ struct hearing {
     struct heard warnings, errors;
 };
 
-/* Sinks of messages whose context is a struct hearing. */
-void hear_warning(void *context, const char *text);
-void hear_error(void *context, const char *text);
+/* A sink of messages whose context is a struct hearing. */
+void hear_message(void *context, bool is_error, const char *text);
 
 /* leave_out_directory: of a text, wherever the test's own directory is named in it. */
 void leave_out_directory(struct test *t, char *text);

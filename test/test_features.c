@@ -37,11 +37,11 @@ static bool next_warning(FILE *f, char text[TEXT])
     return false;
 }
 
-static void hear(void *context, const char *text)
+static void hear(void *context, bool is_error, const char *text)
 {
     struct expected *e = context;
     char wanted[TEXT];
-    bool any = next_warning(e->file, wanted);
+    bool any = !is_error && next_warning(e->file, wanted);
     CHECK(e->test, any && strstr(text, wanted) != NULL, "%s: warned \"%s\", expected \"%s\"", e->name, text,
           any ? wanted : "nothing");
 }
@@ -52,7 +52,7 @@ static bool load(struct test *t, const char *name, struct scene *scene)
     struct error err = {.text = ""};
     snprintf(path, sizeof path, "%s/%s", FEATURES, name);
     struct expected expected = {t, name, fopen(path, "r")};
-    struct message_sink sink = {hear, NULL, &expected};
+    struct message_sink sink = {hear, &expected};
     bool ok = CHECK(t, parse_scene(path, NULL, scene, &sink, &err), "%s", err.text);
     CHECK(t, !next_warning(expected.file, missed), "%s: no warning \"%s\"", name, missed);
     if (expected.file != NULL)

@@ -86,14 +86,13 @@ static void link_parts(struct test *t)
     }
 }
 
-static void hear(struct heard *h, const char *text)
+void hear_message(void *context, bool is_error, const char *text)
 {
+    struct hearing *all = context;
+    struct heard *h = is_error ? &all->errors : &all->warnings;
     if (h->n < MAX_WARNINGS)
         snprintf(h->text[h->n++], TEXT, "%s", text);
 }
-
-void hear_warning(void *context, const char *text) { hear(&((struct hearing *)context)->warnings, text); }
-void hear_error(void *context, const char *text) { hear(&((struct hearing *)context)->errors, text); }
 
 /* Paths become what they are in test/fixtures. */
 void leave_out_directory(struct test *t, char *text)
@@ -160,7 +159,7 @@ static void check_fixture(struct test *t, const struct fixture *f)
     struct error err = {.text = ""};
     struct scene s;
     struct hearing *heard = mem_alloc(1, sizeof *heard);
-    struct message_sink sink = {hear_warning, hear_error, heard};
+    struct message_sink sink = {hear_message, heard};
     head_comment(text, "integrator", 0, integrator);
     bool ok = parse_scene(path, integrator[0] != '\0' ? integrator : NULL, &s, &sink, &err);
     head_comment(text, "expect", 0, expect);

@@ -37,18 +37,13 @@ const struct option JOB_OPTIONS[] = {
     {"--strict", NULL, OPTION_ON, AT(strict), .help = "treat warnings about the scene as errors"},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "print no progress and no warnings"}, {.name = NULL}};
 
-static void print_warning(void *context, const char *text)
+static void print_message(void *context, bool is_error, const char *text)
 {
     struct job_loading *to = context;
-    to->n_warnings++;
-    if (to->options->strict || !to->options->quiet)
-        fprintf(stderr, "asbdpt: %s%s\n", to->options->strict ? "" : "warning: ", text);
-}
-
-static void print_error(void *context, const char *text)
-{
-    (void)context;
-    fprintf(stderr, "asbdpt: %s\n", text);
+    bool fatal = is_error || to->options->strict;
+    to->n_warnings += !is_error;
+    if (fatal || !to->options->quiet)
+        fprintf(stderr, "asbdpt: %s%s\n", fatal ? "" : "warning: ", text);
 }
 
 static void override(const char *pair, struct settings *settings)
@@ -107,7 +102,7 @@ static void warn(struct job_loading *to, const char *format, ...)
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
     error_set(&line, "%s: %s", to->options->scene_path, text);
-    print_warning(to, line.text);
+    print_message(to, false, line.text);
 }
 
 /* The method asked for; pbrt's integrators that do not exist here are replaced by the default. */
@@ -129,7 +124,7 @@ int job_open(struct job_loading *job, struct scene *scene, const struct method *
 {
     const struct job_options *o = job->options;
     struct error err;
-    struct message_sink sink = {print_warning, print_error, job};
+    struct message_sink sink = {print_message, job};
     if (!parse_scene(o->scene_path, o->integrator, scene, &sink, NULL))
         return EXIT_JOB;
     if (apply(o, scene, &err) && (*method = choose_method(scene, job, &err)) != NULL)
@@ -142,7 +137,7 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
 {
     const struct job_options *o = job->options;
     struct error err;
-    struct message_sink sink = {.warn = print_warning, .context = job};
+    struct message_sink sink = {print_message, job};
     struct render_job read;
     parameters_adapt(scene, readers, &sink);
     bool ok = parameters_belong(scene, readers, &err) &&

@@ -24,10 +24,8 @@ static bool is_new(struct given *g, int most, const char *sentence)
 
 static void tell(const struct messages *m, bool error, const char *text)
 {
-    const struct message_sink *to = m->sink;
-    void (*say)(void *context, const char *text) = to == NULL ? NULL : error ? to->error : to->warn;
-    if (say != NULL)
-        say(to->context, text);
+    if (m->sink != NULL)
+        m->sink->hear(m->sink->context, error, text);
 }
 
 static void give(struct messages *m, bool error, struct source_position at, const char *format, va_list args)

@@ -23,11 +23,9 @@ struct source_position {
     int line, column; /* from 1; a tab counts as one column */
 };
 
-/* Functions that receive each warning and each error, one line without newline at the end; `context` is passed through.
- * Each may be NULL. */
+/* Who hears each error and each warning, one line without newline at the end. */
 struct message_sink {
-    void (*warn)(void *context, const char *text);
-    void (*error)(void *context, const char *text);
+    void (*hear)(void *context, bool is_error, const char *text);
     void *context;
 };
 

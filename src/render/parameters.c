@@ -45,8 +45,8 @@ static void warn(const struct message_sink *sink, const struct setting *item, co
 {
     struct error line;
     error_set(&line, "%s: \"%s\" %s", item->origin, item->name, text);
-    if (sink != NULL && sink->warn != NULL)
-        sink->warn(sink->context, line.text);
+    if (sink != NULL)
+        sink->hear(sink->context, false, line.text);
 }
 
 /* Say that another value counts, and let it. */

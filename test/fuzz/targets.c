@@ -268,9 +268,10 @@ static void render_all(struct scene *scene)
 }
 
 /* Messages are for a terminal: one sentence each, and no byte of the scene's that a terminal would act on. */
-static void hear(void *context, const char *text)
+static void hear(void *context, bool is_error, const char *text)
 {
     (void)context;
+    (void)is_error;
     for (; *text != '\0'; text++)
         if ((unsigned char)*text < ' ' && *text != '\n')
             broken("a message holds a control character");
@@ -279,7 +280,7 @@ static void hear(void *context, const char *text)
 static void fuzz_scene(const uint8_t *data, size_t size, const char *directory)
 {
     char *path = put_file(directory, "scene.pbrt", data, size);
-    struct message_sink sink = {hear, hear, NULL};
+    struct message_sink sink = {hear, NULL};
     struct scene scene;
     struct error err = {.text = ""};
     if (parse_scene(path, NULL, &scene, &sink, &err)) {
