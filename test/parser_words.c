@@ -179,8 +179,8 @@ static void put_lights(struct words *w, const struct scene *s)
         put3(w, "at", f->position.x, f->position.y, f->position.z);
         put3(w, "towards", f->direction.x, f->direction.y, f->direction.z);
         put3(w, "axis", axis.x, axis.y, axis.z);
-        put(w, " cosines %.4f %.4f tan %.4f two-sided %d prim %d picture %d medium %d\n", f->cos_total, f->cos_falloff,
-            f->tan_half, l->two_sided, l->prim, f->env != NULL || f->slide != NULL, l->medium);
+        put(w, " cosines %.4f %.4f two-sided %d prim %d picture %d medium %d\n", f->cos_total, f->cos_falloff,
+            l->two_sided, l->prim, f->env != NULL, l->medium);
     }
 }
 

@@ -350,20 +350,15 @@ void put_area_light(struct writer *w)
 
 static void delta_light(struct writer *w, double unit)
 {
-    static const char *const KINDS[] = {"point", "spot", "goniometric", "projection"};
-    int kind = pick(w, 4);
+    bool spot = chance(w, 0.5);
     double strength = across(w, 10, 30) * unit * unit;
     w->delta_light = true;
-    put(w, "LightSource \"%s\" ", KINDS[kind]);
+    put(w, "LightSource \"%s\" ", spot ? "spot" : "point");
     put_point(w, "rgb", "I", mul(within(w, vec(1, 0.3, 0.3), vec(1, 1, 1)), strength));
-    if (kind == 1) {
+    if (spot) {
         put_float(w, "coneangle", between(w, 2, 80));
         if (chance(w, 0.7))
             put_float(w, "conedeltaangle", between(w, 1, 40));
-    } else if (kind >= 2) {
-        put(w, "\"string mapname\" \"%sscenes/test/colours.tga\" ", w->top);
-        if (kind == 3)
-            put_float(w, "fov", between(w, 30, 100));
     }
     put(w, "\n");
 }

@@ -21,9 +21,9 @@
 static const char LIGHTS[] =
     "WorldBegin Shape \"sphere\" \"float radius\" 9\n"
     "LightSource \"point\" \"rgb I\" [1 2 3] \"point from\" [1 2 3]\n"
-    "AttributeBegin Rotate 30 1 2 3 Scale 1 2 -.7 LightSource \"goniometric\" \"rgb I\" [1 1 1]\n"
+    "AttributeBegin Rotate 30 1 2 3 Scale 1 2 -.7\n"
     "LightSource \"spot\" \"rgb I\" [9 9 9] \"point from\" [1 2 3] \"point to\" [0 1 0] \"float coneangle\" 40\n"
-    "LightSource \"projection\" \"rgb I\" [9 9 9] \"float fov\" 60 AttributeEnd\n"
+    "AttributeEnd\n"
     "LightSource \"spot\" \"rgb I\" [2e5 2e5 2e5] \"point from\" [1 2 3] \"point to\" [0 1 0] \"float coneangle\" .4\n"
     "LightSource \"distant\" \"rgb L\" [.1 .1 .1] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n"
     "LightSource \"infinite\" \"rgb L\" [.01 .01 .01]\n"

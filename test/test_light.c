@@ -70,15 +70,14 @@ static void test_stored_map(struct test *t)
     }
 }
 
-/* Lights that name the same file share its picture, unless one takes it for a map and the other for a slide; so do
- * textures. What is no picture leaves nothing behind. A map may be as large as its file allows. */
+/* Lights that name the same file share its map, and textures its image. What is no picture leaves nothing behind. A map
+ * may be as large as its file allows. */
 static void test_shared_picture(struct test *t)
 {
     static const float pixels[2 * 3] = {1, 2, 3, 4, 5, 6};
     static const char TEXT_OF[] =
         "WorldBegin LightSource \"infinite\" \"string mapname\" \"a.pfm\" LightSource \"infinite\" \"string mapname\"\n"
-        "\"a.pfm\" LightSource \"projection\" \"string mapname\" \"a.pfm\" LightSource \"goniometric\"\n"
-        "\"string mapname\" \"a.pfm\" LightSource \"infinite\" \"string mapname\" \"b.pfm\"\n"
+        "\"a.pfm\" LightSource \"infinite\" \"string mapname\" \"b.pfm\"\n"
         "Texture \"1\" \"float\" \"imagemap\" \"string filename\" \"a.pfm\"\n"
         "Texture \"2\" \"float\" \"imagemap\" \"string filename\" \"a.pfm\"\n"
         "Texture \"3\" \"float\" \"imagemap\" \"string filename\" \"b.pfm\" WorldEnd";
@@ -92,56 +91,21 @@ static void test_shared_picture(struct test *t)
     }
     if (scene_from_text(t, TEXT_OF, &s)) {
         const struct light *l = s.lights.light;
-        CHECK(t, l[0].frame->env == l[1].frame->env && l[2].frame->slide == l[3].frame->slide &&
-                     l[4].frame->env != l[0].frame->env && s.lights.n_pictures == 3, "a map, a slide and another map");
-        CHECK(t, l[1].frame->env != NULL && l[1].frame->slide == NULL && l[3].frame->slide != NULL &&
-                     l[3].frame->env == NULL, "each in its role");
+        CHECK(t, l[0].frame->env != NULL && l[0].frame->env == l[1].frame->env &&
+                     l[2].frame->env != l[0].frame->env && s.lights.n_maps == 2, "a map and another");
         CHECK(t, s.textures.n_images == 2, "%d images of two files", s.textures.n_images);
         scene_free(&s);
     }
-    CHECK(t, light_read_picture(&set, LIGHT_INFINITE, "missing.pfm", &err) < 0 &&
-                 light_read_picture(&set, LIGHT_PROJECTION, "missing.pfm", &err) < 0 && set.n_pictures == 0,
-          "a missing file");
+    CHECK(t, light_read_map(&set, "missing.pfm", &err) < 0 && set.n_maps == 0, "a missing file");
     CHECK(t, envmap_size_ok(2048, 2048, 1, &err) && !envmap_size_ok(2049, 2048, 1, &err) &&
                  envmap_size_ok(8192, 4096, 1 << 24, &err) && !envmap_size_ok(8194, 4096, 1 << 24, &err),
           "how large a map may be");
-}
-
-/* Where the texels of a slide go, by pbrt-v3's rules: the first row of a projection is where y is least, the first of a
- * goniometric map at +y, azimuth from x to z. */
-static void test_slide_places(struct test *t)
-{
-    static const float pixels[] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0}; /* red green, blue yellow */
-    char path[256];
-    struct error err = {.text = ""};
-    snprintf(path, sizeof path, "%s/four.pfm", test_tmp(t));
-    CHECK(t, image_write(path, 2, 2, pixels, &err), "%s", err.text);
-    struct slide *s = slide_load(path, &err);
-    if (!CHECK(t, s != NULL, "%s", err.text))
-        return;
-    const double q = 0.5; /* texel centres lie halfway between middle and edge */
-    rgb p[4] = {slide_projection(s, 1, vec(-q, -q, 1)), slide_projection(s, 1, vec(q, -q, 1)),
-                slide_projection(s, 1, vec(-q, q, 1)), slide_projection(s, 1, vec(q, q, 1))};
-    const double a = sqrt(0.5);
-    rgb g[4] = {slide_goniometric(s, vec(0, a, a)), slide_goniometric(s, vec(0, a, -a)),
-                slide_goniometric(s, vec(0, -a, a)), slide_goniometric(s, vec(0, -a, -a))};
-    for (int i = 0; i < 4; i++) {
-        rgb want = rgb_make(pixels[3 * i], pixels[3 * i + 1], pixels[3 * i + 2]);
-        CHECK(t, fabs(p[i].r - want.r) + fabs(p[i].g - want.g) + fabs(p[i].b - want.b) < 1e-9, "projection, %d", i);
-        CHECK(t, fabs(g[i].r - want.r) + fabs(g[i].g - want.g) + fabs(g[i].b - want.b) < 1e-9, "goniometric, %d", i);
-    }
-    CHECK(t, fabs(slide_cos_corner(s, 1) - 1 / sqrt(3)) < 1e-12, "the corner of the picture");
-    const vec3 beside[3] = {vec(1.01, 0, 1), vec(0, -1.01, 1), vec(0, 0, -1)};
-    for (int i = 0; i < 3; i++)
-        CHECK(t, rgb_is_black(slide_projection(s, 1, beside[i])), "light beside the picture, %d", i);
-    slide_free(s);
 }
 
 void test_light(struct test *t)
 {
     test_light_sent(t);
     test_choice(t);
-    test_slide_places(t);
     test_stored_map(t);
     test_shared_picture(t);
 }

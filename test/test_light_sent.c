@@ -1,5 +1,6 @@
 /* test_light_sent.c: what lights send: under transforms, by the cone of a spot, and every density of a draw as a fact,
  * by the area that a small square of random numbers becomes. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -66,7 +67,8 @@ static double light_along(const struct scene *s, const struct light_point *at, v
     return rgb_luminance(Le);
 }
 
-/* Light that comes from all directions of a map, drawn by lamp_point, against the sum over a fine grid. */
+/* Light that comes from all directions of a map, drawn by lamp_point, against the sum over a fine grid. Close to a pole
+ * of the map the last bit of a direction decides on its sine, by which densities are divided. */
 static void check_sky(struct test *t, const struct scene *s, struct rng *r)
 {
     enum { N = 300 };
@@ -84,7 +86,9 @@ static void check_sky(struct test *t, const struct scene *s, struct rng *r)
         if (!lamp_point(&s->lights, &s->geo, u, &at))
             continue;
         double pdf = light_pdf_environment(&s->lights, at.w), value = light_along(s, NULL, at.w) / at.pdf;
-        CHECK(t, fabs(pdf / at.pdf - 1) < 1e-6, "a direction of density %g was drawn with %g", pdf, at.pdf);
+        vec3 v = normalize(transform_vector_back(&s->lights.light[at.light].frame->to_world, at.w));
+        double bound = 1e-6 + 4 * DBL_EPSILON / (1 - v.z * v.z);
+        CHECK(t, fabs(pdf / at.pdf - 1) < bound, "a direction of density %g was drawn with %g", pdf, at.pdf);
         sum += value;
         square += value * value;
     }
@@ -95,11 +99,9 @@ static void check_sky(struct test *t, const struct scene *s, struct rng *r)
  * all of it is drawn with the density stated. */
 static void test_transformed(struct test *t)
 {
-    enum { W = 16, H = 8, N = 4 };
+    enum { W = 16, H = 8, N = 2 };
     static const char *const lights[N] = {
         "LightSource \"spot\" \"float coneangle\" 40 \"float conedeltaangle\" 25 \"point to\" [1 2 -1] # %s\n",
-        "LightSource \"projection\" \"float fov\" 70 \"string mapname\" \"%s\"",
-        "LightSource \"goniometric\" \"string mapname\" \"%s\"",
         "LightSource \"infinite\" \"string mapname\" \"%s\""};
     static float pixels[W * H * 3];
     char path[256];
@@ -108,10 +110,10 @@ static void test_transformed(struct test *t)
     struct transform id = transform_identity();
     for (int i = 0; i < W * H * 3; i++)
         pixels[i] = (float)(1 + (i / 3) % 5);
-    snprintf(path, sizeof path, "%s/slide.pfm", test_tmp(t));
+    snprintf(path, sizeof path, "%s/map.pfm", test_tmp(t));
     if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text))
         return;
-    for (int i = 0; i < 2 * N; i++) {
+    for (int i = 0; i < 3 * N; i++) {
         struct scene plain, moved;
         struct transform m = random_affine(&r);
         struct light_point at;
@@ -235,8 +237,7 @@ static void test_densities(struct test *t)
         "\"integer indices\" [0 1 2] \"point P\" [0 0 1  2 0 1  0 3 1] Shape \"sphere\" AreaLightSource \"diffuse\"\n"
         "\"bool twosided\" \"true\" Shape \"disk\" LightSource \"point\" LightSource \"spot\" LightSource \"distant\"\n"
         "LightSource \"infinite\" Scale 1 2 3 Rotate 40 3 1 2 LightSource \"spot\"\n"
-        "LightSource \"infinite\" \"string mapname\" \"%s\" LightSource \"goniometric\" \"string mapname\" \"%s\"\n"
-        "LightSource \"projection\" \"string mapname\" \"%s\" WorldEnd\n";
+        "LightSource \"infinite\" \"string mapname\" \"%s\" WorldEnd\n";
     static float pixels[W * H * 3];
     char path[256];
     struct error err = {.text = ""};
@@ -247,9 +248,9 @@ static void test_densities(struct test *t)
     pixels[3 * (2 * W + 3)] = 50;
     snprintf(path, sizeof path, "%s/densities.pfm", test_tmp(t));
     if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text) ||
-        !scene_from_format(t, &s, WORLD, path, path, path))
+        !scene_from_format(t, &s, WORLD, path))
         return;
-    CHECK(t, s.lights.n == 11, "%d lights", s.lights.n);
+    CHECK(t, s.lights.n == 9, "%d lights", s.lights.n);
     for (int i = 0; i < s.lights.n; i++) {
         const struct light *l = &s.lights.light[i];
         int cell = l->first_cell + (int)rng_below(&r, (uint32_t)l->n_cells), found = -1;

@@ -69,9 +69,6 @@ static const struct variant VARIANTS[] = {
     {"point and spot", PERSPECTIVE,
      "LightSource \"point\" \"rgb I\" [3 3 3] \"point from\" [0 2.5 0]\n"
      "LightSource \"spot\" \"rgb I\" [9 9 9] \"point from\" [1 2.5 0] \"point to\" [0 0 0]"},
-    {"goniometric and projection", PERSPECTIVE,
-     "Translate 0 2.5 0 Rotate 100 1 .2 0 LightSource \"goniometric\" \"rgb I\" [3 3 3] Scale 1 2 -1\n"
-     "LightSource \"projection\" \"rgb I\" [9 9 9] \"float fov\" 70 Identity"},
     {"distant and infinite", PERSPECTIVE "\"float lensradius\" .05 \"float focaldistance\" 2",
      "LightSource \"distant\" \"rgb L\" [3 3 3] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n"
      "LightSource \"infinite\" \"rgb L\" [1 1 1]"},

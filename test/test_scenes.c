@@ -274,24 +274,16 @@ static void test_mirrored(struct test *t, int spp)
 }
 
 /* A scene by four integrators: were a strategy lost in one of them, their weights would no longer add up to 1 for all.
- * A fault of `planted` must be seen. */
-static void test_four(struct test *t, const char *name, int spp, double planted)
+ */
+static void test_four(struct test *t, const char *name, int spp)
 {
     static const char *const methods[] = {"lt", "bdpt", "asbdpt"};
     struct batches pt = render(t, name, "pt", 24, 2 * spp, 861);
     for (int m = 0; m < 3; m++) {
         struct batches b = render(t, name, methods[m], 24, spp, 862 + (uint64_t)m);
-        check_agree(t, &b, &pt, false, planted, "%s: %s against pt", name, methods[m]);
+        check_agree(t, &b, &pt, false, 0.05, "%s: %s against pt", name, methods[m]);
     }
     batches_free(&pt);
-}
-
-/* Light through something takes `many` samples. */
-static void test_noisy(struct test *t, int spp, int many, size_t step, double planted)
-{
-    test_light_pairs(t, spp, step);
-    test_four(t, "pass-through", many, 0.05); /* see-through lamps, one of them around a ball */
-    test_four(t, "light-slides", many, planted);
 }
 
 void test_scenes(struct test *t)
@@ -302,14 +294,16 @@ void test_scenes(struct test *t)
     test_holes(t);
     test_partials(t);
     test_filter_spot(t);
-    test_noisy(t, 4, 16, 2, 0.1);
+    test_light_pairs(t, 4, 2);
+    test_four(t, "pass-through", 16); /* see-through lamps, one of them around a ball */
 }
 
 /* Other cameras, too, which test_strategies.c has for the quick suite, and a mirrored world. */
 void test_scenes_long(struct test *t)
 {
     test_mirrored(t, 400);
-    test_noisy(t, 200, 400, 1, 0.05);
-    test_four(t, "orthographic", 400, 0.05);
-    test_four(t, "environment", 400, 0.05);
+    test_light_pairs(t, 200, 1);
+    test_four(t, "pass-through", 400);
+    test_four(t, "orthographic", 400);
+    test_four(t, "environment", 400);
 }

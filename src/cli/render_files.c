@@ -122,8 +122,8 @@ bool aov_write(struct aov_files *f, const struct scene *scene, const struct rend
 static char *picture_path(const char *directory, const struct light_set *lights, int i)
 {
     static const char *const KINDS[] = {
-        [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot", [LIGHT_GONIOMETRIC] = "goniometric",
-        [LIGHT_PROJECTION] = "projection", [LIGHT_DISTANT] = "distant", [LIGHT_INFINITE] = "infinite"};
+        [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot", [LIGHT_DISTANT] = "distant",
+        [LIGHT_INFINITE] = "infinite"};
     const struct light_group *g = &lights->group[i];
     size_t size = strlen(directory) + 64;
     char *out = mem_alloc(size, 1);

@@ -101,7 +101,7 @@ struct parser {
     struct source_file *source[MAX_INCLUDE_DEPTH]; /* [n_sources] files being read, main file first */
     int n_sources, n_includes;
     struct scene_files named; /* what may be read, and how often */
-    struct symbols images, tables, maps, slides; /* paths -> textures.image[], .table[], lights.picture[] of scene */
+    struct symbols images, tables, maps; /* paths -> textures.image[], .table[], lights.map[] of scene */
 
     struct transform_state place;
     struct graphics_state state;

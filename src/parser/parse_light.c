@@ -14,7 +14,6 @@ struct light_item {
     struct light_frame frame;
     vec3 from, to;     /* in light space */
     double cone, edge; /* degrees */
-    double fov;        /* degrees */
     int group;         /* -1: its own */
 };
 
@@ -70,8 +69,8 @@ static void distant_light(struct parser *p, void *object)
     item->frame.direction = direction(&p->params, transform_vector(&item->frame.to_world, sub(item->from, item->to)));
 }
 
-/* The picture of a light, if it names one. */
-static void picture(struct parser *p, struct light_frame *l)
+/* The map of a light, if it names one. */
+static void map(struct parser *p, struct light_frame *l)
 {
     struct params *q = &p->params;
     struct light_set *lights = &p->scene->lights;
@@ -79,39 +78,19 @@ static void picture(struct parser *p, struct light_frame *l)
     struct error inner;
     char *path = params_file(q, "mapname", &at);
     if (path != NULL && !q->failed) {
-        enum light_kind kind = (enum light_kind)p->type.kind;
-        struct symbols *read = kind == LIGHT_INFINITE ? &p->maps : &p->slides;
-        int known = symbols_find(read, path), id = known >= 0 ? known : light_read_picture(lights, kind, path, &inner);
-        if (id >= 0) {
-            if (known < 0)
-                symbols_add(read, path, id);
-            l->env = lights->picture[id].env;
-            l->slide = lights->picture[id].slide;
-        }
-        parse_picture(q, at, l->env != NULL ? &l->env->image : l->slide != NULL ? &l->slide->image : NULL, known < 0,
-                      l->env != NULL ? envmap_bytes(l->env) : 0, &inner);
+        int known = symbols_find(&p->maps, path), id = known >= 0 ? known : light_read_map(lights, path, &inner);
+        const struct envmap *env = l->env = id >= 0 ? lights->map[id] : NULL;
+        if (known < 0 && id >= 0)
+            symbols_add(&p->maps, path, id);
+        parse_picture(q, at, env != NULL ? &env->image : NULL, known < 0, env != NULL ? envmap_bytes(env) : 0, &inner);
     }
     free(path);
-}
-
-static void slide_light(struct parser *p, void *object)
-{
-    struct light_item *item = object;
-    struct light_frame *l = &item->frame;
-    picture(p, l);
-    l->position = transform_point(&l->to_world, vec(0, 0, 0));
-    if (item->light.kind != LIGHT_PROJECTION)
-        return;
-    l->tan_half = m_tan(item->fov * PI / 360);
-    l->cos_total = slide_cos_corner(l->slide, l->tan_half);
-    if (!(l->cos_total < 1))
-        type_error(&p->params, "\"fov\" is %g degrees: an image without inside", item->fov);
 }
 
 static void infinite_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
-    picture(p, &item->frame);
+    map(p, &item->frame);
     item->light.hidden = !params_bool(&p->params, "visible", true);
 }
 
@@ -144,18 +123,13 @@ static const struct field DISTANT_LIGHT[] = {
 static const struct field INFINITE_LIGHT[] = {
     {.name = "L"}, {.name = "scale"}, {.name = "group"}, {.name = "mapname"}, {.name = "visible"},
     {"samples", .kind = FIELD_IGNORED}, {"nsamples", .kind = FIELD_IGNORED}, {.name = NULL}};
-static const struct field SLIDE[] = {
-    {"fov", FIELD_NUMBER, AT(fov), 45, NUMBER_MIN, .high = 179.999}, /* of a projection alone */
-    {.name = "I"}, {.name = "scale"}, {.name = "group"}, {.name = "mapname"}, {.name = NULL}};
 
 static const struct object_type LIGHTS[] = {
     {"point", SPOT_LIGHT + 3, LIGHT_POINT, point_light},
     {"spot", SPOT_LIGHT, LIGHT_SPOT, spot_light},
     {"distant", DISTANT_LIGHT, LIGHT_DISTANT, distant_light},
     {"infinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
-    {"exinfinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
-    {"goniometric", SLIDE + 1, LIGHT_GONIOMETRIC, slide_light},
-    {"projection", SLIDE, LIGHT_PROJECTION, slide_light}, {.name = NULL}};
+    {"exinfinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light}, {.name = NULL}};
 
 /* pbrt-v3 turns directions by the upper left part of any matrix. So does a light at infinity, which has no place. */
 static bool is_turned(struct parser *p, struct light_item *item)

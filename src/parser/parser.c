@@ -172,7 +172,7 @@ static void finish(struct parser *p)
         shape_list_free(&p->object[i]);
     struct symbols *const tables[] = {&p->float_textures, &p->spectrum_textures, &p->materials, &p->systems,
                                       &p->media.known,    &p->objects,           &p->named.known,
-                                      &p->images,         &p->tables,            &p->maps,      &p->slides};
+                                      &p->images,         &p->tables,            &p->maps};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         symbols_free(tables[i]);
     free(p->object);

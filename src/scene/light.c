@@ -33,16 +33,24 @@ int light_group(struct light_set *set, const char *name, enum light_kind kind)
     return set->n_groups++;
 }
 
+int light_read_map(struct light_set *set, const char *path, struct error *err)
+{
+    struct envmap *added = envmap_load(path, err);
+    if (added == NULL)
+        return -1;
+    set->map = mem_append(set->map, (size_t)set->n_maps, sizeof *set->map);
+    set->map[set->n_maps] = added;
+    return set->n_maps++;
+}
+
 void light_set_free(struct light_set *set)
 {
     for (int i = 0; i < set->n_groups; i++)
         free(set->group[i].name);
     free(set->group);
-    for (int i = 0; i < set->n_pictures; i++) {
-        envmap_free(set->picture[i].env);
-        slide_free(set->picture[i].slide);
-    }
-    free(set->picture);
+    for (int i = 0; i < set->n_maps; i++)
+        envmap_free(set->map[i]);
+    free(set->map);
     for (int i = 0; i < set->n; i++)
         free(set->light[i].frame);
     free(set->light);
@@ -50,19 +58,6 @@ void light_set_free(struct light_set *set)
     alias_free(&set->choice);
     free(set->light_of_cell);
     memset(set, 0, sizeof *set);
-}
-
-/* --- pictures ---------------------------------------------------------------------------------------- */
-
-int light_read_picture(struct light_set *set, enum light_kind kind, const char *path, struct error *err)
-{
-    bool map = kind == LIGHT_INFINITE;
-    const struct light_picture added = {map ? envmap_load(path, err) : NULL, map ? NULL : slide_load(path, err)};
-    if (added.env == NULL && added.slide == NULL)
-        return -1;
-    set->picture = mem_append(set->picture, (size_t)set->n_pictures, sizeof *set->picture);
-    set->picture[set->n_pictures] = added;
-    return set->n_pictures++;
 }
 
 /* --- power and choice -------------------------------------------------------------------------------- */
@@ -93,12 +88,6 @@ static double spot_falloff(const struct light *l, vec3 w)
     return sqr(sqr(delta));
 }
 
-/* Mean luminance of L times the slide. */
-static double slide_luminance(const struct light *l)
-{
-    return rgb_luminance(l->frame->slide != NULL ? rgb_mul(l->L, l->frame->slide->mean) : l->L);
-}
-
 /* Powers are those of [PBRT3 12.1-12.6]; of lights at infinity, what meets the disk of the scene's sphere. */
 static double light_power(const struct light *l, const struct geometry *geo, double scene_radius)
 {
@@ -108,8 +97,6 @@ static double light_power(const struct light *l, const struct geometry *geo, dou
     case LIGHT_AREA: return lum * PI * shape_area(geo, l->prim) * (l->two_sided ? 2 : 1);
     case LIGHT_POINT: return lum * 4 * PI;
     case LIGHT_SPOT: return lum * 2 * PI * (1 - 0.5 * (l->frame->cos_falloff + l->frame->cos_total));
-    case LIGHT_GONIOMETRIC: return 4 * PI * slide_luminance(l);
-    case LIGHT_PROJECTION: return 2 * PI * (1 - l->frame->cos_total) * slide_luminance(l);
     case LIGHT_DISTANT: return lum * disk;
     case LIGHT_INFINITE: return disk * PI * rgb_luminance(l->frame->env ? rgb_mul(l->L, l->frame->env->mean) : l->L);
     }
@@ -215,9 +202,7 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
         break;
     }
     case LIGHT_POINT:
-    case LIGHT_SPOT:
-    case LIGHT_GONIOMETRIC:
-    case LIGHT_PROJECTION: out->p = l->frame->position; break;
+    case LIGHT_SPOT: out->p = l->frame->position; break;
     case LIGHT_DISTANT: out->w = l->frame->direction; break;
     case LIGHT_INFINITE: out->w = infinite_sample(l, cell - l->first_cell, u1, u2, &pdf); break;
     }
@@ -267,10 +252,8 @@ rgb light_sample_emission(const struct light_set *set, const struct light_point 
         w = to_world(&f, local);
         break;
     }
-    case LIGHT_POINT:
-    case LIGHT_GONIOMETRIC: w = warp_sphere(u[0], u[1]); break;
+    case LIGHT_POINT: w = warp_sphere(u[0], u[1]); break;
     case LIGHT_SPOT:
-    case LIGHT_PROJECTION:
         w = normalize(transform_vector(&l->frame->to_world, warp_cone(u[0], u[1], l->frame->cos_total)));
         break;
     case LIGHT_DISTANT:
@@ -299,10 +282,8 @@ double light_pdf_emission(const struct light_set *set, const struct light_point 
         double c = dot(y0->n, w);
         return l->two_sided ? 0.5 * warp_cos_hemisphere_pdf_w(fabs(c)) : warp_cos_hemisphere_pdf_w(c);
     }
-    case LIGHT_POINT:
-    case LIGHT_GONIOMETRIC: return warp_sphere_pdf_w();
-    case LIGHT_SPOT:
-    case LIGHT_PROJECTION: return cone_pdf(l, w);
+    case LIGHT_POINT: return warp_sphere_pdf_w();
+    case LIGHT_SPOT: return cone_pdf(l, w);
     case LIGHT_DISTANT:
     case LIGHT_INFINITE: return 1 / (PI * sqr(set->radius));
     }
@@ -322,10 +303,8 @@ void light_emission_numbers(const struct light_set *set, const struct light_poin
             u[0] = (u[0] + back) / 2;
         return;
     }
-    case LIGHT_POINT:
-    case LIGHT_GONIOMETRIC: warp_sphere_inverse(w, &u[0], &u[1]); return;
-    case LIGHT_SPOT:
-    case LIGHT_PROJECTION: warp_cone_inverse(to_light_space(l, w), l->frame->cos_total, &u[0], &u[1]); return;
+    case LIGHT_POINT: warp_sphere_inverse(w, &u[0], &u[1]); return;
+    case LIGHT_SPOT: warp_cone_inverse(to_light_space(l, w), l->frame->cos_total, &u[0], &u[1]); return;
     case LIGHT_DISTANT:
     case LIGHT_INFINITE: {
         struct frame f = frame_from_normal(y0->w);
@@ -343,9 +322,6 @@ rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w)
     case LIGHT_AREA: return area_Le(l, y0->n, w);
     case LIGHT_POINT: return l->L;
     case LIGHT_SPOT: return rgb_scale(l->L, spot_falloff(l, w));
-    case LIGHT_GONIOMETRIC: return rgb_mul(l->L, slide_goniometric(l->frame->slide, to_light_space(l, w)));
-    case LIGHT_PROJECTION:
-        return rgb_mul(l->L, slide_projection(l->frame->slide, l->frame->tan_half, to_light_space(l, w)));
     case LIGHT_DISTANT: return l->L;
     case LIGHT_INFINITE: return infinite_Le(l, neg(w));
     }

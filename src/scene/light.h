@@ -1,8 +1,7 @@
 /* light.h: the emitters and how to sample them: emission for light sub-paths, and a fresh end point for s = 1.
  *
- * Seven kinds. Area lights are one per primitive. A light's end point y0 is a point in space (area, point, spot,
- * goniometric, projection) or a direction (distant, infinite): then y0 lies "at infinity" and its density is per
- * steradian.
+ * Five kinds. Area lights are one per primitive. A light's end point y0 is a point in space (area, point, spot) or a
+ * direction (distant, infinite): then y0 lies "at infinity" and its density is per steradian.
  *
  * Lights are chosen in proportion to their power by an alias table; s = 1 and emission use the same choice and the
  * same density of y0, so one number serves both in the MIS weights.
@@ -17,14 +16,11 @@
 #include "base/transform.h"
 #include "geometry/shape.h"
 #include "scene/envmap.h"
-#include "scene/slide.h"
 
 enum light_kind {
     LIGHT_AREA,
     LIGHT_POINT,
     LIGHT_SPOT,
-    LIGHT_GONIOMETRIC,
-    LIGHT_PROJECTION,
     LIGHT_DISTANT,
     LIGHT_INFINITE
 };
@@ -47,9 +43,6 @@ enum light_kind {
  * The beam of a spot runs along z in light space, and what a direction gets is asked there, as in pbrt-v3, so that an
  * uneven scale makes the beam elliptic.
  *
- * A goniometric or projection light is a point light, with the same position and light points, whose intensity L is
- * multiplied by its slide's (slide.h) factor for the direction in light space, to which to_world belongs.
- *
  * A light point (struct light_point) is a position (area, point, spot) or a direction (distant, infinite), and its
  * densities are per measure of that, which is why their names carry none:
  *
@@ -65,11 +58,9 @@ enum light_kind {
 struct light_frame {
     struct transform to_world;
     double volume;                 /* that to_world makes of 1; set by light_add */
-    double cos_total, cos_falloff; /* projection: cos_total is of the cone around the picture */
-    double tan_half;               /* projection: half a shorter side of the picture at distance 1 */
+    double cos_total, cos_falloff;
     vec3 position, direction;
-    const struct envmap *env;  /* the set's */
-    const struct slide *slide; /* goniometric, projection: the set's, NULL: 1 */
+    const struct envmap *env;      /* the set's */
 };
 
 struct light {
@@ -85,12 +76,6 @@ struct light {
     struct light_frame *frame; /* owned by the set; area: NULL, for there may be one for each triangle of a mesh */
 };
 
-/* A picture, of any number of lights in the same role. */
-struct light_picture {
-    struct envmap *env; /* one of these, owned */
-    struct slide *slide;
-};
-
 /* Lights whose contributions a film can keep apart from others' (film.h). All infinite lights are of one group, since
  * an eye sub-path that leaves the scene meets them together. */
 struct light_group {
@@ -104,8 +89,8 @@ enum { LIGHT_MAX_GROUPS = 64 }; /* that films keep */
 struct light_set {
     struct light *light; /* [n], owned */
     int n;
-    struct light_picture *picture; /* [n_pictures], owned */
-    int n_pictures;
+    struct envmap **map; /* [n_maps], each of any number of lights; owned with what they point to */
+    int n_maps;
     struct light_group *group; /* [n_groups], owned */
     int n_groups;
     int n_cells;
@@ -128,8 +113,8 @@ int light_add(struct light_set *set, struct light l, const struct light_frame *f
  * the first LIGHT_MAX_GROUPS groups alone: if there are more, no film keeps any. */
 int light_group(struct light_set *set, const char *name, enum light_kind kind);
 
-/* light_read_picture: the number of a picture that is read from this file for lights of a kind; -1 with a message. */
-int light_read_picture(struct light_set *set, enum light_kind kind, const char *path, struct error *err);
+/* light_read_map: the number of a map that is read from this file; -1 with a message. */
+int light_read_map(struct light_set *set, const char *path, struct error *err);
 
 /* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);

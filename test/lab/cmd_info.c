@@ -11,9 +11,8 @@
 #include "lab/tree.h"
 
 static const char *const LIGHT_NAMES[] = {
-    [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot",
-    [LIGHT_GONIOMETRIC] = "goniometric", [LIGHT_PROJECTION] = "projection",
-    [LIGHT_DISTANT] = "distant", [LIGHT_INFINITE] = "infinite",
+    [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot", [LIGHT_DISTANT] = "distant",
+    [LIGHT_INFINITE] = "infinite",
 };
 
 static void print_lights(const struct light_set *lights)

@@ -9,7 +9,6 @@ const char *trace_what(const struct scene *scene, const struct vertex *v)
 {
     static const char *const lights[] = {
         [LIGHT_AREA] = "area light", [LIGHT_POINT] = "point light", [LIGHT_SPOT] = "spot light",
-        [LIGHT_GONIOMETRIC] = "goniometric light", [LIGHT_PROJECTION] = "projection light",
         [LIGHT_DISTANT] = "distant light", [LIGHT_INFINITE] = "infinite light"};
     switch (v->kind) {
     case VERTEX_LENS: return "lens";
