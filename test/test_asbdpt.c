@@ -199,6 +199,7 @@ static const char *const ALONE[] = {"lvc guide=on", "lvc emission=0.2", "lvc cre
 static const char *const RIVALS[] = {"pcbdpt guide=on emission=0.2 credit=4 tile=9 spread=2 records=.05",
                                      "ris emission=0.2 tile=9 spread=2 records=.05",
                                      "ris2 emission=0.2 tile=9 spread=2 records=.05",
+                                     "spcbpt guide=on emission=0.2 credit=4 tile=9 spread=2",
                                      "restir guide=on emission=0.2 tile=9 spread=2", NULL};
 
 static void test_services(struct test *t, const char *name, int spp, const char *const *ways)

@@ -46,7 +46,7 @@ static const struct {
 
 static void test_six_scenes(struct test *t)
 {
-    static const char *const ways[] = {"lvc", "cbdpt", "mbdpt", "pcbdpt", "ris", "ris2", "restir", "restirgi",
+    static const char *const ways[] = {"lvc", "cbdpt", "mbdpt", "pcbdpt", "ris", "ris2", "spcbpt", "restir", "restirgi",
                                        "asbdpt select=pool", "asbdpt select=vertices", "asbdpt select=subspaces",
                                        "asbdpt select=bins"};
     static const char *const chains[] = {"pssmlt", "mmlt", "mlt"};
@@ -81,7 +81,7 @@ static void test_six_scenes(struct test *t)
 static void test_few_sub_paths(struct test *t)
 {
     static const char *const ways[] = {"lvc", "cbdpt connections=2", "mbdpt", "pcbdpt records=.3", "ris records=.3",
-                                       "ris2 records=.3 presampled=2", "asbdpt select=subspaces",
+                                       "ris2 records=.3 presampled=2", "spcbpt", "asbdpt select=subspaces",
                                        "asbdpt select=vertices connections=2"};
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 2, 2, &scene))

@@ -44,7 +44,9 @@ static void test_small_pools(struct test *t, int more)
                                         "pcbdpt records=.3 subpaths=1", "pcbdpt records=.3 subpaths=4 connections=2",
                                         "ris records=.3 subpaths=1",
                                         "ris records=.3 subpaths=2", "ris records=.3 subpaths=4",
-                                        "ris2 records=.3 presampled=2 subpaths=2", "restir candidates=1 neighbours=2",
+                                        "ris2 records=.3 presampled=2 subpaths=2",
+                                        "spcbpt pathpixels=9", "spcbpt pathpixels=5 subspaces=3 connections=1",
+                                        "spcbpt pathpixels=2 guide=on emission=.2", "restir candidates=1 neighbours=2",
                                         "restir candidates=4 neighbours=8", "restirgi neighbours=8",
                                         NULL};
     struct scene scene;
@@ -71,7 +73,7 @@ static void test_three_pixels(struct test *t)
 static void test_rooms(struct test *t, int more)
 {
     static const char *const ways[] = {"pcbdpt records=.02", "ris records=.02 subpaths=30",
-                                       "ris2 records=.02 presampled=30", "restir neighbours=20",
+                                       "ris2 records=.02 presampled=30", "spcbpt", "restir neighbours=20",
                                        "restirgi neighbours=20 heuristic=power", NULL};
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
@@ -101,7 +103,8 @@ static void test_scenes_by(struct test *t, const char *other, const char *const 
 static void test_every_scene(struct test *t, int more)
 {
     static const char *const ways[] = {"mbdpt", "pcbdpt connections=2", "ris", "ris subpaths=20 records=.01",
-                                       "ris2 presampled=20 records=.01", "restir neighbours=20", NULL};
+                                       "ris2 presampled=20 records=.01", "spcbpt", "spcbpt heuristic=power guide=on",
+                                       "restir neighbours=20", NULL};
     static const char *const shared[] = {"restirgi", "restirgi neighbours=20", NULL};
     test_scenes_by(t, "bdpt", ways, 2 * more);
     test_scenes_by(t, "pt", shared, 4 * more);
@@ -237,6 +240,11 @@ static void test_limits(struct test *t)
          "ris records=.1 subpaths=1", 1e-5},
         {"all-materials", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
          "ris records=0 subpaths=100", 1e-5},
+        /* in one subspace there is nothing to learn; where all L are equal, draws are uniform */
+        {"light-kinds", SIDE, 4, "spcbpt subspaces=1 steps=9", "spcbpt subspaces=1 steps=0",
+         "spcbpt subspaces=4 steps=9", 0},
+        {"all-materials", SIDE, 4, "spcbpt delta=1 steps=9", "spcbpt delta=1 steps=0", "spcbpt delta=.5 steps=0", 1e-9},
+        {"white", SIDE, 2, "spcbpt subspaces=1", "lvc connections=3", "spcbpt subspaces=1 connections=1", 0.01},
         {"mirror-glass", SIDE, 4, "restirgi neighbours=0", "pt", "restirgi neighbours=5", 0},
         {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph cluster=2", 1e-6},
         {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph radius=.2", 1e-6},
@@ -269,8 +277,8 @@ static const char HIDDEN[] =
 /* Records that meet no light leave the choice to the others, and to chance: the picture is the lamp's, as by bdpt. */
 static void test_useless(struct test *t)
 {
-    static const char *const ways[] = {"mbdpt", "pcbdpt records=.1", "ris records=.1", "ris2 records=.1", "lvc",
-                                       "cbdpt", "ris records=.1 weights=counts"};
+    static const char *const ways[] = {"mbdpt", "pcbdpt records=.1", "ris records=.1", "ris2 records=.1", "spcbpt",
+                                       "lvc", "cbdpt", "ris records=.1 weights=counts"};
     float image[SIDE * SIDE * 3];
     double sum = 0;
     struct scene scene;
@@ -305,6 +313,7 @@ void test_rivals_long(struct test *t)
 void test_rivals(struct test *t)
 {
     test_ris(t);
+    test_spcbpt(t);
     test_expectations(t, 1);
     test_three_pixels(t);
     test_limits(t);

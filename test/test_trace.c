@@ -24,6 +24,7 @@ static const struct {
             {"pcbdpt", "pcbdpt", "", DEPTH},
             {"ris", "ris", "", DEPTH},
             {"ris2", "ris2", "", DEPTH},
+            {"spcbpt", "spcbpt", "", DEPTH},
             {"restir", "restir", "", DEPTH},
             {"restirgi", "restirgi", "", 0}, /* the last two share pt's eye sub-paths */
             {"pathgraph", "pathgraph", "", 0}};

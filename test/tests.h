@@ -63,7 +63,8 @@ void test_references(struct test *t);
 void test_references_long(struct test *t);
 void test_report(struct test *t);
 void test_rivals(struct test *t);
-void test_ris(struct test *t); /* part of test_rivals */
+void test_ris(struct test *t);    /* part of test_rivals */
+void test_spcbpt(struct test *t); /* the same */
 void test_rivals_long(struct test *t);
 void test_vcm(struct test *t);
 void test_scenes(struct test *t);
