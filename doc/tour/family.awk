@@ -27,12 +27,13 @@ END {
     method("vertices", "pcbdpt", "mean of 1 / V and of three records")
     method("vertices", "ris", "by one record; weights depend on it")
     method("vertices", "ris2", "M2 by L_v, then as ris")
+    method("vertices", "spcbpt", "subspace by Gamma(e,l), then L_v")
     method("eye", "restirgi", "one second vertex of N + 1 pixels")
     method("eye", "pathgraph", "all M of a cluster; biased")
     method("state", "pssmlt", "all its numbers, changed a little")
     method("state", "mmlt", "one strategy's numbers, changed a little")
     method("state", "mlt", "a path, a part of its vertices kept")
-    print "<svg xmlns='http://www.w3.org/2000/svg' width='740' height='574' viewBox='0 0 740 574' " \
+    print "<svg xmlns='http://www.w3.org/2000/svg' width='740' height='600' viewBox='0 0 740 600' " \
         "font-family='sans-serif' font-size='13'><rect width='100%' height='100%' fill='white'/>"
     print "<text x='12' y='22' font-weight='bold'>an eye sub-path is connected to</text>" \
         "<text x='300' y='22' font-weight='bold'>method</text><text x='392' y='22' font-weight='bold'>choice</text>"

@@ -5,8 +5,9 @@
  * sees [Popov 2015]:
  *     P(v) = (PMF_1(v) + PMF_2(v) + PMF_3(v) + 1/V) / 4,    X = (1/C) sum over draws of w F(v) / (K P(v)).
  * Any P that reaches all has BDPT's expectation, so it may depend on the pool and on the eye vertex. The weights may
- * not: they are BDPT's, one sample for every strategy; what the paper does against the variance of shared light
- * sub-paths could not be read. s = 0, s = 1 and t = 1 stay as they are.
+ * not: they are BDPT's, one sample for every strategy. That is the paper's bound as [Grittmann 2021] compares with it:
+ * samples that share sub-paths have at most the variance of one, so any number of them counts as one. The paper's own
+ * text could not be read. s = 0, s = 1 and t = 1 stay as they are.
  *
  * Without records P is uniform, as in lvc.c.
  *

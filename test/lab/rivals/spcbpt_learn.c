@@ -150,7 +150,7 @@ double *learn_gamma(const struct lessons *all, int classes, const double *each, 
         for (int k = 0; k < all->lesson[i].n_links; k++, link++)
             gamma[cell_of(link, classes)] += fmin(all->lesson[i].x, most);
     normalise(gamma, classes);
-    for (int i = 0; i < steps; i++)
+    for (int i = 0; i < steps && all->n_links > 0; i++)
         improve(all, classes, each, K, gamma);
     return gamma;
 }
