@@ -43,6 +43,7 @@ static const struct test_entry ENTRIES[] = {
     {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
     {"draws", test_what_is_drawn, true}, {"growth", test_growth, true},
     {"rivals", test_rivals, false},   {"vcm", test_vcm, false},   {"ellipse", test_ellipse, false},
+    {"sdtree", test_sdtree, false},
     {"chains", test_chains, false},
     {"part", test_part, false}, {"trace", test_trace, false},
     {"report", test_report, false}, {"pictures", test_pictures, false},

@@ -1,5 +1,5 @@
-/* test_family.c: every selection and chain, restir and restirgi agree with pt to three thousandths of the mean. They
- * do so in six scenes, and with pools of one, two and four light sub-paths. The dissertation's bins, with the same
+/* test_family.c: every selection and chain, restir, restirgi and ppg agree with pt to three thousandths of the mean.
+ * They do so in six scenes, and with pools of one, two and four light sub-paths. The dissertation's bins, with the same
  * samples, are rejected. */
 #include <stdio.h>
 #include <string.h>
@@ -47,6 +47,7 @@ static const struct {
 static void test_six_scenes(struct test *t)
 {
     static const char *const ways[] = {"lvc", "cbdpt", "mbdpt", "pcbdpt", "ris", "ris2", "spcbpt", "restir", "restirgi",
+                                       "ppg",
                                        "asbdpt select=pool", "asbdpt select=vertices", "asbdpt select=subspaces",
                                        "asbdpt select=bins"};
     static const char *const chains[] = {"pssmlt", "mmlt", "mlt"};

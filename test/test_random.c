@@ -251,10 +251,10 @@ static void look_at(struct subject *s)
     if (s->made.one_ray)
         return;
     s->gate = draw_gate(&r, s->made.unit);
-    /* One strategy more finds what others do not where a delta light is behind a specular surface; restirgi shares pt's
-     * paths. */
+    /* One strategy more finds what others do not where a delta light is behind a specular surface; restirgi and ppg
+     * make the paths of pt. */
     if (pt || strstr(other.text, " with=") == NULL)
-        compare(s, &other, strcmp(other.name, "restirgi") == 0 ? &PT : &BDPT);
+        compare(s, &other, strcmp(other.name, "restirgi") == 0 || strcmp(other.name, "ppg") == 0 ? &PT : &BDPT);
     if (pt)
         compare(s, &BDPT, &PT);
     if (lt)

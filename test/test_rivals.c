@@ -74,7 +74,7 @@ static void test_rooms(struct test *t, int more)
 {
     static const char *const ways[] = {"pcbdpt records=.02", "ris records=.02 subpaths=30",
                                        "ris2 records=.02 presampled=30", "spcbpt", "restir neighbours=20",
-                                       "restirgi neighbours=20 heuristic=power", NULL};
+                                       "restirgi neighbours=20 heuristic=power", "ppg cell=300", NULL};
     struct scene scene;
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
         return;
@@ -105,7 +105,7 @@ static void test_every_scene(struct test *t, int more)
     static const char *const ways[] = {"mbdpt", "pcbdpt connections=2", "ris", "ris subpaths=20 records=.01",
                                        "ris2 presampled=20 records=.01", "spcbpt", "spcbpt heuristic=power guide=on",
                                        "restir neighbours=20", NULL};
-    static const char *const shared[] = {"restirgi", "restirgi neighbours=20", NULL};
+    static const char *const shared[] = {"restirgi", "restirgi neighbours=20", "ppg cell=100", NULL};
     test_scenes_by(t, "bdpt", ways, 2 * more);
     test_scenes_by(t, "pt", shared, 4 * more);
 }
@@ -131,6 +131,29 @@ static void test_gradient(struct test *t, int more)
         return;
     const struct plan right = {1024 * more, 16, 1, 231}, plan = {1024 * more, 16, 1, 232};
     all_agree(t, &scene, "a slope beside a wall", "pt", right, ways, plan);
+    scene_free(&scene);
+}
+
+/* A floor that scatters and mirrors, a wall, and a lamp as large as both, which s = 0 and s = 1 find alike. A guide that
+ * has learnt where the lamp is draws other directions than the BSDF. */
+static const char LAMP[] =
+    "LookAt 0 -3 1.5  0 0 .3  0 0 1 Camera \"perspective\" \"float fov\" 45\n"
+    "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 PixelFilter \"box\" WorldBegin\n"
+    "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] Shape \"trianglemesh\"\n"
+    "\"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 -1 1.2  -1 1 1.2  1 1 1.2  1 -1 1.2] AttributeEnd\n"
+    "Material \"uber\" \"rgb Kd\" [.5 .5 .5] \"rgb Kr\" [.4 .4 .4] \"rgb Ks\" [0 0 0]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 -1 0  1 -1 0  1 1 0  -1 1 0]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 1 0  1 1 0  1 1 1  -1 1 1]\n"
+    "WorldEnd\n";
+
+static void test_guide(struct test *t, int more)
+{
+    static const char *const ways[] = {"ppg cell=50", "ppg cell=1000 heuristic=power", NULL};
+    struct scene scene;
+    if (!scene_from_text(t, LAMP, &scene))
+        return;
+    const struct plan right = {256 * more, 16, 8, 241}, plan = {256 * more, 16, 8, 242};
+    all_agree(t, &scene, "a large lamp and mirrors", "pt", right, ways, plan);
     scene_free(&scene);
 }
 
@@ -246,6 +269,7 @@ static void test_limits(struct test *t)
         {"all-materials", SIDE, 4, "spcbpt delta=1 steps=9", "spcbpt delta=1 steps=0", "spcbpt delta=.5 steps=0", 1e-9},
         {"white", SIDE, 2, "spcbpt subspaces=1", "lvc connections=3", "spcbpt subspaces=1 connections=1", 0.01},
         {"mirror-glass", SIDE, 4, "restirgi neighbours=0", "pt", "restirgi neighbours=5", 0},
+        {"mirror-glass", SIDE, 4, "ppg training=0", "pt", "ppg training=1", 0},
         {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph cluster=2", 1e-6},
         {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph radius=.2", 1e-6},
         {"white", SIDE, 4, "pathgraph radius=.1", "pt", "pathgraph radius=1", 0.1}, /* the same light everywhere */
@@ -300,6 +324,7 @@ static void test_expectations(struct test *t, int more)
     test_small_pools(t, more);
     test_every_scene(t, more);
     test_gradient(t, more);
+    test_guide(t, more);
     test_furnace(t, more);
 }
 

@@ -13,7 +13,7 @@
 /* Every way of rendering; restarts make bins number its light sub-paths by blocks. */
 static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt select=pool", "asbdpt select=vertices", "asbdpt", "lvc",
                                    "cbdpt connections=2", "mbdpt", "pcbdpt connections=2", "ris", "ris2", "spcbpt",
-                                   "restir", "restirgi", "asbdpt select=bins", "asbdpt select=bins restart=8",
+                                   "restir", "restirgi", "ppg", "asbdpt select=bins", "asbdpt select=bins restart=8",
                                    "asbdpt select=bins restart=0"};
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
 

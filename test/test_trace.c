@@ -26,8 +26,9 @@ static const struct {
             {"ris2", "ris2", "", DEPTH},
             {"spcbpt", "spcbpt", "", DEPTH},
             {"restir", "restir", "", DEPTH},
-            {"restirgi", "restirgi", "", 0}, /* the last two share pt's eye sub-paths */
-            {"pathgraph", "pathgraph", "", 0}};
+            {"restirgi", "restirgi", "", 0}, /* the last three are path tracing */
+            {"pathgraph", "pathgraph", "", 0},
+            {"ppg", "ppg", "", 0}};
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
 
 static struct render_options options_of(int way)

@@ -19,6 +19,7 @@ void test_camera(struct test *t);
 void test_caustic(struct test *t);
 void test_devices(struct test *t);
 void test_ellipse(struct test *t);
+void test_sdtree(struct test *t);
 void test_emission(struct test *t);
 void test_equal_time(struct test *t); /* part of test_report */
 void test_plan(struct test *t); /* part of test_report */

@@ -1,22 +1,23 @@
 /* ppg.c: path tracing that draws directions by the BSDF and by what training has learnt of the light that arrives.
  *
- * Practical path guiding [Mueller 2017], with improvements of [Mueller 2019]. A walk leaves a surface with the density
- *     p(w) = a p_bsdf(w) + (1 - a) p_guide(w),                                                      [Mueller 2017 3.4]
+ * Practical path guiding [Mueller 2017 3], with improvements of [Mueller 2019]. A walk leaves a surface with the
+ * density
+ *     p(w) = a p_bsdf(w) + (1 - a) p_guide(w),
  * where p_guide is a quadtree of the place (sdtree.h). It draws w from one of both, and divides by p. The weights of
- * s = 0 and s = 1 are those of `pt` with p for p_bsdf. The tree is fixed before the first sample, and p > 0 where p_bsdf
- * is, so the expectation is that of `pt` for any tree.
+ * s = 0 and s = 1 are those of `pt` with p for p_bsdf. The tree is fixed before the first sample, and p > 0 where
+ * p_bsdf is, so the expectation is that of `pt` for any tree.
  *
- * Training consists of passes of 1, 2, 4 ... samples a pixel, whose numbers are negative. Each is guided by the tree of
- * the pass before it [Mueller 2017 3.3]. A record is a direction w that a sample took, and all that it found from there
- * on, points on lights and weighted hits included, over p(w). The record's place is moved at random within a box of the
- * size of its leaf, and its light is spread over directions. Each leaf finds its share a by descent. After the
- * pass of 2^k samples, leaves with more than `cell` 2^(k/2) records are halved.
+ * Training consists of passes of 1, 2, 4 ... samples a pixel, whose numbers are negative. Each is guided by the tree
+ * of the pass before it. A record is a direction w that a sample took, and all that it found from there on, points on
+ * lights and weighted hits included, over p(w). The record's place is moved at random within a box of the size of its
+ * leaf, and its light is spread over directions. Each leaf learns its share a. After the pass of n samples, leaves with
+ * more than `cell` sqrt(n) records are halved.
  *
  * What differs from the papers:
  *   - Training is a fixed number of samples, which are not part of the image: a render may go on, so its length is not
  *     known. The papers give half of all samples to the last pass, or combine passes by their inverse variances.
- *   - a is between 0.1 and 0.9, instead of a term of regularisation that depends on units.
- *   - Roulette is that of `pt`. Its author's code does not have the first paper's either.
+ *   - a is found by Newton's method and kept between 0.1 and 0.9. The papers take Adam with a term of regularisation.
+ *   - Roulette is that of `pt`. Its author's program does not have that of the first paper either.
  * The tree sees neither normals nor materials. Delta lobes and all scattering in media are left to the BSDF. Like `pt`,
  * it misses what delta lights send through mirrors and glass. Without training it is `pt` to the bit.
  *
@@ -37,7 +38,7 @@ struct ppg_state {
 
 /* How a sample left a vertex. */
 struct step {
-    const struct sd_leaf *guide; /* of the place; NULL: it left by the BSDF alone */
+    const struct sd_leaf *guide; /* of the place; NULL: there the BSDF draws alone */
     bool left;
     struct departure from; /* before roulette */
     double odds;           /* p_bsdf / (p_bsdf + p_guide) in that direction */
@@ -45,14 +46,6 @@ struct step {
 };
 
 /* --- samples ----------------------------------------------------------------------------------------- */
-
-static bool guidable(const struct vertex *z) { return z->kind == VERTEX_SURFACE && z->bsdf.n_smooth > 0; }
-
-static const struct sd_leaf *guide_at(const struct sdtree *tree, const struct vertex *z)
-{
-    const struct sd_leaf *leaf = guidable(z) ? &tree->node[sdtree_find(tree, z->p, NULL)].leaf : NULL;
-    return leaf != NULL && leaf->known.total > 0 ? leaf : NULL;
-}
 
 static double mixed(const struct sd_leaf *guide, double bsdf, double known)
 {
@@ -67,30 +60,26 @@ static bool leave_by_guide(const struct walk *w, const struct vertex *z, const s
     sampler_pair(w->sampler, DRAW_SCATTERING, u);
     vec3 wi = quadtree_draw(&guide->known, u);
     struct bsdf_value b = bsdf_eval(&z->bsdf, z->wo, wi, RADIANCE);
-    const struct departure from = {.ray = {z->p, wi, ray_margin(z->p), INFINITY, z->prim_id, 0},
-                                   .beta = rgb_scale(rgb_mul(z->beta, b.f), scatter_cosine(z, wi, RADIANCE)),
-                                   .pdf = b.pdf, .pdf_rev = b.pdf_rev};
-    *out = from;
-    return !rgb_is_black(from.beta) && rgb_is_finite(from.beta);
+    rgb beta = rgb_scale(rgb_mul(z->beta, b.f), scatter_cosine(z, wi, RADIANCE));
+    *out = (struct departure){.ray = {z->p, wi, ray_margin(z->p), INFINITY, z->prim_id, 0},
+                              .beta = beta, .pdf = b.pdf, .pdf_rev = b.pdf_rev};
+    return !rgb_is_black(beta) && rgb_is_finite(beta);
 }
 
 /* As walk_leave, by one of both. step->guide is known; the step is filled in. */
 static bool leave(const struct walk *w, const struct vertex *z, struct step *step, struct departure *out)
 {
     const struct sd_leaf *guide = step->guide;
-    bool by_guide = guide != NULL && sampler_number(w->sampler, DRAW_LOBE) >= guide->share;
-    if (!(by_guide ? leave_by_guide(w, z, guide, out) : walk_leave(w, z, RADIANCE, out)))
-        return false;
-    step->odds = 0.5;
-    if (guide != NULL) {
+    bool by_guide = guide != NULL && guide->share < 1 && sampler_number(w->sampler, DRAW_LOBE) >= guide->share;
+    step->left = by_guide ? leave_by_guide(w, z, guide, out) : walk_leave(w, z, RADIANCE, out);
+    if (guide != NULL && step->left) {
         double bsdf = out->pdf, known = out->delta ? 0 : quadtree_pdf(&guide->known, out->ray.d);
         out->pdf = mixed(guide, bsdf, known);
         out->beta = rgb_scale(out->beta, (by_guide ? 1 : bsdf) / out->pdf);
         step->odds = bsdf / (bsdf + known);
+        step->from = *out;
     }
-    step->left = true;
-    step->from = *out;
-    return true;
+    return step->left;
 }
 
 /* Go on from the last of n vertices. Returns their number; step [most] tells of each but the lens. */
@@ -100,7 +89,9 @@ static int walk_guided(const struct sdtree *tree, const struct walk *w, struct v
     for (bool met = n > 1; met;) {
         struct vertex *z = &path[n - 1];
         struct departure from;
-        step[n - 1] = (struct step){.guide = guide_at(tree, z)};
+        step[n - 1] = (struct step){.guide = NULL};
+        if (z->kind == VERTEX_SURFACE && z->bsdf.n_smooth > 0)
+            step[n - 1].guide = &tree->node[sdtree_find(tree, z->p, NULL)].leaf;
         if (n == most || !leave(w, z, &step[n - 1], &from))
             break;
         double left = rgb_max(from.beta), q = sqrt(left / w->rr_threshold);
@@ -117,37 +108,40 @@ static int walk_guided(const struct sdtree *tree, const struct walk *w, struct v
 }
 
 /* s = 1, as pixel_sum_direct. */
-static void sum_direct(struct pixel_sample *sample, const struct vertex *z, int t, const struct step *step)
+static void sum_direct(struct pixel_sample *sample, const struct vertex *z, int t, const struct sd_leaf *guide)
 {
     struct lit l;
     struct connection c = {.light = -1, .cell = -1};
     if (connect_light_point(sample->scene, sample->counts, z, &sample->sampler, 0, 1, &l)) {
-        if (step->guide != NULL)
-            l.pdf_z = mixed(step->guide, l.pdf_z, quadtree_pdf(&step->guide->known, l.w));
+        if (guide != NULL)
+            l.pdf_z = mixed(guide, l.pdf_z, quadtree_pdf(&guide->known, l.w));
         c = connect_lit(sample->scene, sample->counts, &l);
     }
     pixel_add(sample, &c, 1, t, NULL, z, NO_CHOICE);
 }
 
-/* A sample of a pixel. It is not complete. Returns its vertices in the workspace, of which step [max_depth + 2] tells. */
+/* A sample of a pixel, not ended. Its vertices are in the workspace; returns their number, and of each the step. */
 static int trace_pixel(const struct ppg_state *s, const struct tile_pass *pass, struct pixel_sample *sample,
-                       struct step *step)
+                       struct step **step)
 {
     const struct render_job *job = pass->job;
     struct vertex *eye = pass->work->eye;
+    int most = sample->max_depth + 2;
     uint64_t pixel = (uint64_t)sample->y * (uint64_t)job->scene->width + (uint64_t)sample->x;
     struct sampler sampler = sampler_start(job->eye_seed, RNG_EYE, pixel, (uint64_t)sample->iteration);
     const struct walk w = {job->scene, sample->counts, &pass->work->arena, &sampler, job->rr_threshold};
+    arena_reset(&pass->work->arena);
+    *step = arena_alloc(&pass->work->arena, (size_t)most * sizeof **step);
     int n = path_eye_pixel(&w, sample->x, sample->y, eye, 2, &sample->filter_weight);
-    n = walk_guided(&s->tree, &w, eye, step, n, sample->max_depth + 2);
+    n = walk_guided(&s->tree, &w, eye, *step, n, most);
     for (const struct observer *o = sample->observer; o != NULL; o = o->next)
         if (o->walked != NULL)
             o->walked(o->context, sample, RADIANCE, eye, n);
     for (int t = 2; t <= n; t++) {
         pixel_sum_hit(sample, eye, t);
-        if (eye[t - 1].kind != VERTEX_ESCAPED && t <= sample->max_depth + 1)
-            sum_direct(sample, &eye[t - 1], t, &step[t - 1]);
-        step[t - 1].before = sample->value;
+        if (eye[t - 1].kind != VERTEX_ESCAPED && t < most)
+            sum_direct(sample, &eye[t - 1], t, (*step)[t - 1].guide);
+        (*step)[t - 1].before = sample->value;
     }
     return n;
 }
@@ -155,12 +149,11 @@ static int trace_pixel(const struct ppg_state *s, const struct tile_pass *pass, 
 static void render(const struct preparation *m, const struct tile_pass *pass)
 {
     const struct ppg_state *s = m->state;
+    struct step *step;
     for (long iteration = pass->first; iteration < pass->end; iteration++)
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
-            arena_reset(&pass->work->arena);
-            struct step *step = arena_alloc(&pass->work->arena, ((size_t)s->frozen.max_depth + 2) * sizeof *step);
             struct pixel_sample sample = pixel_sample_begin(pass, &s->frozen.counts, x, y, iteration);
-            trace_pixel(s, pass, &sample, step);
+            trace_pixel(s, pass, &sample, &step);
             pixel_sample_end(&sample);
         }
 }
@@ -172,7 +165,7 @@ static double ratio(rgb a, rgb b)
     return rgb_luminance(rgb_make(b.r > 0 ? a.r / b.r : 0, b.g > 0 ? a.g / b.g : 0, b.b > 0 ? a.b / b.b : 0));
 }
 
-/* A step from vertex z, and what the sample found behind it. */
+/* The step from vertex z, and what the sample found behind it. */
 static void record(struct findings *out, const struct sdtree *tree, const struct vertex *z, const struct step *step,
                    rgb found, struct sampler *sampler)
 {
@@ -190,24 +183,23 @@ static void record(struct findings *out, const struct sdtree *tree, const struct
         findings_add(out, light);
 }
 
-/* Samples i of a pass, from number -2^k down, for all pixels in turn. */
+/* Sample i of a pass of n samples a pixel, which have the numbers -n, -n - 1 ... for all pixels in turn. */
 static void trace(const struct pass *p, int thread, long i, struct findings *out)
 {
     const struct ppg_state *s = p->context;
-    const struct render_job *job = p->training->job;
-    struct workspace *work = &p->training->work[thread];
+    const struct pixel_rect rect = p->training->job->film_rect;
     struct tile tile = {.sum = NULL}; /* counts what is not finite */
-    const struct tile_pass pass = {.job = job, .tile = &tile, .work = work};
-    long width = rect_width(job->film_rect), pixels = width * rect_height(job->film_rect);
-    struct step *step = arena_alloc(&work->arena, ((size_t)job->max_depth + 2) * sizeof *step);
-    struct pixel_sample sample =
-        pixel_sample_begin(&pass, &s->frozen.counts, job->film_rect.x0 + (int)(i % pixels % width),
-                           job->film_rect.y0 + (int)(i % pixels / width), -(p->end + i) / pixels);
-    int n = trace_pixel(s, &pass, &sample, step);
-    for (int t = 2; t <= n; t++)
-        if (step[t - 1].left && guidable(&work->eye[t - 1]))
-            record(out, &s->tree, &work->eye[t - 1], &step[t - 1],
-                   rgb_scale(rgb_sub(sample.value, step[t - 1].before), 1 / sample.filter_weight), &sample.sampler);
+    const struct tile_pass pass = {.job = p->training->job, .tile = &tile, .work = &p->training->work[thread]};
+    long width = rect_width(rect), pixels = width * rect_height(rect), at = i % pixels;
+    struct step *step;
+    struct pixel_sample sample = pixel_sample_begin(&pass, &s->frozen.counts, rect.x0 + (int)(at % width),
+                                                    rect.y0 + (int)(at / width), -(p->end + i) / pixels);
+    for (int t = trace_pixel(s, &pass, &sample, &step); t >= 2; t--)
+        if (step[t - 1].guide != NULL && step[t - 1].left) {
+            rgb found = rgb_sub(sample.value, step[t - 1].before);
+            record(out, &s->tree, &pass.work->eye[t - 1], &step[t - 1], rgb_scale(found, 1 / sample.filter_weight),
+                   &sample.sampler);
+        }
 }
 
 static void take(void *context, const struct finding *f)
@@ -229,16 +221,14 @@ static void prepare(const struct render_job *job, struct preparation *out)
     vec3 low, high;
     train_extent(&t, &low, &high);
     sdtree_init(&s->tree, low, high);
-    for (long samples = 1; 2 * samples - 1 <= s->training; samples *= 2) {
-        pass.end = (long)pixel_light_count(job) * samples;
+    for (long n = 1; 2 * n - 1 <= s->training && !t.patience.over; n *= 2) {
+        pass.end = n * (long)pixel_light_count(job);
         pass_run(&pass);
-        if (t.patience.over)
-            break;
-        sdtree_build(&s->tree, s->cell * sqrt((double)samples));
+        if (!t.patience.over)
+            sdtree_build(&s->tree, s->cell * sqrt((double)n));
     }
     patience_end(&t.patience);
     workspaces_free(t.work, job->n_threads);
-    out->number[0] = (struct film_number){"guide_leaves", (s->tree.n + 1) / 2};
 }
 
 static void release(void *state)
@@ -249,7 +239,7 @@ static void release(void *state)
 
 #define AT(member) offsetof(struct ppg_state, member)
 static const struct field PARAMETERS[] = {
-    {"training", FIELD_INTEGER, AT(training), 15, 0, 1 << 20, "most samples of a pixel in all passes of training", NULL},
+    {"training", FIELD_INTEGER, AT(training), 15, 0, 1 << 20, "most samples of a pixel in all of training", NULL},
     {"cell", FIELD_INTEGER, AT(cell), 4000, 1, 1 << 30, "records of the first pass above which a leaf is halved", NULL},
     {.name = NULL}};
 

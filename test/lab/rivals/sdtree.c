@@ -8,9 +8,9 @@
 #include "base/number.h"
 #include "base/warp.h"
 
-static const double QUAD_SHARE = 0.01;                   /* of the light in a cell: rho of [Mueller 2017 3.2] */
-enum { QUAD_DEPTH = 20, NODES_MOST = 8192 };             /* of 10 KiB for each leaf */
-static const double LEAST_SHARE = 0.1, MOST_SHARE = 0.9; /* neither BSDF nor quadtree starves */
+enum { QUAD_DEPTH = 20, NODES_MOST = 8192 }; /* about 40 MiB */
+static const double QUAD_SHARE = 0.01;       /* rho: most of the light in a cell [Mueller 2017] */
+static const double FIRST_SHARE = 0.5, LEAST_SHARE = 0.1, MOST_SHARE = 0.9;
 
 /* --- directions -------------------------------------------------------------------------------------- */
 
@@ -57,9 +57,10 @@ static double look_up(const struct quadtree *q, double u, double v, double *dens
 
 double quadtree_pdf(const struct quadtree *q, vec3 w)
 {
-    double u, v, density;
+    double u, v, density = 0;
     warp_sphere_inverse(w, &u, &v);
-    look_up(q, u, v, &density);
+    if (q->total > 0)
+        look_up(q, u, v, &density);
     return density * warp_sphere_pdf_w();
 }
 
@@ -105,15 +106,21 @@ static int divide(struct quadtree *q, const struct quadtree *from, int node, dou
 
 /* --- space ------------------------------------------------------------------------------------------- */
 
-/* The Kullback-Leibler divergence of the mixture from the contributions is least where
- *     sum over records of contribution log(share odds + (1 - share) (1 - odds))
- * is greatest [Mueller 2019]. The sum is concave, so one step of Newton's a pass is enough. */
+/* The Kullback-Leibler divergence of the mixture from the contributions is least where the sum over records of
+ *     contribution log(share odds + (1 - share) (1 - odds))
+ * is greatest [Mueller 2019]. The sum is concave, so a step of Newton's method in each pass is enough. */
 void sd_add_record(struct sd_leaf *leaf, double contribution, double odds)
 {
     double slope = (2 * odds - 1) / (leaf->share * odds + (1 - leaf->share) * (1 - odds));
     leaf->records++;
     leaf->slope += contribution * slope;
     leaf->bend += contribution * slope * slope;
+}
+
+static double next_share(const struct sd_leaf *leaf)
+{
+    double best = leaf->bend > 0 ? leaf->share + leaf->slope / leaf->bend : leaf->share;
+    return leaf->known.total > 0 ? fmin(fmax(best, LEAST_SHARE), MOST_SHARE) : FIRST_SHARE;
 }
 
 static void empty(struct sd_leaf *leaf)
@@ -130,7 +137,7 @@ void sdtree_init(struct sdtree *t, vec3 low, vec3 high)
     t->side = fmax(fmax(size.x, fmax(size.y, size.z)), 1e-30);
     t->node = mem_alloc(1, sizeof *t->node);
     t->n = 1;
-    t->node->leaf.share = 0.5;
+    t->node->leaf.share = 1;
     empty(&t->node->leaf);
 }
 
@@ -185,9 +192,8 @@ void sdtree_build(struct sdtree *t, double most)
     for (int node = 0, n = t->n; node < n; node++) {
         struct sd_leaf *leaf = &t->node[node].leaf;
         struct quadtree before = leaf->known;
-        if (leaf->bend > 0)
-            leaf->share = fmin(fmax(leaf->share + leaf->slope / leaf->bend, LEAST_SHARE), MOST_SHARE);
         if (leaf->next.total > 0) {
+            leaf->share = next_share(leaf);
             leaf->known = leaf->next;
             leaf->next = before;
         }

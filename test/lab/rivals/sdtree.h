@@ -1,43 +1,40 @@
-/* sdtree.h: where light comes from, by place and direction.                                      [Mueller 2017 3.1-3.2]
+/* sdtree.h: where light comes from, by place and direction.                                         [Mueller 2017 3]
  *
  * A binary tree halves a cube of space, along x, y, z in turn. Each of its leaves has quadtrees over the square of all
  * directions, (u,v) = ((1 - cos theta) / 2, phi / 2 pi), where equal areas are equal solid angles. Directions are drawn
- * from `known`, which is from the pass before. `next` is filled by the running pass and then becomes `known`.
+ * from `known`, which is from the pass before. `next` is filled by the running pass and then becomes `known`. Sums
+ * depend on the order in which records are added, which the caller has to fix.
  *
- * Sums depend on the order in which records are added, which is the caller's to fix. Tests: test_sdtree.c.
+ * Tests: test_sdtree.c.
  */
 #ifndef ASBDPT_SDTREE_H
 #define ASBDPT_SDTREE_H
 
 #include "base/vec.h"
 
-struct quad {
-    double sum[4]; /* of each quarter: number 1 has the larger u, 2 the larger v, 3 both */
-    int child[4];  /* 0: none, the quarter is a cell */
-};
-
 struct quadtree {
-    struct quad *node; /* [n], the first is the whole square; owned */
+    struct quad {
+        double sum[4]; /* of light in each quarter: number 1 has the larger u, 2 the larger v, 3 both */
+        int child[4];  /* 0: none, the quarter is a cell */
+    } *node;           /* [n], the first is the whole square; owned */
     int n;
-    double total; /* 0: no light is known */
+    double total;
 };
 
 struct sd_leaf {
     struct quadtree known, next;
     double records;     /* of this pass; just after the leaf was halved, half of them */
-    double share;       /* of directions that the BSDF draws, fixed during a pass */
-    double slope, bend; /* derivatives of what is maximised by the share, sums over the records */
-};
-
-struct sd_node {
-    int child[2]; /* 0: none, the node has a leaf */
-    struct sd_leaf leaf;
+    double share;       /* of directions that the BSDF draws; 1: all, no light is known */
+    double slope, bend; /* derivatives of what the share should maximise, sums over the records */
 };
 
 struct sdtree {
     vec3 low;
     double side; /* of the cube */
-    struct sd_node *node; /* [n], owned */
+    struct sd_node {
+        int child[2]; /* 0: none, the node has a leaf */
+        struct sd_leaf leaf;
+    } *node; /* [n], owned */
     int n;
 };
 
@@ -49,14 +46,14 @@ void sdtree_free(struct sdtree *t);
  *   size  out, edges of the leaf's box; may be NULL */
 int sdtree_find(const struct sdtree *t, vec3 p, vec3 *size);
 
-/* sd_add_light: a direction was drawn, and light came from there: radiance over density.
- * sd_add_record: a direction was drawn.
- *   contribution  radiance times BSDF and cosine, over density
- *   odds          p_bsdf / (p_bsdf + p_guide), of the densities with which each alone would draw it */
-void sd_add_light(struct sd_leaf *leaf, double u, double v, double light);
+/* sd_add_record: a path left the place in some direction.
+ *   contribution  radiance from there times BSDF and cosine, over density
+ *   odds          p_bsdf / (p_bsdf + p_guide), of the densities with which each alone would draw it
+ * sd_add_light: and radiance over density is not 0. */
 void sd_add_record(struct sd_leaf *leaf, double contribution, double odds);
+void sd_add_light(struct sd_leaf *leaf, double u, double v, double light);
 
-/* sdtree_build: the pass is over: `next` becomes `known`, unless it found no light. Then, for another pass, halve leaves
+/* sdtree_build: the pass is over: `next` becomes `known`, unless it has no light. Then, for another pass, halve leaves
  * until none has more than `most` records, and divide `next` until no cell has much of the light that is known. */
 void sdtree_build(struct sdtree *t, double most);
 
