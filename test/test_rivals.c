@@ -134,11 +134,11 @@ static void test_gradient(struct test *t, int more)
     scene_free(&scene);
 }
 
-/* A floor that scatters and mirrors, a wall, and a lamp as large as both, which s = 0 and s = 1 find alike. A guide that
- * has learnt where the lamp is draws other directions than the BSDF. */
+/* A floor that scatters and mirrors, a wall, and a lamp as large as both, which s = 0 and s = 1 find alike. A guide
+ * that has learnt where the lamp is draws other directions than the BSDF. */
 static const char LAMP[] =
-    "LookAt 0 -3 1.5  0 0 .3  0 0 1 Camera \"perspective\" \"float fov\" 45\n"
-    "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 PixelFilter \"box\" WorldBegin\n"
+    "LookAt 0 -2 1.8  0 -.4 0  0 0 1 Camera \"perspective\" \"float fov\" 40\n"
+    "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 32 PixelFilter \"box\" WorldBegin\n"
     "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] Shape \"trianglemesh\"\n"
     "\"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 -1 1.2  -1 1 1.2  1 1 1.2  1 -1 1.2] AttributeEnd\n"
     "Material \"uber\" \"rgb Kd\" [.5 .5 .5] \"rgb Kr\" [.4 .4 .4] \"rgb Ks\" [0 0 0]\n"
@@ -152,7 +152,7 @@ static void test_guide(struct test *t, int more)
     struct scene scene;
     if (!scene_from_text(t, LAMP, &scene))
         return;
-    const struct plan right = {256 * more, 16, 8, 241}, plan = {256 * more, 16, 8, 242};
+    const struct plan right = {16 * more, 16, 32, 241}, plan = {16 * more, 16, 32, 242};
     all_agree(t, &scene, "a large lamp and mirrors", "pt", right, ways, plan);
     scene_free(&scene);
 }
