@@ -14,12 +14,13 @@ enum { LINKS = 4000, CLASSES = 16 };
  * are met if `sides`. */
 static struct lessons edges(uint64_t seed, bool sides)
 {
-    struct lessons all = {mem_alloc(LINKS, sizeof *all.lesson), mem_alloc(LINKS, sizeof *all.link), LINKS, LINKS};
+    struct lessons all = {mem_alloc(LINKS, sizeof *all.lesson), mem_alloc(LINKS, sizeof *all.link), LINKS, LINKS,
+                          LINKS};
     struct rng r = rng_stream(seed, RNG_TEST, 0, 0);
     for (int i = 0; i < LINKS; i++) {
         double x = rng_uniform(&r), y = rng_uniform(&r), side = sides && rng_uniform(&r) < 0.5 ? -1 : 1;
-        all.lesson[i] = (struct lesson){1, 1, 1, 1};
-        all.link[i] = (struct link){{{{0, 0, 0, 0, 0, 1}}, {{x * x, y * y, 0, 0, 0, side}}}, {0, 0}, 1};
+        all.lesson[i] = (struct lesson){1, 1, 1};
+        all.link[i] = (struct link){{{{0, 0, 0, 0, 0, 1}}, {{x * x, y * y, 0, 0, 0, side}}}, {0, 0}, 1, 1};
     }
     return all;
 }
@@ -80,11 +81,11 @@ static void test_matrix(struct test *t)
     static const double square[3] = {9, 1, 4}, ratio[3] = {1, 2, 0.5}, each[3] = {1, 0.5, 4};
     struct lesson lesson[3];
     struct link link[3];
-    struct lessons all = {lesson, link, 3, 3};
+    struct lessons all = {lesson, link, 3, 3, 3};
     double root[3], total = 0;
     for (int l = 0; l < 3; l++) {
-        lesson[l] = (struct lesson){1, square[l], 1e-12, 1};
-        link[l] = (struct link){{{{0}}, {{0}}}, {0, l}, ratio[l]};
+        lesson[l] = (struct lesson){square[l], 1e-12, 1};
+        link[l] = (struct link){{{{0}}, {{0}}}, {0, l}, ratio[l], 1};
         root[l] = sqrt(square[l] / (ratio[l] * each[l]));
         total += root[l];
     }

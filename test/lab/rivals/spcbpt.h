@@ -1,5 +1,5 @@
 /* spcbpt.h: what spcbpt.c learns: classification trees, and the matrix Gamma, from paths of a path tracer. Nothing here
- * knows how paths are traced. Tests: test_rivals.c. */
+ * knows how paths are traced. Tests: test_spcbpt.c. */
 #ifndef ASBDPT_SPCBPT_H
 #define ASBDPT_SPCBPT_H
 
@@ -35,20 +35,21 @@ static inline int tree_find(const struct tree_node *node, struct place at)
 struct link {
     struct place end[2]; /* eye end, light end */
     int label[2];        /* their subspaces */
-    double ratio;        /* p_i / p */
+    double ratio, x;     /* p_i / p; what the path contributes, w f / p */
 };
 
 /* A training path, made with density p by s = 0 or s = 1; w is its weight as if these two were the only strategies. */
 struct lesson {
-    double x, square; /* w f / p; w (f / p)^2 over the number of samples */
-    double fixed;     /* sum of n_i p_i / p over the strategies that do not draw */
-    int n_links;      /* next in the list */
+    double square; /* w (f / p)^2 over the number of samples */
+    double fixed;  /* sum of n_i p_i / p over the strategies that do not draw */
+    int n_links;   /* next in the list */
 };
 
 struct lessons {
     struct lesson *lesson; /* [n], owned */
     struct link *link;     /* [n_links], owned */
     size_t n, n_links;
+    double sum; /* of what all paths contribute */
 };
 
 /* learn_tree: classify the eye ends (0) or light ends (1) of all links in at most `classes` subspaces, and set their

@@ -6,98 +6,78 @@
 #include "base/alias.h"
 #include "base/mem.h"
 
-/* Bound of what a path contributes to trees and to the first Gamma: ten times the mean. */
-static double most_of_path(const struct lessons *all)
+/* What the path of a link contributes, at most ten times the mean: for trees and for the first Gamma. */
+static double weight_of(const struct lessons *all, const struct link *link)
 {
-    double sum = 0;
-    for (size_t i = 0; i < all->n; i++)
-        sum += all->lesson[i].x;
-    return 10 * sum / (double)(all->n + 1);
+    return fmin(link->x, 10 * all->sum / (double)all->n);
 }
 
 /* --- trees ------------------------------------------------------------------------------------------- */
 
-struct sample {
-    struct place at;
-    double weight;
-};
-
-/* A leaf of the growing tree, with the box of its samples; its subspace is its number. */
+/* A leaf of the growing tree, with its box. The links in it have its number for their label. */
 struct leaf {
-    struct sample *sample; /* [n] */
-    int n, node, halved;   /* halved: how often the box was */
+    int node, halved; /* halved: how often the box was */
     double weight;
     struct place low, high;
 };
 
-/* Halve the leaf's box along x, y, z and the axes of normals in turn, until that parts its samples. Then it keeps those
- * below, and the others are *other. False if nothing parts them. */
-static bool part(struct leaf *leaf, struct leaf *other, struct tree_node *node)
+/* Halve the box of a leaf along x, y, z and the axes of normals in turn, until that parts its links. Those above become
+ * the leaf `other`. False if nothing parts them. */
+static bool part(struct lessons *all, int end, struct leaf *leaf, int number, int other, struct tree_node *node)
 {
     enum { DEEPEST = 72 };
-    while (leaf->halved < DEEPEST) {
-        int axis = leaf->halved++ % 6, front = 0;
-        double at = (leaf->low.x[axis] + leaf->high.x[axis]) / 2, weight = 0;
-        for (int i = 0; i < leaf->n; i++)
-            if (leaf->sample[i].at.x[axis] < at) {
-                struct sample below = leaf->sample[i];
-                leaf->sample[i] = leaf->sample[front];
-                leaf->sample[front++] = below;
-                weight += below.weight;
+    struct leaf *below = &leaf[number], *above = &leaf[other];
+    while (below->halved < DEEPEST) {
+        int axis = below->halved++ % 6, n[2] = {0, 0};
+        double at = (below->low.x[axis] + below->high.x[axis]) / 2, weight[2] = {0, 0};
+        for (const struct link *k = all->link; k < all->link + all->n_links; k++)
+            if (k->label[end] == number) {
+                n[k->end[end].x[axis] >= at]++;
+                weight[k->end[end].x[axis] >= at] += weight_of(all, k);
             }
-        *other = *leaf;
-        leaf->high.x[axis] = other->low.x[axis] = at;
+        *above = *below;
+        below->high.x[axis] = above->low.x[axis] = at;
+        if (n[0] == 0)
+            *below = *above;
+        if (n[0] == 0 || n[1] == 0)
+            continue;
+        below->weight = weight[0];
+        above->weight = weight[1];
+        for (struct link *k = all->link; k < all->link + all->n_links; k++)
+            if (k->label[end] == number && k->end[end].x[axis] >= at)
+                k->label[end] = other;
         *node = (struct tree_node){axis, {0, 0}, 0, at};
-        if (front == 0)
-            *leaf = *other;
-        if (front > 0 && front < leaf->n) {
-            *other = (struct leaf){leaf->sample + front, leaf->n - front, 0, leaf->halved, leaf->weight - weight,
-                                   other->low, other->high};
-            leaf->n = front;
-            leaf->weight = weight;
-            return true;
-        }
+        return true;
     }
     return false;
 }
 
 struct tree_node *learn_tree(struct lessons *all, int end, int classes, vec3 center, double radius)
 {
-    struct sample *sample = mem_alloc(all->n_links, sizeof *sample);
-    struct tree_node *tree = mem_alloc(2 * (size_t)classes, sizeof *tree);
+    struct tree_node *tree = mem_alloc(2 * (size_t)classes, sizeof *tree), parted;
     struct leaf *leaf = mem_alloc((size_t)classes, sizeof *leaf);
     vec3 low = sub(center, vec(radius, radius, radius)), high = add(center, vec(radius, radius, radius));
-    const struct link *link = all->link;
-    double most = most_of_path(all);
-    leaf[0].sample = sample;
     leaf[0].low = (struct place){{low.x, low.y, low.z, -1, -1, -1}};
     leaf[0].high = (struct place){{high.x, high.y, high.z, 1, 1, 1}};
-    for (size_t i = 0; i < all->n; i++)
-        for (int k = 0; k < all->lesson[i].n_links; k++, link++) {
-            sample[leaf[0].n++] = (struct sample){link->end[end], fmin(all->lesson[i].x, most)};
-            leaf[0].weight += fmin(all->lesson[i].x, most);
-        }
+    leaf[0].weight = (double)all->n_links;
     tree[0] = (struct tree_node){-1, {0, 0}, 0, 0};
     for (int n = 1, n_nodes = 1; n < classes;) {
-        struct leaf *heaviest = leaf;
+        int heaviest = 0;
         for (int i = 1; i < n; i++)
-            heaviest = leaf[i].weight > heaviest->weight ? &leaf[i] : heaviest;
-        struct tree_node *node = &tree[heaviest->node], parted;
-        if (!(heaviest->weight > 0))
+            heaviest = leaf[i].weight > leaf[heaviest].weight ? i : heaviest;
+        if (!(leaf[heaviest].weight > 0))
             break;
-        if (!part(heaviest, &leaf[n], &parted)) {
-            heaviest->weight = 0;
+        if (!part(all, end, leaf, heaviest, n, &parted)) {
+            leaf[heaviest].weight = 0;
             continue;
         }
-        parted.child[0] = heaviest->node = n_nodes++;
+        struct tree_node *node = &tree[leaf[heaviest].node];
+        parted.child[0] = leaf[heaviest].node = n_nodes++;
         parted.child[1] = leaf[n].node = n_nodes++;
         tree[parted.child[0]] = *node;
         tree[parted.child[1]] = (struct tree_node){-1, {0, 0}, n++, 0};
         *node = parted;
     }
-    for (size_t i = 0; i < all->n_links; i++)
-        all->link[i].label[end] = tree_find(tree, all->link[i].end[end]);
-    free(sample);
     free(leaf);
     return tree;
 }
@@ -144,11 +124,9 @@ static void improve(const struct lessons *all, int classes, const double *each, 
 
 double *learn_gamma(const struct lessons *all, int classes, const double *each, double K, int steps)
 {
-    double *gamma = mem_alloc((size_t)classes * (size_t)classes, sizeof *gamma), most = most_of_path(all);
-    const struct link *link = all->link;
-    for (size_t i = 0; i < all->n; i++)
-        for (int k = 0; k < all->lesson[i].n_links; k++, link++)
-            gamma[cell_of(link, classes)] += fmin(all->lesson[i].x, most);
+    double *gamma = mem_alloc((size_t)classes * (size_t)classes, sizeof *gamma);
+    for (size_t i = 0; i < all->n_links; i++)
+        gamma[cell_of(&all->link[i], classes)] += weight_of(all, &all->link[i]);
     normalise(gamma, classes);
     for (int i = 0; i < steps && all->n_links > 0; i++)
         improve(all, classes, each, K, gamma);
