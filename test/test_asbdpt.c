@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "bench.h"
 #include "helpers.h"
 #include "integrators/pooled.h"
-#include "render/render.h"
 #include "transport/pixel_sample.h"
 #include "tests.h"
 
@@ -149,19 +149,15 @@ static void test_expected_vertices(struct test *t)
     } cases[] = {{"ball", BALL, 4, 3.0 / 4}, {"ball", BALL, 1, 3}, {"mirror", MIRROR, 3, 3}, {"mirror", MIRROR, 1, 3}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct scene scene;
-        struct error err;
-        if (!scene_from_text(t, cases[i].text, &scene))
+        struct bench b;
+        if (!scene_from_text(t, cases[i].text, &scene) ||
+            !bench_new(t, &scene, set_method(&scene, "lvc connections=3"), cases[i].depth, 0, &b))
             return;
-        struct render_options o = {.integrator = set_method(&scene, "lvc connections=3"), .max_depth = cases[i].depth};
-        struct render_job job = {.scene = NULL};
-        struct preparation prepared;
-        if (CHECK(t, render_prepare(&scene, &o, render_crop(&scene), &job, &prepared, &err), "%s", err.text)) {
-            const double *count = ((const struct frozen *)prepared.state)->counts.connect;
-            CHECK(t, count[FIRST_HIT] == cases[i].count && count[LATER_HIT] == cases[i].count,
-                  "%s, maxdepth %d: lvc counts %g and %g draws, not %g", cases[i].name, cases[i].depth,
-                  count[FIRST_HIT], count[LATER_HIT], cases[i].count);
-            method_release(&prepared);
-        }
+        const double *count = bench_frozen(&b)->counts.connect;
+        CHECK(t, count[FIRST_HIT] == cases[i].count && count[LATER_HIT] == cases[i].count,
+              "%s, maxdepth %d: lvc counts %g and %g draws, not %g", cases[i].name, cases[i].depth, count[FIRST_HIT],
+              count[LATER_HIT], cases[i].count);
+        bench_free(&b);
         scene_free(&scene);
     }
 }
@@ -306,23 +302,18 @@ static void spoil(void *scratch, const void *state, const struct tile_pass *pass
 
 static void check_draws(struct test *t, struct scene *scene, const char *way, struct draws d, double least)
 {
-    struct render_options o = {.integrator = set_method(scene, way), .seed = 1, .max_depth = 4, .n_threads = 1};
-    struct render_job job = {.scene = NULL};
-    struct error err;
-    struct preparation p;
-    if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &job, &p, &err), "%s", err.text))
-        return;
-    struct tile tile = {.sum = NULL};
+    struct bench b;
     const struct observer observer = {.context = &d, .joined = note_draw};
-    struct workspace *work = workspaces_new(1, job.max_depth);
-    struct tile_pass pass = {&job, 0, 1, &tile, work, &observer};
-    work->scratch = method_scratch(&p);
-    tile_start(&tile, pixels_all(job.film_rect), job.film_rect, &scene->filter);
-    struct method spoiling = *p.method;
+    if (!bench_new(t, scene, set_method(scene, way), 4, 0, &b))
+        return;
+    struct tile_pass pass = bench_pass(&b, 0, 1);
+    pass.observer = &observer;
+    struct method spoiling = *b.prepared.method;
     spoiling.begin = spoil;
-    d.method = p.method;
-    p.method = d.spoilt > 0 || d.delta > 0 ? &spoiling : p.method;
-    p.method->render(&p, &pass);
+    d.method = b.prepared.method;
+    b.prepared.method = d.spoilt > 0 || d.delta > 0 ? &spoiling : d.method;
+    b.prepared.method->render(&b.prepared, &pass);
+    b.prepared.method = d.method;
     CHECK(t, d.told > 100 && d.worst < 1e-9, "%s: %ld draws, what they count for is off by %g", way, d.told, d.worst);
     CHECK(t, d.sum < 1 + 1e-9, "%s: probabilities of %d that were drawn sum to %g", way, d.n, d.sum);
     CHECK(t, d.sum > least, "%s: too few, %d, are drawn: their probabilities sum to %g", way, d.n, d.sum);
@@ -331,10 +322,7 @@ static void check_draws(struct test *t, struct scene *scene, const char *way, st
     CHECK(t, d.spoilt == 0 || fabs(d.least * d.paths - useless) < 1e-9,
           "%s: what is no importance has %g times the probability that delta leaves it", way,
           d.least * d.paths / useless);
-    tile_free(&tile);
-    method_scratch_free(&p, work->scratch);
-    workspaces_free(work, 1);
-    method_release(&p);
+    bench_free(&b);
 }
 
 /* 256 pixels. Where they share one light sub-path, whatever can be drawn is drawn soon. */

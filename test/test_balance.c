@@ -6,7 +6,7 @@
 
 #include "caustics/lamp.h"
 #include "chains/mlt.h"
-#include "chain_bench.h"
+#include "bench.h"
 #include "tests.h"
 
 /* --- paths made again -------------------------------------------------------------------------------- */
@@ -17,7 +17,7 @@ static void test_remake(struct test *t, struct scene *scene, long made[MLT_PERTU
 {
     struct bench b;
     settings_set(&scene->settings, "starts", "16384", "test");
-    if (!bench_new(t, scene, "mlt", 0, &b))
+    if (!bench_new(t, scene, "mlt", CHAIN_DEPTH, 0, &b))
         return;
     struct chain *c = b.chain;
     const struct chains *all = b.prepared.state;
@@ -50,7 +50,7 @@ static void test_paths(struct test *t)
     long made[MLT_PERTURBATIONS] = {0, 0};
     struct scene scene;
     for (int i = 0; i < 2; i++)
-        if (bench_room(t, 16, 16, LENS[i], "gaussian", &scene)) {
+        if (chain_room(t, 16, 16, LENS[i], "gaussian", &scene)) {
             test_remake(t, &scene, made);
             scene_free(&scene);
         }
@@ -175,10 +175,10 @@ static void test_method(struct test *t, const char *integrator)
     struct bench b;
     struct moves n = {0, 0, 0, 0};
     bool paths = strcmp(integrator, "mlt") == 0;
-    if (!bench_room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene))
+    if (!chain_room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene))
         return;
     settings_set(&scene.settings, "starts", "16384", "test");
-    if (!bench_new(t, &scene, integrator, 0, &b))
+    if (!bench_new(t, &scene, integrator, CHAIN_DEPTH, 0, &b))
         return;
     struct chain *c = b.chain;
     const struct chains *all = b.prepared.state;

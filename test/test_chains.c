@@ -9,7 +9,7 @@
 #include "chains/mlt.h"
 #include "lab/stats.h"
 #include "render/render.h"
-#include "chain_bench.h"
+#include "bench.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -34,7 +34,7 @@ static void test_steps(struct test *t)
     double where[CELLS] = {0}, how[CELLS] = {0}, even_where[CELLS], even_how[CELLS];
     struct scene scene;
     struct bench b;
-    if (!bench_room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", 0, &b))
+    if (!chain_room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", CHAIN_DEPTH, 0, &b))
         return;
     struct chain *c = b.chain;
     const struct chains *all = b.prepared.state;
@@ -128,14 +128,14 @@ static void test_stays(struct test *t, const char *integrator)
 {
     enum { BATCHES = 32 };
     struct scene scene;
-    if (!bench_room(t, 16, 16, "", "box", &scene))
+    if (!chain_room(t, 16, 16, "", "box", &scene))
         return;
     settings_set(&scene.settings, "starts", "1024", "test");
     struct batches more = batches_new(BATCHES, CELLS, false), less = batches_new(BATCHES, CELLS, false),
                    none = batches_new(2, CELLS, false);
     for (int k = 0; k < BATCHES; k++) {
         struct bench b;
-        if (!bench_new(t, &scene, integrator, 1 + (uint64_t)k, &b))
+        if (!bench_new(t, &scene, integrator, CHAIN_DEPTH, 1 + (uint64_t)k, &b))
             break;
         follow(&b, true, more.value + CELLS * k);
         follow(&b, false, less.value + CELLS * k);
@@ -160,14 +160,14 @@ static void test_follow(struct test *t)
     struct scene scene;
     struct bench b;
     int met = 0;
-    if (!bench_room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "mlt", 0, &b))
+    if (!chain_room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "mlt", CHAIN_DEPTH, 0, &b))
         return;
     for (uint64_t i = 0; i < PATHS; i++) {
-        struct vertex walked[BENCH_DEPTH + 1], again[BENCH_DEPTH + 1];
-        struct path_stop stop[BENCH_DEPTH + 1];
+        struct vertex walked[CHAIN_DEPTH + 1], again[CHAIN_DEPTH + 1];
+        struct path_stop stop[CHAIN_DEPTH + 1];
         struct sampler sampler = sampler_start(test_seed(t), RNG_TEST, 17, i);
         struct walk w = {&scene, &b.chain->all->frozen.counts, &b.work->arena, &sampler, 0};
-        int n = path_light(&w, walked, BENCH_DEPTH + 1), smooth = n > 0;
+        int n = path_light(&w, walked, CHAIN_DEPTH + 1), smooth = n > 0;
         while (smooth < n && !walked[smooth].prev_delta && walked[smooth].kind == VERTEX_SURFACE)
             smooth++;
         for (int k = 0; k < smooth; k++) {
@@ -207,13 +207,11 @@ static rgb heard(const struct chain_state *s)
 static rgb bdpt_of(struct bench *b, struct tape *number)
 {
     const struct scene *scene = b->scene;
-    const struct mis_counts *counts = &((const struct frozen *)b->prepared.state)->counts;
-    struct tile tile = {.sum = NULL};
-    struct tile_pass pass = {&b->job, 0, 1, &tile, b->work, NULL};
+    const struct mis_counts *counts = &bench_frozen(b)->counts;
+    struct tile_pass pass = bench_pass(b, 0, 1);
     struct sampler from[STRATEGY_NUMBERS];
     rgb sum;
     bool all = true;
-    tile_start(&tile, pixels_all(b->job.film_rect), b->job.film_rect, &scene->filter);
     arena_reset(&b->work->arena);
     for (int i = 0; i < STRATEGY_NUMBERS; i++) {
         from[i] = tape_play(&number[i], sampler_start(0, RNG_TEST, 0, 0));
@@ -230,12 +228,11 @@ static rgb bdpt_of(struct bench *b, struct tape *number)
     s.sampler = from[LENS_NUMBERS];
     pixel_splat_path(&s, b->work->light, n_light, 1);
     sum = s.value;
-    for (size_t i = 0; i < tile.n_splats; i++)
-        if (floor(tile.splat[i].px) == 0 && floor(tile.splat[i].py) == 0)
-            sum = rgb_add(sum, tile.splat[i].value);
+    for (size_t i = 0; i < b->tile.n_splats; i++)
+        if (floor(b->tile.splat[i].px) == 0 && floor(b->tile.splat[i].py) == 0)
+            sum = rgb_add(sum, b->tile.splat[i].value);
     for (int i = 0; i < STRATEGY_NUMBERS; i++)
         all = all && number[i].at == number[i].n;
-    tile_free(&tile);
     return all ? sum : rgb_grey(NAN);
 }
 
@@ -256,7 +253,7 @@ static rgb all_strategies(struct bench *b, const struct chain_state *whole)
 {
     struct chain *c = b->chain;
     rgb sum = rgb_black();
-    for (int n = 2; n <= BENCH_DEPTH + 2; n++)
+    for (int n = 2; n <= CHAIN_DEPTH + 2; n++)
         for (int s = 0; s < (n > 2 ? n : 1); s++) {
             struct primary p;
             struct strategy strategy;
@@ -290,7 +287,7 @@ static void test_no_start(struct test *t)
     struct scene scene;
     struct bench b;
     int asked = 0;
-    if (!bench_room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "mmlt", 0, &b))
+    if (!chain_room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "mmlt", CHAIN_DEPTH, 0, &b))
         return;
     CHECK(t, chain_start(b.chain, 0) > 0, "a chain does not begin");
     b.job.enough = at_once;
@@ -305,8 +302,8 @@ static void test_samples(struct test *t)
     struct scene scene;
     struct bench pssmlt, mmlt, bdpt;
     int bright = 0;
-    if (!bench_room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", 0, &pssmlt) ||
-        !bench_new(t, &scene, "mmlt", 0, &mmlt) || !bench_new(t, &scene, "bdpt", 0, &bdpt))
+    if (!chain_room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", CHAIN_DEPTH, 0, &pssmlt) ||
+        !bench_new(t, &scene, "mmlt", CHAIN_DEPTH, 0, &mmlt) || !bench_new(t, &scene, "bdpt", CHAIN_DEPTH, 0, &bdpt))
         return;
     for (int i = 0; i < 500; i++) {
         chain_candidate(pssmlt.chain, i);
@@ -330,7 +327,7 @@ static double luminance(struct test *t, const struct scene *scene, const char *i
 {
     struct film film;
     double sum = 0;
-    struct render_options o = {.integrator = integrator, .end = spp, .max_depth = BENCH_DEPTH, .n_threads = 2,
+    struct render_options o = {.integrator = integrator, .end = spp, .max_depth = CHAIN_DEPTH, .n_threads = 2,
                                .seed = test_seed(t)};
     render_film(t, scene, &o, &film);
     for (size_t i = 0; i < (size_t)scene->width * (size_t)scene->height; i++)
@@ -369,9 +366,9 @@ static void agree(struct test *t, struct scene *scene, const char *what, const c
 {
     settings_clear(&scene->settings);
     settings_set(&scene->settings, "starts", "512", "test");
-    struct batches two = render_batches(t, scene, "bdpt", BENCH_DEPTH, 16, 8 * more, 8, 62);
+    struct batches two = render_batches(t, scene, "bdpt", CHAIN_DEPTH, 16, 8 * more, 8, 62);
     for (; *methods != NULL; methods++) {
-        struct batches one = independent_batches(t, scene, *methods, BENCH_DEPTH, 64 * more, 20, 8, 61);
+        struct batches one = independent_batches(t, scene, *methods, CHAIN_DEPTH, 64 * more, 20, 8, 61);
         check_agree(t, &one, &two, false, 0.3, "%s: %s against bdpt", what, *methods);
     }
     batches_free(&two);
@@ -380,7 +377,7 @@ static void agree(struct test *t, struct scene *scene, const char *what, const c
 static void test_means(struct test *t, const char *const *methods, int more)
 {
     struct scene scene;
-    if (bench_room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene)) {
+    if (chain_room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene)) {
         agree(t, &scene, "room", methods, more);
         scene_free(&scene);
     }

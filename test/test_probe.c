@@ -2,9 +2,8 @@
  * numbers and credits. */
 #include <stdio.h>
 
+#include "bench.h"
 #include "helpers.h"
-#include "integrators/method.h"
-#include "render/render.h"
 #include "tests.h"
 
 /* A floor that a point light shines on, the eye above it; something small of the given material out of sight. */
@@ -24,14 +23,11 @@ static const char FLOOR[] = "LookAt 0 0 4  0 0 0  0 1 0\n"
 /* What asbdpt has settled for the scene and its settings. */
 static bool settle(struct test *t, const struct scene *scene, struct frozen *out)
 {
-    struct render_options o = {.integrator = "asbdpt", .max_depth = 5, .n_threads = 2, .seed = test_seed(t)};
-    struct render_job job = {.scene = NULL};
-    struct preparation prepared;
-    struct error err;
-    if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &job, &prepared, &err), "%s", err.text))
+    struct bench b;
+    if (!bench_new(t, scene, "asbdpt", 5, 0, &b))
         return false;
-    *out = *(const struct frozen *)prepared.state; /* not the tables, which go */
-    method_release(&prepared);
+    *out = *bench_frozen(&b); /* not the tables, which go */
+    bench_free(&b);
     return true;
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "rivals/ris.h"
+#include "bench.h"
 #include "helpers.h"
 #include "oracle.h"
 #include "tests.h"
@@ -131,20 +132,12 @@ static void check_expected(struct test *t, const struct ris *r)
 static void test_weights(struct test *t, const char *path, const char *method)
 {
     struct scene scene;
-    struct error err;
-    if (!scene_from_file(t, path, SIDE, SIDE, &scene))
+    struct bench b;
+    if (!scene_from_file(t, path, SIDE, SIDE, &scene) || !bench_new(t, &scene, set_method(&scene, method), 5, 0, &b))
         return;
-    struct render_options o = {.integrator = set_method(&scene, method), .max_depth = 5, .n_threads = 1};
-    struct render_job job = {.scene = NULL};
-    struct preparation prepared;
-    if (!CHECK(t, render_prepare(&scene, &o, render_crop(&scene), &job, &prepared, &err), "%s", err.text))
-        return;
-    struct tile tile = {.sum = NULL};
-    struct workspace *work = workspaces_new(1, job.max_depth);
-    struct ris *r = work->scratch = method_scratch(&prepared);
-    struct tile_pass pass = {&job, 3, 4, &tile, work, NULL};
-    tile_start(&tile, pixels_all(job.film_rect), job.film_rect, &scene.filter);
-    prepared.method->render(&prepared, &pass);
+    struct ris *r = b.work->scratch;
+    struct tile_pass pass = bench_pass(&b, 3, 4);
+    b.prepared.method->render(&b.prepared, &pass);
     check_expected(t, r);
     double worst = 0, weight[16];
     int n = 0;
@@ -161,16 +154,13 @@ static void test_weights(struct test *t, const char *path, const char *method)
             if (s == 2)
                 check_mixture(t, r, &eye[1]);
             if (s == 2 && k % 20 == 0)
-                check_draws(t, r, prepared.method, sample, eye);
+                check_draws(t, r, b.prepared.method, sample, eye);
             double sum = sum_weights(r, light, s, eye) + weight[s + 1];
             worst = sum == sum ? fmax(worst, fabs(sum - 1)) : worst; /* NaN: they do not see each other */
             n += sum == sum;
         }
     CHECK(t, n > 20 && worst < 1e-6, "%s: weights of %d paths sum to 1 but for %g", method, n, worst);
-    tile_free(&tile);
-    method_scratch_free(&prepared, work->scratch);
-    workspaces_free(work, 1);
-    method_release(&prepared);
+    bench_free(&b);
     scene_free(&scene);
 }
 

@@ -12,6 +12,7 @@
 #include "base/warp.h"
 #include "lab/stats.h"
 #include "lab/trace.h"
+#include "bench.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -236,23 +237,19 @@ static void note_connections(struct usage *all, const struct trace *trace, int s
 }
 
 /* Watch the samples of the only pixel; `stride` plants a sequence with holes. */
-static void watch(struct test *t, struct usage *all, const char *integrator, uint64_t seed, int stride)
+static void watch(struct test *t, struct usage *all, const char *integrator, int stride)
 {
-    struct render_options o = {.integrator = integrator, .seed = seed, .end = SAMPLES * stride,
-                               .n_threads = 1, .max_depth = DEPTH};
-    struct render_job job = {.scene = NULL};
-    struct preparation prepared;
-    struct error err;
-    if (!CHECK(t, render_prepare(all->scene, &o, render_crop(all->scene), &job, &prepared, &err), "%s", err.text))
+    struct bench b;
+    if (!bench_new(t, all->scene, integrator, DEPTH, 0, &b))
         return;
     for (int i = 0; i < SAMPLES; i++) {
         struct trace trace = {.iteration = i * stride};
-        trace_sample(&job, &prepared, &trace);
+        trace_sample(&b.job, &b.prepared, &trace);
         note_sub_paths(all, &trace, i);
         note_connections(all, &trace, i);
         trace_free(&trace);
     }
-    method_release(&prepared);
+    bench_free(&b);
 }
 
 /* How many decisions were seen often; whether all are nets, for all powers of two. */
@@ -290,7 +287,7 @@ static void test_usage(struct test *t)
             struct usage *all = mem_alloc(1, sizeof *all);
             all->scene = &scene;
             const char *integrator = set_method(&scene, ways[i].integrator);
-            watch(t, all, integrator, test_seed(t), stride);
+            watch(t, all, integrator, stride);
             int n = count_nets(t, all, integrator, stride > 1);
             CHECK(t, stride > 1 ? n == 0 : n >= ways[i].decisions, "%s: %d of %d decisions", ways[i].integrator, n,
                   all->n);

@@ -6,7 +6,7 @@
 
 #include "base/mem.h"
 #include "base/sampler.h"
-#include "render/render.h"
+#include "bench.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -139,28 +139,19 @@ static void joined(void *context, const struct pixel_sample *sample, const struc
 static void trace_all(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed,
                       struct keys *eye, struct keys *light)
 {
-    struct render_options o = {.integrator = integrator, .seed = seed, .max_depth = 1, .n_threads = 1};
-    struct render_job job = {.scene = NULL};
-    struct error err;
-    struct preparation prepared;
-    if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &job, &prepared, &err), "%s", err.text))
-        return;
-    int block = prepared.size.block == 0 ? LONGEST_BLOCK : prepared.size.block;
-    block = block < ITERATIONS ? block : ITERATIONS;
-    struct tile tile = {.sum = NULL};
+    struct bench b;
     struct keys *light_or_eye[] = {light, eye};
     const struct observer observer = {.context = light_or_eye, .joined = joined};
-    struct workspace *work = workspaces_new(1, job.max_depth);
-    work->scratch = method_scratch(&prepared);
+    if (!bench_new(t, scene, integrator, 1, seed, &b))
+        return;
+    int block = b.prepared.size.block == 0 ? LONGEST_BLOCK : b.prepared.size.block;
+    block = block < ITERATIONS ? block : ITERATIONS;
     for (long first = 0; first < ITERATIONS; first += block) {
-        struct tile_pass pass = {&job, first, first + block, &tile, work, &observer};
-        tile_start(&tile, pixels_all(job.film_rect), job.film_rect, &scene->filter);
-        prepared.method->render(&prepared, &pass);
+        struct tile_pass pass = bench_pass(&b, first, first + block);
+        pass.observer = &observer;
+        b.prepared.method->render(&b.prepared, &pass);
     }
-    tile_free(&tile);
-    method_scratch_free(&prepared, work->scratch);
-    workspaces_free(work, 1);
-    method_release(&prepared);
+    bench_free(&b);
 }
 
 /* Where a walk from a pixel's lens by these numbers first hits; the sampler itself stays as it is. */
@@ -177,16 +168,11 @@ static vec3 first_hit(const struct tile_pass *pass, const struct mis_counts *cou
 static void test_end_points(struct test *t)
 {
     struct scene scene;
-    struct render_options o = {.integrator = "bdpt", .seed = test_seed(t), .max_depth = 2, .n_threads = 1};
-    struct render_job job;
-    struct error err;
-    struct preparation prepared;
-    if (!scene_from_text(t, FLOOR, &scene) ||
-        !CHECK(t, render_prepare(&scene, &o, render_crop(&scene), &job, &prepared, &err), "%s", err.text))
+    struct bench b;
+    if (!scene_from_text(t, FLOOR, &scene) || !bench_new(t, &scene, "bdpt", 2, 0, &b))
         return;
-    const struct mis_counts *counts = &((const struct frozen *)prepared.state)->counts;
-    struct workspace *work = workspaces_new(1, job.max_depth);
-    struct tile_pass pass = {.job = &job, .end = 1, .work = work};
+    const struct mis_counts *counts = &bench_frozen(&b)->counts;
+    struct tile_pass pass = bench_pass(&b, 0, 1);
     struct pixel_sample sample = pixel_sample_begin(&pass, counts, 1, 1, 0);
     struct vertex path[3];
     int n = pixel_eye_path(&pass, &sample, path, 3);
@@ -194,8 +180,7 @@ static void test_end_points(struct test *t)
           "an eye sub-path by its own numbers is another");
     CHECK(t, n > 1 && !near3(first_hit(&pass, counts, sample.sampler), path[1].p, 1e-6),
           "end points take the numbers of the eye sub-path");
-    workspaces_free(work, 1);
-    method_release(&prepared);
+    bench_free(&b);
     scene_free(&scene);
 }
 
@@ -211,7 +196,7 @@ static void test_sub_paths(struct test *t)
         struct keys eye = {NULL, 0, 0}, light = {NULL, 0, 0};
         const char *integrator = set_method(&scene, WAYS[i]);
         for (uint64_t seed = 0; seed < 2; seed++)
-            trace_all(t, &scene, integrator, test_seed(t) + seed, &eye, &light);
+            trace_all(t, &scene, integrator, seed, &eye, &light);
         CHECK(t, eye.n + light.n > ITERATIONS, "%s: only %lu sub-paths seen", WAYS[i],
               (unsigned long)(eye.n + light.n));
         long n_eye = (long)eye.n, n_light = (long)light.n, eyes = count_equal(&eye), lights = count_equal(&light);

@@ -1,9 +1,10 @@
-/* chain_bench.c: see chain_bench.h. */
-#include "chain_bench.h"
+/* bench.c: see bench.h. */
+#include "bench.h"
 
 #include <string.h>
 
 #include "helpers.h"
+#include "lab/methods.h"
 
 /* A matte floor and wall, a mirror for a side wall, a glossy and a glass ball, a lamp, and a lamp that nobody sees. */
 static const char ROOM[] =
@@ -22,24 +23,25 @@ static const char ROOM[] =
     "TransformBegin Translate .8 .6 .5 Shape \"sphere\" \"float radius\" .6 TransformEnd\n"
     "Material \"glass\" TransformBegin Translate -.7 .7 0 Shape \"sphere\" \"float radius\" .5 TransformEnd WorldEnd\n";
 
-bool bench_room(struct test *t, int width, int height, const char *lens, const char *filter, struct scene *out)
+bool chain_room(struct test *t, int width, int height, const char *lens, const char *filter, struct scene *out)
 {
     return scene_from_format(t, out, ROOM, lens, width, height, filter);
 }
 
-bool bench_new(struct test *t, const struct scene *scene, const char *integrator, uint64_t seed,
+bool bench_new(struct test *t, const struct scene *scene, const char *integrator, int max_depth, uint64_t seed,
                struct bench *out)
 {
-    struct render_options o = {.integrator = integrator, .seed = test_seed(t) + seed, .max_depth = BENCH_DEPTH,
+    struct render_options o = {.integrator = integrator, .seed = test_seed(t) + seed, .max_depth = max_depth,
                                .n_threads = 1};
     struct error err = {.text = ""};
     memset(out, 0, sizeof *out);
     out->scene = scene;
     if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &out->job, &out->prepared, &err), "%s", err.text))
         return false;
-    out->work = workspaces_new(1, BENCH_DEPTH);
-    out->chain = out->work->scratch = method_scratch(&out->prepared);
-    if (out->chain != NULL) {
+    out->work = workspaces_new(1, out->job.max_depth);
+    out->work->scratch = method_scratch(&out->prepared);
+    if (method_is_chain(out->prepared.method)) {
+        out->chain = out->work->scratch;
         out->chain->job = &out->job;
         out->chain->work = out->work;
         out->chain->rng = rng_stream(o.seed, RNG_TEST, 1, 0);
@@ -50,7 +52,17 @@ bool bench_new(struct test *t, const struct scene *scene, const char *integrator
 
 void bench_free(struct bench *b)
 {
+    tile_free(&b->tile);
     method_scratch_free(&b->prepared, b->work->scratch);
     workspaces_free(b->work, 1);
     method_release(&b->prepared);
+}
+
+const struct frozen *bench_frozen(const struct bench *b) { return b->prepared.state; }
+
+struct tile_pass bench_pass(struct bench *b, long first, long end)
+{
+    struct tile_pass pass = {&b->job, first, end, &b->tile, b->work, NULL};
+    tile_start(&b->tile, pixels_all(b->job.film_rect), b->job.film_rect, &b->scene->filter);
+    return pass;
 }
