@@ -397,23 +397,6 @@ double batches_paired_p(const struct batches *a, const struct batches *b, double
     return stats_sidak(whole < one ? whole : one, 2);
 }
 
-void check_agree(struct test *t, struct batches *a, const struct batches *b, bool paired, double planted,
-                 const char *format, ...)
-{
-    char what[256];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(what, sizeof what, format, args);
-    va_end(args);
-    double ratio, p = (paired ? batches_paired_p : batches_p)(a, b, &ratio);
-    TEST_ACCEPT(t, p, "%s: ratio %.4f", what, ratio);
-    batches_scale(a, 1 + planted);
-    p = (paired ? batches_paired_p : batches_p)(a, b, &ratio);
-    if (planted != 0)
-        TEST_REJECT(t, p, "%s: the first made %g %% brighter", what, 100 * planted);
-    batches_free(a);
-}
-
 double mean_p(const struct batches *b, double expected)
 {
     double error, mean = batches_mean(b, &error);

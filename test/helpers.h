@@ -116,12 +116,6 @@ double batches_p(const struct batches *a, const struct batches *b, double *ratio
  * with them most of their noise: by Student's t over the differences, of every value and of the mean. */
 double batches_paired_p(const struct batches *a, const struct batches *b, double *ratio);
 
-/* check_agree: have two the same expectation, by batches_p or, if they share a seed, batches_paired_p? And is the first
- * refused when it is made brighter by the share `planted`, unless this is 0? Releases the first. The format and what
- * follows say which two. */
-void check_agree(struct test *t, struct batches *a, const struct batches *b, bool paired, double planted,
-                 const char *format, ...);
-
 /* remove_tree: a directory and all that is in it. False if something is left. */
 bool remove_tree(const char *path);
 

@@ -3,39 +3,18 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "agree.h"
 #include "bench.h"
 #include "helpers.h"
 #include "integrators/pooled.h"
 #include "transport/pixel_sample.h"
 #include "tests.h"
 
-/* Is the method's picture the one that bdpt makes of the same eye sub-paths? */
-static void agrees(struct test *t, struct scene *scene, const char *what, const char *way, int spp, int tile,
-                   const struct batches *bdpt)
-{
-    struct batches x = render_batches(t, scene, set_method(scene, way), 4, spp, 16, tile, 53);
-    check_agree(t, &x, bdpt, true, 0, "%s, %s against bdpt", what, way);
-}
-
 /* --- bias -------------------------------------------------------------------------------------------- */
 
-/* Against the stored reference bdpt passes and bins does not. The others, with an eighth of these samples, make the
- * picture that bdpt makes of the same eye sub-paths, which is a sharper test. */
+/* Against the stored reference bdpt passes and bins does not. */
 static void test_bias(struct test *t)
 {
-    static const char *const ways[] = {"asbdpt select=pool metric=constant",
-                                       "asbdpt select=pool metric=throughput",
-                                       "asbdpt select=pool metric=importance",
-                                       "asbdpt select=vertices connections=2",
-                                       "asbdpt select=subspaces",
-                                       "asbdpt select=subspaces connections=2",
-                                       "asbdpt guide=off emission=1 credit=1 tile=16 spread=1",
-                                       "asbdpt select=pool emission=0.2 credit=4",
-                                       "asbdpt select=vertices emission=0.2 credit=4 tile=32",
-                                       "mbdpt emission=0.2 credit=4 spread=2",
-                                       "cbdpt connections=3 emission=0.2 credit=4",
-                                       "lvc connections=1",
-                                       "cbdpt connections=3"};
     struct scene scene;
     struct batches reference;
     int width, height;
@@ -53,14 +32,51 @@ static void test_bias(struct test *t)
     batches_free(&bdpt);
     scene_free(&scene);
     batches_free(&reference);
-    if (!scene_from_file(t, "scenes/cornell-box.pbrt", width / 2, height / 2, &scene))
-        return;
-    bdpt = render_batches(t, &scene, set_method(&scene, "bdpt"), 4, 1, 16, 16, 53);
-    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++)
-        agrees(t, &scene, "Cornell box", ways[i], 1, 16, &bdpt);
-    batches_free(&bdpt);
-    scene_free(&scene);
 }
+
+/* --- agreement ---------------------------------------------------------------------------------------- */
+
+/* The others make the picture that bdpt makes of the same eye sub-paths, which is a sharper test. */
+#define EVERY                                                                                                          \
+    "asbdpt select=pool metric=importance, asbdpt select=vertices connections=3, asbdpt select=subspaces probe=off,"   \
+    "lvc connections=2, cbdpt connections=2"
+/* Services, each alone, on a method whose choice learns nothing; and what rivals have of them. */
+#define ALONE                                                                                                          \
+    "lvc guide=on, lvc emission=0.2, lvc credit=4, lvc tile=5 spread=3, asbdpt select=pool guide=off credit=4"
+#define RIVALS                                                                                                         \
+    "pcbdpt guide=on emission=0.2 credit=4 tile=9 spread=2 records=.05,"                                               \
+    "ris emission=0.2 tile=9 spread=2 records=.05, ris2 emission=0.2 tile=9 spread=2 records=.05,"                     \
+    "spcbpt guide=on emission=0.2 credit=4 tile=9 spread=2,"                                                           \
+    "restir guide=on emission=0.2 tile=9 spread=2"
+static const struct agreement QUICK[] = {
+    {"scenes/cornell-box", 16, 16, 4, "bdpt",
+     "asbdpt select=pool metric=constant, asbdpt select=pool metric=throughput, asbdpt select=pool metric=importance,"
+     "asbdpt select=vertices connections=2, asbdpt select=subspaces, asbdpt select=subspaces connections=2,"
+     "asbdpt guide=off emission=1 credit=1 tile=16 spread=1, asbdpt select=pool emission=0.2 credit=4,"
+     "asbdpt select=vertices emission=0.2 credit=4 tile=32, mbdpt emission=0.2 credit=4 spread=2,"
+     "cbdpt connections=3 emission=0.2 credit=4, lvc connections=1, cbdpt connections=3", 1, 1, 16, 16, true, 0},
+    /* one tile of 3x3 pixels, whose light sub-paths are one for every 1, 2, 5 or 8 of them: 9, 5, 2 and 2 */
+    {"scenes/cornell-box-modified", 3, 3, 4, "bdpt",
+     "asbdpt select=vertices connections=2 pathpixels=1, asbdpt select=vertices connections=2 pathpixels=2,"
+     "asbdpt select=vertices connections=2 pathpixels=5, asbdpt select=vertices connections=2 pathpixels=8,"
+     "asbdpt select=subspaces pathpixels=2, asbdpt select=subspaces pathpixels=5,"
+     "asbdpt select=subspaces pathpixels=9, lvc connections=1 pathpixels=5, lvc connections=1 pathpixels=9,"
+     "cbdpt connections=3 pathpixels=2, cbdpt connections=3 pathpixels=5, cbdpt connections=1 pathpixels=9",
+     64, 64, 16, 3, true, 0},
+    {"scenes/test/light-kinds", 18, 12, 4, "bdpt", ALONE ", " RIVALS, 8, 8, 16, 8, true, 0},
+    {"scenes/media/inside", 18, 12, 4, "bdpt", ALONE, 2, 2, 16, 8, true, 0},
+    {"scenes/test/light-kinds", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0},
+    {"scenes/test/mirror-glass", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0},
+    {"scenes/test/all-materials", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0},
+    {"scenes/test/smooth-normals", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0}};
+/* Cameras, copies and holes; services where they matter. */
+static const struct agreement LONG[] = {
+    {"scenes/test/thin-lens", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0},
+    {"scenes/test/negative-scale", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0},
+    {"scenes/test/alpha", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0},
+    {"scenes/test/instances", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0},
+    {"scenes/many-lights", 18, 12, 4, "bdpt", ALONE ", " RIVALS, 64, 64, 16, 8, true, 0},
+    {"scenes/media/inside", 18, 12, 4, "bdpt", ALONE, 32, 32, 16, 8, true, 0}};
 
 /* --- bins age ----------------------------------------------------------------------------------------- */
 
@@ -86,27 +102,6 @@ static void test_age(struct test *t)
                   "%s and %s: after %d iterations pictures %s", cases[i].a, cases[i].b, cases[i].same + more,
                   more == 0 ? "differ" : "are the same");
         }
-    scene_free(&scene);
-}
-
-/* --- light sub-paths for a share of the pixels -------------------------------------------------------- */
-
-/* One tile of 3x3 pixels, whose light sub-paths are one for every 1, 2, 5 or 8 of them: 9, 5, 2 and 2. */
-static void test_few_light_paths(struct test *t)
-{
-    static const char *const cases[] = {
-        "asbdpt select=vertices connections=2 pathpixels=1", "asbdpt select=vertices connections=2 pathpixels=2",
-        "asbdpt select=vertices connections=2 pathpixels=5", "asbdpt select=vertices connections=2 pathpixels=8",
-        "asbdpt select=subspaces pathpixels=2", "asbdpt select=subspaces pathpixels=5",
-        "asbdpt select=subspaces pathpixels=9", "lvc connections=1 pathpixels=5", "lvc connections=1 pathpixels=9",
-        "cbdpt connections=3 pathpixels=2", "cbdpt connections=3 pathpixels=5", "cbdpt connections=1 pathpixels=9"};
-    struct scene scene;
-    if (!scene_from_file(t, "scenes/cornell-box-modified.pbrt", 3, 3, &scene))
-        return;
-    struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 64, 16, 3, 53);
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
-        agrees(t, &scene, "modified Cornell box in 9 pixels", cases[i], 64, 3, &bdpt);
-    batches_free(&bdpt);
     scene_free(&scene);
 }
 
@@ -160,56 +155,6 @@ static void test_expected_vertices(struct test *t)
         bench_free(&b);
         scene_free(&scene);
     }
-}
-
-/* --- every kind of scene ----------------------------------------------------------------------------- */
-
-/* The first `n`; cameras, copies and holes are in the others. */
-static void test_every_scene(struct test *t, size_t n)
-{
-    static const char *const scenes[] = {"light-kinds", "mirror-glass", "all-materials", "smooth-normals",
-                                         "thin-lens", "negative-scale", "alpha", "instances"};
-    static const char *const ways[] = {"asbdpt select=pool metric=importance",
-                                       "asbdpt select=vertices connections=3",
-                                       "asbdpt select=subspaces probe=off", "lvc connections=2",
-                                       "cbdpt connections=2"};
-    for (size_t i = 0; i < n; i++) {
-        char path[256];
-        struct scene scene;
-        snprintf(path, sizeof path, "scenes/test/%s.pbrt", scenes[i]);
-        if (!scene_from_file(t, path, 16, 16, &scene))
-            continue;
-        struct batches bdpt = render_batches(t, &scene, "bdpt", 4, 4, 16, 8, 53);
-        for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++)
-            agrees(t, &scene, scenes[i], ways[k], 4, 8, &bdpt);
-        batches_free(&bdpt);
-        scene_free(&scene);
-    }
-}
-
-/* --- services ----------------------------------------------------------------------------------------- */
-
-/* Each alone, on a method whose choice learns nothing; and what rivals have of them. */
-static const char *const ALONE[] = {"lvc guide=on", "lvc emission=0.2", "lvc credit=4",
-                                    "lvc tile=5 spread=3", "asbdpt select=pool guide=off credit=4", NULL};
-static const char *const RIVALS[] = {"pcbdpt guide=on emission=0.2 credit=4 tile=9 spread=2 records=.05",
-                                     "ris emission=0.2 tile=9 spread=2 records=.05",
-                                     "ris2 emission=0.2 tile=9 spread=2 records=.05",
-                                     "spcbpt guide=on emission=0.2 credit=4 tile=9 spread=2",
-                                     "restir guide=on emission=0.2 tile=9 spread=2", NULL};
-
-static void test_services(struct test *t, const char *name, int spp, const char *const *ways)
-{
-    char path[64];
-    struct scene scene;
-    snprintf(path, sizeof path, "scenes/%s.pbrt", name);
-    if (!scene_from_file(t, path, 18, 12, &scene))
-        return;
-    struct batches bdpt = render_batches(t, &scene, "bdpt", 4, spp, 16, 8, 53);
-    for (; *ways != NULL; ways++)
-        agrees(t, &scene, name, *ways, spp, 8, &bdpt);
-    batches_free(&bdpt);
-    scene_free(&scene);
 }
 
 /* --- the weights know what samples are worth ---------------------------------------------------------- */
@@ -353,20 +298,13 @@ void test_asbdpt(struct test *t)
     test_what_is_drawn(t);
     test_bias(t);
     test_age(t);
-    test_few_light_paths(t);
+    check_agreements(t, QUICK, sizeof QUICK / sizeof QUICK[0], 1);
     test_one_path(t);
     test_expected_vertices(t);
-    test_every_scene(t, 4);
-    test_services(t, "test/light-kinds", 8, ALONE);
-    test_services(t, "test/light-kinds", 8, RIVALS);
-    test_services(t, "media/inside", 2, ALONE);
     test_even_sky(t);
 }
 
 void test_asbdpt_long(struct test *t)
 {
-    test_every_scene(t, 8);
-    test_services(t, "many-lights", 64, ALONE);
-    test_services(t, "many-lights", 64, RIVALS);
-    test_services(t, "media/inside", 32, ALONE);
+    check_agreements(t, LONG, sizeof LONG / sizeof LONG[0], 1);
 }

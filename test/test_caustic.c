@@ -6,6 +6,7 @@
 
 #include "base/exact_sum.h"
 #include "caustics/caustic.h"
+#include "agree.h"
 #include "helpers.h"
 #include "random_parts.h"
 #include "tests.h"
@@ -160,29 +161,14 @@ static void test_nothing_there(struct test *t)
 
 /* --- the partition ----------------------------------------------------------------------------------- */
 
-/* Do two ways agree? And would they if one of them were 15 % brighter? By the same numbers they share sub-paths, and
- * most of their noise; lt has no part in that. */
-static void agree(struct test *t, const char *path, const char *one, const char *other, int spp)
-{
-    struct scene scene;
-    bool shared = strcmp(other, "lt") != 0;
-    if (!scene_from_file(t, path, 12, 8, &scene))
-        return;
-    struct batches a = render_batches(t, &scene, set_method(&scene, one), 4, spp, 12, 4, 11);
-    struct batches b = render_batches(t, &scene, set_method(&scene, other), 4, spp, 12, 4, shared ? 11 : 12);
-    check_agree(t, &a, &b, shared, 0.15, "%s: %s against %s", path, one, other);
-    batches_free(&b);
-    scene_free(&scene);
-}
-
-static void test_partition(struct test *t)
-{
-    agree(t, "scenes/test/caustic-ball.pbrt", "caustics with=bdpt longest=2", "lt", 64);
-    agree(t, "scenes/test/caustic-bulb.pbrt", "caustics with=pt longest=2", "bdpt", 64);
-    agree(t, "scenes/test/caustic-diver.pbrt", "caustics with=asbdpt longest=1", "lt", 32);
-    agree(t, "scenes/test/mirror-glass.pbrt", "caustics with=pt longest=2", "bdpt", 24);
-    agree(t, "scenes/test/mirror-glass.pbrt", "caustics with=bdpt longest=2 heuristic=power", "bdpt", 16);
-}
+/* By the same numbers they share sub-paths, and most of their noise; lt has no part in that. */
+static const struct agreement PARTITION[] = {
+    {"scenes/test/caustic-ball", 12, 8, 4, "lt", "caustics with=bdpt longest=2", 64, 64, 12, 4, false, 0.15},
+    {"scenes/test/caustic-bulb", 12, 8, 4, "bdpt", "caustics with=pt longest=2", 64, 64, 12, 4, true, 0.15},
+    {"scenes/test/caustic-diver", 12, 8, 4, "lt", "caustics with=asbdpt longest=1", 32, 32, 12, 4, false, 0.15},
+    {"scenes/test/mirror-glass", 12, 8, 4, "bdpt", "caustics with=pt longest=2", 24, 24, 12, 4, true, 0.15},
+    {"scenes/test/mirror-glass", 12, 8, 4, "bdpt", "caustics with=bdpt longest=2 heuristic=power", 16, 16, 12, 4, true,
+     0.15}};
 
 /* --- any receiver -------------------------------------------------------------------------------------- */
 
@@ -376,6 +362,6 @@ void test_caustic(struct test *t)
     test_closed_forms(t);
     test_depth(t);
     test_nothing_there(t);
-    test_partition(t);
+    check_agreements(t, PARTITION, sizeof PARTITION / sizeof PARTITION[0], 1);
     test_receivers(t);
 }

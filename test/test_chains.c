@@ -9,6 +9,7 @@
 #include "chains/mlt.h"
 #include "lab/stats.h"
 #include "render/render.h"
+#include "agree.h"
 #include "bench.h"
 #include "helpers.h"
 #include "tests.h"
@@ -362,29 +363,16 @@ static void test_converges(struct test *t, const char *const *methods, long spp)
     scene_free(&scene);
 }
 
-static void agree(struct test *t, struct scene *scene, const char *what, const char *const *methods, int more)
-{
-    settings_clear(&scene->settings);
-    settings_set(&scene->settings, "starts", "512", "test");
-    struct batches two = render_batches(t, scene, "bdpt", CHAIN_DEPTH, 16, 8 * more, 8, 62);
-    for (; *methods != NULL; methods++) {
-        struct batches one = independent_batches(t, scene, *methods, CHAIN_DEPTH, 64 * more, 20, 8, 61);
-        check_agree(t, &one, &two, false, 0.3, "%s: %s against bdpt", what, *methods);
-    }
-    batches_free(&two);
-}
-
-static void test_means(struct test *t, const char *const *methods, int more)
+static void test_means(struct test *t, const char *methods, int more)
 {
     struct scene scene;
+    struct agreement a = {"room", 16, 16, CHAIN_DEPTH, "bdpt", methods, 16, 64, 20, 8, false, 0.3};
     if (chain_room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene)) {
-        agree(t, &scene, "room", methods, more);
+        check_agreement_in(t, &scene, &a, more);
         scene_free(&scene);
     }
-    if (more > 1 && scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene)) {
-        agree(t, &scene, "cornell", methods, more);
-        scene_free(&scene);
-    }
+    a.scene = "scenes/cornell-box";
+    check_agreements(t, &a, more > 1, more);
 }
 
 static const char *const METHODS[] = {"pssmlt", "mmlt", "mlt", NULL};
@@ -399,11 +387,11 @@ void test_chains(struct test *t)
     for (int i = 0; METHODS[i] != NULL; i++)
         test_stays(t, METHODS[i]);
     test_converges(t, QUICK, 2048);
-    test_means(t, QUICK, 1);
+    test_means(t, "mmlt starts=512", 1);
 }
 
 void test_chains_long(struct test *t)
 {
     test_converges(t, METHODS, 16384);
-    test_means(t, METHODS, 8);
+    test_means(t, "pssmlt starts=512, mmlt starts=512, mlt starts=512", 8);
 }

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "agree.h"
 #include "helpers.h"
 #include "parser/parser.h"
 #include "tests.h"

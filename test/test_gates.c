@@ -10,6 +10,7 @@
 #include "lab/paths.h"
 #include "foggy.h"
 #include "lab/methods.h"
+#include "agree.h"
 #include "helpers.h"
 #include "tests.h"
 

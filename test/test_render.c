@@ -6,6 +6,7 @@
 #include "lab/methods.h"
 #include "lab/numbers.h"
 #include "lab/stats.h"
+#include "agree.h"
 #include "helpers.h"
 #include "tests.h"
 

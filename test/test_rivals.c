@@ -5,110 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "render/render.h"
+#include "agree.h"
 #include "helpers.h"
 #include "tests.h"
 
 /* --- expectation ------------------------------------------------------------------------------------- */
-
-/* What render_batches is given. */
-struct plan {
-    int spp, batches, tile;
-    uint64_t seed;
-};
-
-/* By the plan of the other, the same eye sub-paths: what they bring in common has no part in the difference. */
-static void agree(struct test *t, struct scene *scene, const char *what, const char *way, struct plan plan, bool paired,
-                  const struct batches *expected)
-{
-    const char *integrator = set_method(scene, way);
-    struct batches x = render_batches(t, scene, integrator, 4, plan.spp, plan.batches, plan.tile, plan.seed);
-    check_agree(t, &x, expected, paired, 0, "%s: %s", what, way);
-}
-
-/* These ways, ended by NULL, against another that is right, which takes samples by a plan of its own or the same. */
-static void all_agree(struct test *t, struct scene *scene, const char *what, const char *other, struct plan right,
-                      const char *const *ways, struct plan plan)
-{
-    struct batches expected = render_batches(t, scene, other, 4, right.spp, right.batches, right.tile, right.seed);
-    for (; *ways != NULL; ways++)
-        agree(t, scene, what, *ways, plan, right.seed == plan.seed, &expected);
-    batches_free(&expected);
-}
-
-/* Two rooms, where connections matter most, as one tile of 3x3 pixels, with one, two and four or five light sub-paths;
- * a third of the pixels have records. */
-static void test_small_pools(struct test *t, int more)
-{
-    static const char *const cases[] = {"mbdpt pathpixels=9", "mbdpt pathpixels=5 key=throughput", "lvc connections=0",
-                                        "pcbdpt records=.3 subpaths=1", "pcbdpt records=.3 subpaths=4 connections=2",
-                                        "ris records=.3 subpaths=1",
-                                        "ris records=.3 subpaths=2", "ris records=.3 subpaths=4",
-                                        "ris2 records=.3 presampled=2 subpaths=2",
-                                        "spcbpt pathpixels=9", "spcbpt pathpixels=5 subspaces=3 connections=1",
-                                        "spcbpt pathpixels=2 guide=on emission=.2", "restir candidates=1 neighbours=2",
-                                        "restir candidates=4 neighbours=8", "restirgi neighbours=8",
-                                        NULL};
-    struct scene scene;
-    if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 3, &scene))
-        return;
-    const struct plan plan = {64 * more, 32, 1, 164};
-    all_agree(t, &scene, "rooms in 9 pixels, against bdpt", "bdpt", plan, cases, plan);
-    scene_free(&scene);
-}
-
-/* In three pixels, where sub-paths of a rank would meet too often if the lattice were not shifted at random. */
-static void test_three_pixels(struct test *t)
-{
-    static const char *const ways[] = {"mbdpt", NULL};
-    struct scene scene;
-    if (!scene_from_file(t, "doc/mini/rooms.pbrt", 3, 1, &scene))
-        return;
-    const struct plan plan = {1024, 32, 3, 182};
-    all_agree(t, &scene, "rooms in three pixels, against bdpt", "bdpt", plan, ways, plan);
-    scene_free(&scene);
-}
-
-/* The two rooms with pools of a hundred light vertices, in which records differ. */
-static void test_rooms(struct test *t, int more)
-{
-    static const char *const ways[] = {"pcbdpt records=.02", "ris records=.02 subpaths=30",
-                                       "ris2 records=.02 presampled=30", "spcbpt", "restir neighbours=20",
-                                       "restirgi neighbours=20 heuristic=power", "ppg cell=300", NULL};
-    struct scene scene;
-    if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
-        return;
-    const struct plan plan = {8 * more, 16, 8, 191};
-    all_agree(t, &scene, "rooms, against bdpt", "bdpt", plan, ways, plan);
-    scene_free(&scene);
-}
-
-/* Three test scenes by these ways, ended by NULL, and by another, whose eye sub-paths they share. */
-static void test_scenes_by(struct test *t, const char *other, const char *const *ways, int spp)
-{
-    static const char *const scenes[] = {"light-kinds", "mirror-glass", "all-materials"};
-    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
-        char path[256];
-        struct scene scene;
-        snprintf(path, sizeof path, "scenes/test/%s.pbrt", scenes[i]);
-        if (!scene_from_file(t, path, 24, 24, &scene))
-            continue;
-        const struct plan plan = {spp, 12, 12, 171};
-        all_agree(t, &scene, scenes[i], other, plan, ways, plan);
-        scene_free(&scene);
-    }
-}
-
-/* Paths that pt does not make, of delta lights behind specular surfaces, those that share its eye sub-paths do not. */
-static void test_every_scene(struct test *t, int more)
-{
-    static const char *const ways[] = {"mbdpt", "pcbdpt connections=2", "ris", "ris subpaths=20 records=.01",
-                                       "ris2 presampled=20 records=.01", "spcbpt", "spcbpt heuristic=power guide=on",
-                                       "restir neighbours=20", NULL};
-    static const char *const shared[] = {"restirgi", "restirgi neighbours=20", "ppg cell=100", NULL};
-    test_scenes_by(t, "bdpt", ways, 2 * more);
-    test_scenes_by(t, "pt", shared, 4 * more);
-}
 
 /* A slope beside the wall that lights it, and behind a low fence, from above: what comes from there, and the density of
  * what is taken over, differs by more than ten from the first to the last of the pixels, and they are all alike. */
@@ -123,17 +24,6 @@ static const char SLOPE[] =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [0 0 -2  0 0 2  0 1 2  0 1 -2]\n"
     "WorldEnd\n";
 
-static void test_gradient(struct test *t, int more)
-{
-    static const char *const ways[] = {"restirgi neighbours=8", NULL};
-    struct scene scene;
-    if (!scene_from_text(t, SLOPE, &scene))
-        return;
-    const struct plan right = {1024 * more, 16, 1, 231}, plan = {1024 * more, 16, 1, 232};
-    all_agree(t, &scene, "a slope beside a wall", "pt", right, ways, plan);
-    scene_free(&scene);
-}
-
 /* A floor that scatters and mirrors, a wall, and a lamp as large as both, which s = 0 and s = 1 find alike. A guide
  * that has learnt where the lamp is draws other directions than the BSDF. */
 static const char LAMP[] =
@@ -146,16 +36,39 @@ static const char LAMP[] =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 1 0  1 1 0  1 1 1  -1 1 1]\n"
     "WorldEnd\n";
 
-static void test_guide(struct test *t, int more)
-{
-    static const char *const ways[] = {"ppg cell=50", "ppg cell=1000 heuristic=power", NULL};
-    struct scene scene;
-    if (!scene_from_text(t, LAMP, &scene))
-        return;
-    const struct plan right = {16 * more, 16, 32, 241}, plan = {16 * more, 16, 32, 242};
-    all_agree(t, &scene, "a large lamp and mirrors", "pt", right, ways, plan);
-    scene_free(&scene);
-}
+/* Two rooms, where connections matter most, as one tile of 3x3 pixels, with one, two and four or five light sub-paths;
+ * a third of the pixels have records. Every kind of scene; paths that pt does not make, of delta lights behind specular
+ * surfaces, those that share its eye sub-paths do not. */
+#define EVERY                                                                                                          \
+    "mbdpt, pcbdpt connections=2, ris, ris subpaths=20 records=.01, ris2 presampled=20 records=.01, spcbpt,"           \
+    "spcbpt heuristic=power guide=on, restir neighbours=20"
+#define SHARED "restirgi, restirgi neighbours=20, ppg cell=100"
+static const struct agreement EXPECTATIONS[] = {
+    {"doc/mini/rooms", 3, 3, 4, "bdpt",
+     "mbdpt pathpixels=9, mbdpt pathpixels=5 key=throughput, lvc connections=0, pcbdpt records=.3 subpaths=1,"
+     "pcbdpt records=.3 subpaths=4 connections=2, ris records=.3 subpaths=1, ris records=.3 subpaths=2,"
+     "ris records=.3 subpaths=4, ris2 records=.3 presampled=2 subpaths=2, spcbpt pathpixels=9,"
+     "spcbpt pathpixels=5 subspaces=3 connections=1, spcbpt pathpixels=2 guide=on emission=.2,"
+     "restir candidates=1 neighbours=2,"
+     "restir candidates=4 neighbours=8, restirgi neighbours=8", 64, 64, 32, 1, true, 0},
+    {"scenes/test/light-kinds", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0},
+    {"scenes/test/mirror-glass", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0},
+    {"scenes/test/all-materials", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0},
+    {"scenes/test/light-kinds", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0},
+    {"scenes/test/mirror-glass", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0},
+    {"scenes/test/all-materials", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0},
+    {SLOPE, 0, 0, 4, "pt", "restirgi neighbours=8", 1024, 1024, 16, 1, false, 0},
+    {LAMP, 0, 0, 4, "pt", "ppg cell=50, ppg cell=1000 heuristic=power", 16, 16, 16, 32, false, 0}};
+enum { N_EXPECTATIONS = sizeof EXPECTATIONS / sizeof EXPECTATIONS[0] };
+
+/* In three pixels, where sub-paths of a rank would meet too often if the lattice were not shifted at random. */
+static const struct agreement THREE_PIXELS = {"doc/mini/rooms", 3, 1, 4, "bdpt", "mbdpt", 1024, 1024, 32, 3, true, 0};
+
+/* The two rooms with pools of a hundred light vertices, in which records differ. */
+static const struct agreement ROOMS = {
+    "doc/mini/rooms", 16, 16, 4, "bdpt",
+    "pcbdpt records=.02, ris records=.02 subpaths=30, ris2 records=.02 presampled=30, spcbpt, restir neighbours=20,"
+    "restirgi neighbours=20 heuristic=power, ppg cell=300", 8, 8, 16, 8, true, 0};
 
 /* The bias of pathgraph falls with the radius: it is seen where vertices share across half a room, and not with the
  * same samples where they share nearby. */
@@ -165,10 +78,10 @@ static void test_bias(struct test *t, int more)
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
         return;
     struct batches pt = render_batches(t, &scene, "pt", 4, 48 * more, 16, 4, 211);
-    const struct plan plan = {48 * more, 16, 4, 212};
-    agree(t, &scene, "rooms, against pt", "pathgraph radius=.1", plan, false, &pt);
-    struct batches far = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.5 cluster=64"), 4, plan.spp,
-                                        plan.batches, plan.tile, plan.seed);
+    struct batches near = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.1"), 4, 48 * more, 16, 4, 212);
+    struct batches far = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.5 cluster=64"), 4, 48 * more,
+                                        16, 4, 212);
+    check_agree(t, &near, &pt, false, 0, "rooms: pathgraph radius=.1 against pt");
     double ratio, p = batches_p(&far, &pt, &ratio);
     TEST_REJECT(t, p, "pathgraph shares across the room, ratio %.4f", ratio);
     batches_free(&far);
@@ -319,19 +232,11 @@ static void test_useless(struct test *t)
     scene_free(&scene);
 }
 
-static void test_expectations(struct test *t, int more)
-{
-    test_small_pools(t, more);
-    test_every_scene(t, more);
-    test_gradient(t, more);
-    test_guide(t, more);
-    test_furnace(t, more);
-}
-
 void test_rivals_long(struct test *t)
 {
-    test_expectations(t, 8);
-    test_rooms(t, 8);
+    check_agreements(t, EXPECTATIONS, N_EXPECTATIONS, 8);
+    test_furnace(t, 8);
+    check_agreements(t, &ROOMS, 1, 8);
     test_bias(t, 8);
 }
 
@@ -339,8 +244,9 @@ void test_rivals(struct test *t)
 {
     test_ris(t);
     test_spcbpt(t);
-    test_expectations(t, 1);
-    test_three_pixels(t);
+    check_agreements(t, EXPECTATIONS, N_EXPECTATIONS, 1);
+    test_furnace(t, 1);
+    check_agreements(t, &THREE_PIXELS, 1, 1);
     test_limits(t);
     test_useless(t);
 }

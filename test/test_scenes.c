@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "agree.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -252,12 +253,9 @@ static void test_light_pairs(struct test *t, int spp, size_t step)
                                         "spot-infinite", "spot-point"};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i += step) {
         char name[64];
-        snprintf(name, sizeof name, "light-%s", pairs[i]);
-        struct batches pt = render(t, name, "pt", 16, 2 * spp, 831), bdpt = render(t, name, "bdpt", 16, spp, 832);
-        struct batches vertices = render(t, name, "asbdpt", 16, spp, 833);
-        check_agree(t, &bdpt, &pt, false, 0.2, "%s: bdpt against pt", name);
-        check_agree(t, &vertices, &pt, false, 0, "%s: asbdpt against pt", name);
-        batches_free(&pt);
+        snprintf(name, sizeof name, "scenes/test/light-%s", pairs[i]);
+        const struct agreement a = {name, 16, 16, 4, "pt", "bdpt, asbdpt", 2 * spp, spp, 12, 8, false, 0.2};
+        check_agreements(t, &a, 1, 1);
     }
 }
 
@@ -273,17 +271,12 @@ static void test_mirrored(struct test *t, int spp)
     }
 }
 
-/* A scene by four integrators: were a strategy lost in one of them, their weights would no longer add up to 1 for all.
- */
+/* A scene by four integrators: were a strategy lost in one of them, their weights would no longer add up to 1 for
+ * all. */
 static void test_four(struct test *t, const char *name, int spp)
 {
-    static const char *const methods[] = {"lt", "bdpt", "asbdpt"};
-    struct batches pt = render(t, name, "pt", 24, 2 * spp, 861);
-    for (int m = 0; m < 3; m++) {
-        struct batches b = render(t, name, methods[m], 24, spp, 862 + (uint64_t)m);
-        check_agree(t, &b, &pt, false, 0.05, "%s: %s against pt", name, methods[m]);
-    }
-    batches_free(&pt);
+    const struct agreement a = {name, 24, 24, 4, "pt", "lt, bdpt, asbdpt", 2 * spp, spp, 12, 12, false, 0.05};
+    check_agreements(t, &a, 1, 1);
 }
 
 void test_scenes(struct test *t)
@@ -295,7 +288,7 @@ void test_scenes(struct test *t)
     test_partials(t);
     test_filter_spot(t);
     test_light_pairs(t, 4, 2);
-    test_four(t, "pass-through", 16); /* see-through lamps, one of them around a ball */
+    test_four(t, "scenes/test/pass-through", 16); /* see-through lamps, one of them around a ball */
 }
 
 /* Other cameras, too, which test_strategies.c has for the quick suite, and a mirrored world. */
@@ -303,7 +296,7 @@ void test_scenes_long(struct test *t)
 {
     test_mirrored(t, 400);
     test_light_pairs(t, 200, 1);
-    test_four(t, "pass-through", 400);
-    test_four(t, "orthographic", 400);
-    test_four(t, "environment", 400);
+    test_four(t, "scenes/test/pass-through", 400);
+    test_four(t, "scenes/test/orthographic", 400);
+    test_four(t, "scenes/test/environment", 400);
 }
