@@ -78,7 +78,8 @@ static void test_bias(struct test *t, int more)
     if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
         return;
     struct batches pt = render_batches(t, &scene, "pt", 4, 48 * more, 16, 4, 211);
-    struct batches near = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.1"), 4, 48 * more, 16, 4, 212);
+    struct batches near = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.1"), 4, 48 * more, 16, 4,
+                                         212);
     struct batches far = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.5 cluster=64"), 4, 48 * more,
                                         16, 4, 212);
     check_agree(t, &near, &pt, false, 0, "rooms: pathgraph radius=.1 against pt");
