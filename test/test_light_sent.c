@@ -10,41 +10,8 @@
 #include "caustics/lamp.h"
 #include "lab/files.h"
 #include "lab/numbers.h"
-#include "lab/stats.h"
 #include "helpers.h"
 #include "tests.h"
-
-/* Is the mean of DRAWS values what it should be? */
-enum { DRAWS = 20000 };
-
-static void check_mean(struct test *t, const char *name, double sum, double square, double expected)
-{
-    double mean = sum / DRAWS, error = sqrt((square / DRAWS - mean * mean) / DRAWS);
-    TEST_ACCEPT(t, stats_student_p((mean - expected) / error, DRAWS - 1), "%s: %g, not %g", name, mean, expected);
-    TEST_REJECT(t, stats_student_p((mean - 1.1 * expected) / error, DRAWS - 1), "%s with 10 %% more", name);
-}
-
-/* What a light emits by light_sample_emission, against the sum of its intensity over a fine grid of directions. */
-static void check_energy(struct test *t, const struct light_set *lights, const struct light_point *at,
-                         const char *name)
-{
-    enum { N = 600 };
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 7, (uint64_t)name[0]);
-    double total = 0, sum = 0, square = 0;
-    for (int i = 0; i < N; i++)
-        for (int k = 0; k < 2 * N; k++)
-            total += rgb_luminance(light_Le(lights, at, warp_sphere((i + 0.5) / N, (k + 0.5) / (2 * N))));
-    total *= 4 * PI / (2.0 * N * N);
-    for (int i = 0; i < DRAWS; i++) {
-        double u[2] = {rng_uniform(&r), rng_uniform(&r)}, pdf;
-        struct ray ray;
-        double value = rgb_luminance(light_sample_emission(lights, at, u, &ray, &pdf)) / pdf;
-        CHECK(t, pdf > 0 && fabs(length(ray.d) - 1) < 1e-12, "%s: pdf %g", name, pdf);
-        sum += value;
-        square += value * value;
-    }
-    check_mean(t, name, sum, square, total);
-}
 
 /* One light around the origin, first in a space of its own, then with that space transformed. */
 static bool light_under(struct test *t, const char *light, const char *path, const struct transform *m,
@@ -67,16 +34,15 @@ static double light_along(const struct scene *s, const struct light_point *at, v
     return rgb_luminance(Le);
 }
 
-/* Light that comes from all directions of a map, drawn by lamp_point, against the sum over a fine grid. Close to a pole
- * of the map the last bit of a direction decides on its sine, by which densities are divided. */
+/* The density of light that comes from all directions of a map integrates to 1, and is what lamp_point draws by. Close
+ * to a pole of the map the last bit of a direction decides on its sine, by which densities are divided. */
 static void check_sky(struct test *t, const struct scene *s, struct rng *r)
 {
-    enum { N = 300 };
-    double total = 0, sum = 0, square = 0, integral = 0;
+    enum { N = 300, DRAWS = 20000 };
+    double integral = 0;
     for (int i = 0; i < N; i++)
         for (int k = 0; k < 2 * N; k++) {
             vec3 w = warp_sphere((i + 0.5) / N, (k + 0.5) / (2 * N));
-            total += light_along(s, NULL, w) * 4 * PI / (2.0 * N * N);
             integral += light_pdf_environment(&s->lights, w) * 4 * PI / (2.0 * N * N);
         }
     CHECK(t, fabs(integral - 1) < 0.01, "the density of a transformed map integrates to %g", integral);
@@ -85,18 +51,14 @@ static void check_sky(struct test *t, const struct scene *s, struct rng *r)
         double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
         if (!lamp_point(&s->lights, &s->geo, u, &at))
             continue;
-        double pdf = light_pdf_environment(&s->lights, at.w), value = light_along(s, NULL, at.w) / at.pdf;
+        double pdf = light_pdf_environment(&s->lights, at.w);
         vec3 v = normalize(transform_vector_back(&s->lights.light[at.light].frame->to_world, at.w));
         double bound = 1e-6 + 4 * DBL_EPSILON / (1 - v.z * v.z);
         CHECK(t, fabs(pdf / at.pdf - 1) < bound, "a direction of density %g was drawn with %g", pdf, at.pdf);
-        sum += value;
-        square += value * value;
     }
-    check_mean(t, "a transformed map", sum, square, total);
 }
 
-/* Lights of which light space matters, under random transforms: a direction of it gets what it got without them, and
- * all of it is drawn with the density stated. */
+/* Lights of which light space matters, under random transforms: a direction of it gets what it got without them. */
 static void test_transformed(struct test *t)
 {
     enum { W = 16, H = 8, N = 2 };
@@ -129,8 +91,6 @@ static void test_transformed(struct test *t)
         CHECK(t, worst < 1e-9, "light %d: its space is off by %g", i, worst);
         if (moved.lights.n_infinite > 0)
             check_sky(t, &moved, &r);
-        else
-            check_energy(t, &moved.lights, &at, "a transformed light");
         scene_free(&plain);
         scene_free(&moved);
     }
