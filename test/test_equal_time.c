@@ -8,7 +8,6 @@
 
 #include "base/file.h"
 #include "base/mem.h"
-#include "base/rng.h"
 #include "lab/claims.h"
 #include "helpers.h"
 #include "lab/equal.h"
@@ -131,61 +130,6 @@ static void check_ratios(struct test *t, struct results *r)
     i = equal_over_best(r, 1, both, 2, SQUARE_BLOCKS);
     r->scene[1].mark[2] = MARK_NONE;
     CHECK(t, near(i.value, cbrt(2 * 4 * 4)), "what misses light is not the best: %g", i.value);
-}
-
-/* One of many measurements: of these scenes a method has the first's error in the mean. The scenes' ratios scatter by a
- * factor of 1.6, or are skewed as an exponential distribution; the squares of seeds by 8 %. */
-static void plant_scatter(struct results *r, struct rng *rng, bool skewed)
-{
-    for (int i = 0; i < r->plan->n_scenes; i++) {
-        double own = skewed ? -log(1 - rng_uniform(rng)) - 1 : 0;
-        for (int k = 0; k < 12 && !skewed; k++)
-            own += rng_uniform(rng) - 0.5;
-        for (int v = 0; v < 2; v++)
-            for (int k = 0; k < SEEDS; k++)
-                r->scene[i].run[v][k][0].square[SQUARE_RELMSE] =
-                    exp(v * 0.47 * own) * (1 + 0.08 * sqrt(12) * (rng_uniform(rng) - 0.5));
-    }
-}
-
-/* How often the interval over scenes holds the truth: 95 % are promised, of 5 scenes and of 11. An interval that takes
- * the scatter of few scenes for known, 1.96 standard errors wide, is found out. */
-static void check_coverage(struct test *t)
-{
-    enum { TRIALS = 8000, MOST = 11 };
-    static const int scenes[] = {5, MOST, MOST};
-    static const double least[] = {0.94, 0.94, 0.88}, narrow_most[] = {0.905, 0.935, 1};
-    struct plan p;
-    struct results r;
-    struct rng rng = rng_stream(test_seed(t), RNG_TEST, 1, 0);
-    plant(&p, &r);
-    free(r.scene);
-    r.scene = mem_alloc(MOST, sizeof *r.scene);
-    for (int i = 0; i < MOST; i++) {
-        r.scene[i].plan = &p;
-        for (int v = 0; v < 2; v++) {
-            r.scene[i].price[v].each = 1;
-            for (int k = 0; k < SEEDS; k++)
-                r.scene[i].run[v][k][0].spp = 32;
-        }
-    }
-    for (int which = 0; which < 3; which++) {
-        int held = 0, narrow = 0, n;
-        p.n_scenes = scenes[which];
-        double share = 1.96 / student_quantile(0.05, scenes[which] - 1);
-        for (int trial = 0; trial < TRIALS; trial++) {
-            plant_scatter(&r, &rng, which == 2);
-            struct interval i = equal_mean(&r, 1, 0, SQUARE_RELMSE, AT_EQUAL_TIME, NULL, &n);
-            held += i.low <= 1 && 1 <= i.high;
-            narrow += fabs(log(i.value)) <= share * log(i.high / i.value);
-        }
-        CHECK(t, held >= least[which] * TRIALS && held < 0.97 * TRIALS,
-              "%d of %d intervals of %d scenes hold the truth", held, TRIALS, n);
-        CHECK(t, narrow <= narrow_most[which] * TRIALS, "%d of %d narrow intervals of %d scenes hold the truth", narrow,
-              TRIALS, n);
-    }
-    free(r.scene);
-    free(p.scene);
 }
 
 /* lvc has a quarter of bdpt's error everywhere; asbdpt half, four times and as much. */
@@ -472,7 +416,6 @@ void test_equal_time(struct test *t)
     check_claims(t, &r);
     results_free(&r);
     free(p.scene);
-    check_coverage(t);
     check_all_methods(t);
     check_resumed(t);
     check_both_ways(t);

@@ -168,24 +168,6 @@ static bool carry_out(struct test *t, struct setup *s, struct results *out)
     return CHECK(t, measure(&s->plan, out, &err), "experiment: %s", err.text);
 }
 
-/* Are all measurements but the times the same, and the times too if `times`? */
-static bool same_results(const struct results *a, const struct results *b, bool times)
-{
-    const struct scene_results *x = &a->scene[0], *y = &b->scene[0];
-    const int first = times ? 0 : Q_SECONDS + 1;
-    bool same = x->reference.noise8 == y->reference.noise8 && x->reference.mean_error == y->reference.mean_error;
-    for (int v = 0; v < N_METHODS; v++)
-        for (int seed = 0; seed < plan_seeds(a->plan, v); seed++)
-            for (int i = 0; i < a->plan->n_steps; i++) {
-                const struct run *p = &x->run[v][seed][i], *q = &y->run[v][seed][i];
-                for (int k = first; k < N_QUANTITIES; k++)
-                    same = same && p->spp == q->spp && p->value[k] == q->value[k];
-            }
-    for (int v = 0; v < COMPARED; v++)
-        same = same && memcmp(x->image[v], y->image[v], 8 * 6 * 3 * sizeof(float)) == 0;
-    return same;
-}
-
 /* The step's picture rendered in one go, without the experiment. */
 static double direct_rmse8(struct test *t, const struct results *r, int method, int step)
 {
@@ -303,30 +285,10 @@ static void check_output(struct test *t, const struct results *r)
     free(page);
 }
 
-/* The experiment once more: are its results those of the first time? */
-static void check_again(struct test *t, struct setup *s, const struct results *first, bool same, bool times,
-                        const char *what)
-{
-    struct results again;
-    carry_out(t, s, &again);
-    CHECK(t, same_results(first, &again, times) == same, "%s", what);
-    memcpy(again.scene[0].run[POOL][0], again.scene[0].run[POOL][1], sizeof again.scene[0].run[POOL][0]);
-    CHECK(t, !same_results(first, &again, false), "two seeds have different results");
-    results_free(&again);
-}
-
-/* A file of the store: of a method's seed after so many samples. */
-static void record_path(const struct setup *s, int method, int seed, long spp, const char *extension, char out[512])
-{
-    snprintf(out, 512, "%s/store/cornell-box--%s--8--seed%" PRIu64 "--%ld.%s", s->directory,
-             s->plan.methods.item[method].file, plan_seed(&s->plan, method, seed), spp, extension);
-}
-
 static void test_experiment(struct test *t)
 {
     struct setup s;
     struct results first;
-    char path[512];
     set_up(t, &s);
     if (!carry_out(t, &s, &first)) {
         results_free(&first);
@@ -335,22 +297,6 @@ static void test_experiment(struct test *t)
     check_runs(t, &first);
     check_output(t, &first);
 
-    /* Started again, nothing is done twice: even the times are the old ones. */
-    check_again(t, &s, &first, true, true, "an experiment started again has the same results");
-    /* Interrupted: of one run the last step is lost, one picture is damaged. */
-    record_path(&s, 1, 1, 64, "txt", path);
-    CHECK(t, remove(path) == 0, "%s exists", path);
-    record_path(&s, POOL, 2, 16, "pfm", path);
-    FILE *f = fopen(path, "r+b");
-    if (CHECK(t, f != NULL, "%s exists", path)) {
-        fseek(f, -4, SEEK_END);
-        fputs("....", f);
-        fclose(f);
-    }
-    check_again(t, &s, &first, true, false, "an interrupted experiment ends with the same results");
-    /* A scene that has changed begins anew. */
-    write_scene(s.scene_path, "[9 9 9]");
-    check_again(t, &s, &first, false, false, "a brighter light does");
     first.scene[0].reference.mean_error = NAN; /* what is not known of a reference is said to be so */
     struct error err;
     CHECK(t, report_write(&first, &err), "%s", err.text);

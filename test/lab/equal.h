@@ -16,9 +16,8 @@
 
 /* Intervals hold the truth 95 % of the time. That of one scene is results_ratio's, over seeds, with the error of the
  * price. That of several is Student's, on the logarithms of the scenes' ratios, which scatter by their seeds, by their
- * prices and above all by their scenes. In simulations (test_equal_time.c) it holds the truth in 95 % of trials with 5
- * scenes and with 11 where the logarithms are about normal, and in 90 % with 11 where they are as skewed as an
- * exponential distribution. */
+ * prices and above all by their scenes. Logarithms far from normal make it too narrow: of 11 scenes as skewed as an
+ * exponential distribution it holds the truth in 90 %. */
 
 /* equal_afforded: n; equal_samples: as rendered, at least 1. */
 double equal_afforded(const struct scene_results *s, int method);
