@@ -1,11 +1,9 @@
-/* test_chains.c: Markov chains: their states are samples of bdpt, they keep their distribution, and their images are
- * those of bdpt. test_balance.c has what they accept. */
+/* test_chains.c: Markov chains: their steps are as wide and as large as they must be, and their images are those of
+ * bdpt. test_balance.c has what they accept, to the digit. */
 #include <math.h>
 #include <string.h>
 
-#include "base/alias.h"
 #include "base/mem.h"
-#include "base/number.h"
 #include "chains/mlt.h"
 #include "lab/stats.h"
 #include "render/render.h"
@@ -84,72 +82,6 @@ static void test_steps(struct test *t)
     scene_free(&scene);
 }
 
-/* --- where chains are -------------------------------------------------------------------------------- */
-
-enum { BLOCKS = 2, CELLS = BLOCKS * BLOCKS * 8 };
-
-/* Where a state is: which part of the picture it begins with, whether it is bright, and of mlt what it can do. */
-static int cell(const struct chain *c)
-{
-    const struct splat *s = &c->now.heard.splat[0];
-    const struct mlt_path *path = c->now.own;
-    int x = int_within((s->px - c->all->x) / c->all->width * BLOCKS, 0, BLOCKS - 1);
-    int y = int_within((s->py - c->all->y) / c->all->height * BLOCKS, 0, BLOCKS - 1);
-    int kind = (c->now.I > c->b) + 2 * (path != NULL ? path->can[0] + 2 * path->can[1] : 0);
-    return (kind * BLOCKS + y) * BLOCKS + x;
-}
-
-/* What becomes of chains that start by I, or at any state: how many more are in each cell some steps later. */
-static void follow(struct bench *b, bool by_I, double *more)
-{
-    enum { STARTS = 600, STEPS = 6 };
-    struct chain *c = b->chain;
-    const struct chains *all = b->prepared.state;
-    int n = all->lengths * all->each;
-    for (int k = 0; k < STARTS; k++) {
-        double at = (k + rng_uniform(&c->rng)) / STARTS;
-        int i = by_I ? cumulative_find(c->before, n, at * c->before[n]) : (int)(at * n);
-        while (i < n - 1 && !(c->before[i + 1] > c->before[i]))
-            i++;
-        chain_candidate(c, i);
-        chain_swap(c);
-        more[cell(c)]--;
-        for (int step = 0; step < STEPS; step++) {
-            double a = chain_propose(c);
-            if (rng_uniform(&c->rng) < a)
-                chain_swap(c);
-        }
-        more[cell(c)]++;
-    }
-}
-
-/* Chains that start as often at each state as I says go on so. In a picture a few states may bring most of a dark
- * pixel's light, and its batches are far from normal; these are counts. */
-static void test_stays(struct test *t, const char *integrator)
-{
-    enum { BATCHES = 32 };
-    struct scene scene;
-    if (!chain_room(t, 16, 16, "", "box", &scene))
-        return;
-    settings_set(&scene.settings, "starts", "1024", "test");
-    struct batches more = batches_new(BATCHES, CELLS, false), less = batches_new(BATCHES, CELLS, false),
-                   none = batches_new(2, CELLS, false);
-    for (int k = 0; k < BATCHES; k++) {
-        struct bench b;
-        if (!bench_new(t, &scene, integrator, CHAIN_DEPTH, 1 + (uint64_t)k, &b))
-            break;
-        follow(&b, true, more.value + CELLS * k);
-        follow(&b, false, less.value + CELLS * k);
-        bench_free(&b);
-    }
-    TEST_ACCEPT(t, batches_smallest_p(&more, &none), "%s: chains stay where they start", integrator);
-    TEST_REJECT(t, batches_smallest_p(&less, &none), "%s: chains stay where they should not start", integrator);
-    batches_free(&more);
-    batches_free(&less);
-    batches_free(&none);
-    scene_free(&scene);
-}
-
 /* --- sub-paths walked again --------------------------------------------------------------------------- */
 
 static bool near_to(double a, double b) { return fabs(a - b) <= 1e-9 * fabs(b); }
@@ -194,87 +126,7 @@ static void test_follow(struct test *t)
     scene_free(&scene);
 }
 
-/* --- states are bdpt's samples ----------------------------------------------------------------------- */
-
-static rgb heard(const struct chain_state *s)
-{
-    rgb sum = rgb_black();
-    for (size_t i = 0; i < s->heard.n_splats; i++)
-        sum = rgb_add(sum, s->heard.splat[i].value);
-    return sum;
-}
-
-/* What bdpt makes of these numbers, on one pixel: of its connections, those to light points come first. */
-static rgb bdpt_of(struct bench *b, struct tape *number)
-{
-    const struct scene *scene = b->scene;
-    const struct mis_counts *counts = &bench_frozen(b)->counts;
-    struct tile_pass pass = bench_pass(b, 0, 1);
-    struct sampler from[STRATEGY_NUMBERS];
-    rgb sum;
-    bool all = true;
-    arena_reset(&b->work->arena);
-    for (int i = 0; i < STRATEGY_NUMBERS; i++) {
-        from[i] = tape_play(&number[i], sampler_start(0, RNG_TEST, 0, 0));
-        number[i].at = 0;
-    }
-    struct pixel_sample s = pixel_sample_begin(&pass, counts, 0, 0, 0);
-    struct walk eye = {scene, counts, &b->work->arena, &from[EYE_NUMBERS], b->job.rr_threshold}, light = eye;
-    light.sampler = &from[LIGHT_NUMBERS];
-    int n_eye = path_eye_pixel(&eye, 0, 0, b->work->eye, s.max_depth + 2, &s.filter_weight);
-    int n_light = path_light(&light, b->work->light, s.max_depth + 1);
-    s.sampler = from[POINT_NUMBERS];
-    pixel_sum_eye(&s, b->work->eye, n_eye);
-    pixel_sum_pairs(&s, b->work->eye, n_eye, b->work->light, n_light, NO_CHOICE);
-    s.sampler = from[LENS_NUMBERS];
-    pixel_splat_path(&s, b->work->light, n_light, 1);
-    sum = s.value;
-    for (size_t i = 0; i < b->tile.n_splats; i++)
-        if (floor(b->tile.splat[i].px) == 0 && floor(b->tile.splat[i].py) == 0)
-            sum = rgb_add(sum, b->tile.splat[i].value);
-    for (int i = 0; i < STRATEGY_NUMBERS; i++)
-        all = all && number[i].at == number[i].n;
-    return all ? sum : rgb_grey(NAN);
-}
-
-static bool same(rgb a, rgb b) { return rgb_max(rgb_add(a, rgb_scale(b, -1))) <= 1e-9 * (rgb_max(b) + 1e-3) &&
-                                        rgb_max(rgb_add(b, rgb_scale(a, -1))) <= 1e-9 * (rgb_max(b) + 1e-3); }
-
-/* The numbers of one kind, from the first on, for a state to be made of. */
-static void hand(const struct tape *from, size_t first, struct tape *to)
-{
-    to->n = 0;
-    if (from->n > first)
-        tape_append(to, from->number + first, from->n - first);
-}
-
-/* The same numbers for each strategy alone, whichever the length: together they are the sample. Strategies with s = 1
- * have light points of their own, three numbers each. */
-static rgb all_strategies(struct bench *b, const struct chain_state *whole)
-{
-    struct chain *c = b->chain;
-    rgb sum = rgb_black();
-    for (int n = 2; n <= CHAIN_DEPTH + 2; n++)
-        for (int s = 0; s < (n > 2 ? n : 1); s++) {
-            struct primary p;
-            struct strategy strategy;
-            int t = n - s, N = n > 2 ? n : 1;
-            double which = (s + 0.5) / N;
-            struct tape choice = {.number = &which, .n = 1};
-            c->candidate = -1;
-            for (int i = 0; i < STRATEGY_NUMBERS; i++)
-                hand(&whole->number[i], i == POINT_NUMBERS && t > 2 ? 3 * ((size_t)t - 2) : 0, &c->now.number[i]);
-            hand(&choice, 0, &c->now.number[STRATEGY_NUMBERS]);
-            primary_begin(&p, c, false);
-            for (int i = 0; i < CHAIN_STREAMS; i++)
-                hand(&c->now.number[i], 0, &c->next.number[i]);
-            c->next.length = n;
-            primary_strategy(&p, &strategy);
-            primary_end(&p);
-            sum = rgb_add(sum, rgb_scale(heard(&c->next), 1.0 / N));
-        }
-    return sum;
-}
+/* --- no start ----------------------------------------------------------------------------------------- */
 
 /* A chain that is told to stop while it looks for its start does not begin. */
 static bool at_once(void *context)
@@ -295,29 +147,6 @@ static void test_no_start(struct test *t)
     b.job.enough_context = &asked;
     CHECK(t, chain_start(b.chain, 0) == 0 && asked == 1, "it begins after %d questions", asked);
     bench_free(&b);
-    scene_free(&scene);
-}
-
-static void test_samples(struct test *t)
-{
-    struct scene scene;
-    struct bench pssmlt, mmlt, bdpt;
-    int bright = 0;
-    if (!chain_room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", CHAIN_DEPTH, 0, &pssmlt) ||
-        !bench_new(t, &scene, "mmlt", CHAIN_DEPTH, 0, &mmlt) || !bench_new(t, &scene, "bdpt", CHAIN_DEPTH, 0, &bdpt))
-        return;
-    for (int i = 0; i < 500; i++) {
-        chain_candidate(pssmlt.chain, i);
-        struct chain_state *state = &pssmlt.chain->next;
-        rgb one = heard(state), two = bdpt_of(&bdpt, state->number), three = all_strategies(&mmlt, state);
-        CHECK(t, same(one, two), "sample %d: pssmlt has %g, bdpt %g", i, one.g, two.g);
-        CHECK(t, same(three, two), "sample %d: the strategies of mmlt have %g, bdpt %g", i, three.g, two.g);
-        bright += two.g > 0;
-    }
-    CHECK(t, bright > 100, "only %d samples show anything", bright);
-    bench_free(&pssmlt);
-    bench_free(&mmlt);
-    bench_free(&bdpt);
     scene_free(&scene);
 }
 
@@ -382,10 +211,7 @@ void test_chains(struct test *t)
 {
     test_steps(t);
     test_follow(t);
-    test_samples(t);
     test_no_start(t);
-    for (int i = 0; METHODS[i] != NULL; i++)
-        test_stays(t, METHODS[i]);
     test_converges(t, QUICK, 2048);
     test_means(t, "mmlt starts=512", 1);
 }
