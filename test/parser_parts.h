@@ -1,6 +1,6 @@
-/* parser_parts.h: the parts of the suite `parser`: test_parser.c has the fixtures and damaged copies of them,
- * parser_words.c what scenes hold, parser_pieces.c numbers, names, spectra and messages, parser_limits.c what a scene
- * may repeat, and the bounds of its parameters.
+/* parser_parts.h: the parts of the suite `parser`: test_parser.c has the fixtures, parser_words.c what scenes hold,
+ * parser_pieces.c numbers, names, spectra and messages, parser_limits.c what a scene may repeat, and the bounds of its
+ * parameters.
  */
 #ifndef TEST_PARSER_PARTS_H
 #define TEST_PARSER_PARTS_H

@@ -4,8 +4,7 @@
  * newline. Every scene says in its first line what must come of it: "# expect: ok", or LINE:COL and a part of the
  * message of the first error; further lines "# also: ..." name parts of the other errors and "# warn: ..." of the
  * warnings, in order, "# has: ..." parts of what a scene holds (parser_words.c), and "# integrator: ..." the one
- * that the user names. Then damaged copies of all scenes, which must be accepted or refused, never crash (run it with
- * sanitizers).
+ * that the user names. Damaged scenes, which must be accepted or refused and never crash, are in test_fuzz.c.
  */
 #define _POSIX_C_SOURCE 200809L
 
@@ -18,7 +17,6 @@
 #include "parser/parser.h"
 #include "parser/scene_files.h"
 #include "base/mem.h"
-#include "base/rng.h"
 #include "helpers.h"
 #include "parser_parts.h"
 #include "tests.h"
@@ -180,84 +178,14 @@ static void check_fixture(struct test *t, const struct fixture *f)
     free(text);
 }
 
-/* --- damaged files -------------------------------------------------------------------------------------- */
-
-/* Bytes that mean something to the parser, and some that do not. */
-static char odd_byte(struct rng *r)
-{
-    static const char BYTES[] = "\"[]#\\-+.eE019 \n\tZ";
-    int k = (int)(rng_uniform(r) * 20);
-    return k < (int)sizeof BYTES ? BYTES[k] : (char)(rng_uniform(r) * 256 - 128);
-}
-
-/* Cut, change, remove, double or replace a part of the text in place; returns the new size (room for twice `size`).
- */
-static size_t damage(struct rng *r, char *text, size_t size)
-{
-    size_t at = (size_t)(rng_uniform(r) * (double)size), n = 1 + (size_t)(rng_uniform(r) * 12);
-    if (at + n > size)
-        n = size - at;
-    switch ((int)(rng_uniform(r) * 5)) {
-    case 0: return at;
-    case 1: text[at] = odd_byte(r); return size;
-    case 2: memmove(text + at, text + at + n, size - at - n); return size - n;
-    case 3: memmove(text + at + n, text + at, size - at); return size + n;
-    default:
-        for (size_t i = 0; i < n; i++)
-            text[at + i] = odd_byte(r);
-        return size;
-    }
-}
-
-static void check_damaged(struct test *t, const struct fixtures *f, int rounds)
-{
-    char path[TEXT];
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 2, 0);
-    int accepted = 0, refused = 0, first_ok = 0, n_ok = 0;
-    for (int i = 0; i < f->n; i++)
-        if (strncmp(f->scene[i].name, "ok-", 3) == 0 && n_ok++ == 0)
-            first_ok = i;
-    if (!CHECK(t, n_ok > 0, "no fixture is ok"))
-        return;
-    for (int i = 0; i < rounds; i++) {
-        struct error err = {.text = ""};
-        int pick = i % 2 == 0 ? i / 2 % f->n : first_ok + i / 2 % n_ok; /* every other one was whole before */
-        size_t size = f->scene[pick].size;
-        char *text = mem_alloc(2 * size + 64, 1);
-        memcpy(text, f->scene[pick].text, size);
-        size = damage(&r, text, size);
-        if (i % 3 == 0 && size > 0)
-            size = damage(&r, text, size);
-        write_scene(t, path, "damaged.pbrt", text, size);
-        free(text);
-        struct scene s;
-        if (parse_scene(path, NULL, &s, NULL, &err)) {
-            accepted++;
-            scene_free(&s);
-        } else {
-            refused++;
-            CHECK(t, strchr(err.text, ':') != NULL, "a refusal without a place: %s", err.text);
-            struct error clean = err;
-            error_clean(clean.text);
-            size_t k = 0;
-            while (err.text[k] != '\0' && (err.text[k] == clean.text[k] || err.text[k] == '\n'))
-                k++;
-            CHECK(t, err.text[k] == '\0', "a refusal holds the byte %02x", (unsigned)(unsigned char)err.text[k]);
-        }
-    }
-    CHECK(t, accepted > rounds / 100 && refused > rounds / 2, "%d accepted, %d refused", accepted, refused);
-}
-
 void test_parser(struct test *t)
 {
     struct fixtures *f = mem_alloc(1, sizeof *f);
     read_fixtures(f);
     link_parts(t);
-    if (CHECK(t, f->n >= 200, "only %d scenes in test/fixtures: run the tests at the top of the tree", f->n)) {
+    if (CHECK(t, f->n >= 200, "only %d scenes in test/fixtures: run the tests at the top of the tree", f->n))
         for (int i = 0; i < f->n; i++)
             check_fixture(t, &f->scene[i]);
-        check_damaged(t, f, 2000);
-    }
     free(f->all);
     free(f->shown);
     free(f);
