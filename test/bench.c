@@ -12,13 +12,11 @@ static const char ROOM[] =
     "Film \"image\" \"integer xresolution\" %d \"integer yresolution\" %d PixelFilter \"%s\"\n"
     "Integrator \"bdpt\" \"float rrthreshold\" 0\n"
     "WorldBegin AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [6 5 4]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 3 -1  1 3 -1  1 3 1  -1 3 1]\n"
+    QUAD("-1 3 -1  1 3 -1  1 3 1  -1 3 1")
     "AttributeEnd LightSource \"point\" \"rgb I\" [1 2 3] \"point from\" [-1.5 1 -1]\n"
-    "Material \"matte\" \"rgb Kd\" [.7 .6 .5]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 2  2 0 2  2 3 2  -2 3 2]\n"
-    "Material \"mirror\"\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  -2 0 2  -2 3 2  -2 3 -2]\n"
+    "Material \"matte\" \"rgb Kd\" [.7 .6 .5] " QUAD("-2 0 -2  2 0 -2  2 0 2  -2 0 2")
+    QUAD("-2 0 2  2 0 2  2 3 2  -2 3 2")
+    "Material \"mirror\" " QUAD("-2 0 -2  -2 0 2  -2 3 2  -2 3 -2")
     "Material \"metal\" \"float roughness\" .1\n"
     "TransformBegin Translate .8 .6 .5 Shape \"sphere\" \"float radius\" .6 TransformEnd\n"
     "Material \"glass\" TransformBegin Translate -.7 .7 0 Shape \"sphere\" \"float radius\" .5 TransformEnd WorldEnd\n";

@@ -13,6 +13,10 @@
 #include "scene/scene.h"
 #include "test.h"
 
+/* QUAD: of a scene's text: two triangles, by the corners around them, "x y z  x y z  x y z  x y z". */
+#define QUAD(corners)                                                                                                  \
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [" corners "]\n"
+
 /* write_bytes: make a file of n bytes. If that fails there is none, as the test will notice. */
 void write_bytes(const char *path, const void *data, size_t n);
 

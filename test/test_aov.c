@@ -51,8 +51,7 @@ static const char WALL[] =
     "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 8 PixelFilter \"box\"\n"
     "LookAt 1 2 3  2 2 3  0 0 1  Camera \"perspective\" \"float fov\" 60\n"
     "WorldBegin LightSource \"infinite\"\n%s\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [5 %d -50  5 52 -50  5 52 50  5 %d 50]\n"
-    "WorldEnd\n";
+    QUAD("5 %d -50  5 52 -50  5 52 50  5 %d 50") "WorldEnd\n";
 
 static bool wall_scene(struct test *t, const char *material, int edge, struct scene *scene)
 {
@@ -162,8 +161,7 @@ static void test_glass(struct test *t)
 static void test_seen(struct test *t)
 {
     static const char BEHIND[] =
-        "Material \"matte\" \"rgb Kd\" [.2 .4 .6] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-        "\"point P\" [%d -%d -%d  %d %d -%d  %d %d %d  %d -%d %d]\n%s";
+        "Material \"matte\" \"rgb Kd\" [.2 .4 .6] " QUAD("%d -%d -%d  %d %d -%d  %d %d %d  %d -%d %d") "%s";
     static const struct {
         int x, size; /* of the wall */
         const char *material;

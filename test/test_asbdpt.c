@@ -129,10 +129,8 @@ static const char BALL[] = "Camera \"perspective\" WorldBegin LightSource \"poin
 static const char MIRROR[] =
     "Camera \"perspective\" WorldBegin\n"
     "LightSource \"spot\" \"point from\" [0 1 0] \"point to\" [0 0 0] \"float coneangle\" 10\n"
-    "Material \"mirror\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-    "  \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
-    "Material \"matte\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-    "  \"point P\" [-2 3 -2  2 3 -2  2 3 2  -2 3 2] WorldEnd\n";
+    "Material \"mirror\" " QUAD("-2 0 -2  2 0 -2  2 0 2  -2 0 2")
+    "Material \"matte\" " QUAD("-2 3 -2  2 3 -2  2 3 2  -2 3 2") "WorldEnd\n";
 
 /* The count of lvc is C / l, known here exactly. A scene without any light vertex must not make it infinite. */
 static void test_expected_vertices(struct test *t)

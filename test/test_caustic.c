@@ -35,6 +35,9 @@ static double area_by_differences(const struct quest *q, const struct specular_c
     return fabs(dot(cross(ds, dt), c->d)) / (4 * h * h);
 }
 
+#define SMOOTH                                                                                                         \
+    QUAD("-1 -1 0  1 -1 0  1 1 .1  -1 1 0") "\"normal N\" [-.2 -.2 1  .2 -.3 1  .2 .3 1  -.1 .2 1]"
+
 /* From many points below a thing to many above it, or to directions: chains through it, or by way of it. */
 static void test_derivatives(struct test *t)
 {
@@ -48,12 +51,8 @@ static void test_derivatives(struct test *t)
         {"one surface", "Material \"glass\" Shape \"sphere\" \"float radius\" 1 \"float zmin\" .2", -1, 1, -1},
         {"mirror ball", "Material \"mirror\" Shape \"sphere\" \"float radius\" .5", 0, 1, 1},
         {"mirror bowl", "Material \"mirror\" Shape \"paraboloid\" \"float radius\" 1 \"float zmax\" .4", 0, 1, 1},
-        {"smooth mesh", "Material \"mirror\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]"
-                        "\"point P\" [-1 -1 0  1 -1 0  1 1 0.1  -1 1 0]"
-                        "\"normal N\" [-.2 -.2 1  .2 -.3 1  .2 .3 1  -.1 .2 1]", 0, 1, 1},
-        {"smooth pane", "Material \"glass\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]"
-                        "\"point P\" [-1 -1 0  1 -1 0  1 1 0.1  -1 1 0]"
-                        "\"normal N\" [-.2 -.2 1  .2 -.3 1  .2 .3 1  -.1 .2 1]", -1, 1, -1}};
+        {"smooth mesh", "Material \"mirror\" " SMOOTH, 0, 1, 1},
+        {"smooth pane", "Material \"glass\" " SMOOTH, -1, 1, -1}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct scene scene;
         struct arena arena = {NULL, NULL};
@@ -128,7 +127,7 @@ static void test_closed_forms(struct test *t)
     "LookAt 0 2 -2  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 20\n"                                            \
     "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 PixelFilter \"box\"\n"                         \
     "WorldBegin LightSource \"point\" \"point from\" [0 3 0] \"rgb I\" [9 9 9] Material \"matte\"\n"                   \
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
+    QUAD("-2 0 -2  2 0 -2  2 0 2  -2 0 2")
 
 static struct film floor_under(struct test *t, const char *things, const char *way, long spp)
 {
@@ -186,8 +185,7 @@ static char *receiver(uint64_t number, const char *top, bool mirror)
                      "Shape \"disk\" \"float radius\" 1.2 AttributeEnd\n");
     put_textures(&w);
     put_material(&w, false);
-    put(&w, "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-3 0 -3 3 0 -3 3 0 3 -3 0 3]\n"
-            "WorldEnd");
+    put(&w, QUAD("-3 0 -3  3 0 -3  3 0 3  -3 0 3") "WorldEnd");
     return w.text;
 }
 
@@ -290,9 +288,7 @@ static double mean_of(const struct film *film)
     return sum / (8 * 8 * 3) / (double)film->iterations;
 }
 
-#define MIRROR                                                                                                         \
-    "Material \"mirror\" \"rgb Kr\" [1 1 1]\n"                                                                         \
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-9 0 1  9 0 1  9 9 1  -9 9 1]\n"
+#define MIRROR "Material \"mirror\" \"rgb Kr\" [1 1 1]\n" QUAD("-9 0 1  9 0 1  9 9 1  -9 9 1")
 
 /* FLOOR is lit by way of a mirror, too: cones give the picture of caustic connections, to eps^2, and so do these if
  * they have to look for another mirror, far away, half of the time. By bdpt light sub-paths make what the lens sees, so
@@ -320,9 +316,7 @@ static void test_cones(struct test *t)
 /* What nothing else makes is never left out, however dim. */
 static void test_dim(struct test *t)
 {
-    static const char DIM[] =
-        "Material \"mirror\" \"rgb Kr\" [.05 .05 .05]\n"
-        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-9 0 1  9 0 1  9 9 1  -9 9 1]\n";
+    static const char DIM[] = "Material \"mirror\" \"rgb Kr\" [.05 .05 .05]\n" QUAD("-9 0 1  9 0 1  9 9 1  -9 9 1");
     struct film with = floor_under(t, DIM, "caustics with=pt longest=1", 2), without = floor_under(t, DIM, "pt", 2);
     double ratio = mean_of(&with) / mean_of(&without);
     CHECK(t, ratio > 1.02 && ratio < 1.05, "a dim mirror's light makes a picture %g times as bright", ratio);

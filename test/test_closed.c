@@ -64,10 +64,9 @@ static void turn_text(const char *text, int k, char out[TEXT])
     "MediumInterface \"fog\" \"\" Shape \"trianglemesh\" \"integer indices\" [0 3 2 0 2 1 4 5 6 4 6 7 0 1 5 0 5 4\n"   \
     "3 7 6 3 6 2 0 4 7 0 7 3 1 2 6 1 6 5] \"point P\" [<-1 -1 -1> <1 -1 -1> <1 1 -1> <-1 1 -1> <-1 -1 1> <1 -1 1>\n"   \
     "<1 1 1> <-1 1 1>] MediumInterface \"\"\n"
-#define QUAD(a, b, c, d)                                                                                               \
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [" a " " b " " c " " d "]\n"
+#define FACE(a, b, c, d) QUAD(a " " b " " c " " d)
 #define SUN(from) "LightSource \"distant\" \"rgb L\" [2 2 2] \"point from\" [" from "] \"point to\" [<0 0 0>]\n"
-#define FLOOR "Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n" QUAD("<-1 -2 -1>", "<1 -2 -1>", "<1 -2 1>", "<-1 -2 1>")
+#define FLOOR "Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n" FACE("<-1 -2 -1>", "<1 -2 -1>", "<1 -2 1>", "<-1 -2 1>")
 #define LAMP                                                                                                           \
     "AreaLightSource \"diffuse\" \"rgb L\" [2 2 2] \"bool twosided\" \"true\" Material \"matte\" \"rgb Kd\" [0 0 0]\n"
 
@@ -113,18 +112,18 @@ static const struct {
      point_above, 1, 32, ""},
     {"lamp in a mirror at 45 degrees",
      VIEW("<0 0 -5>", "<0 0 0>", "<0 1 0>", ".5") "WorldBegin Material \"mirror\"\n"
-     QUAD("<-1 -1 -1>", "<1 -1 -1>", "<1 1 1>", "<-1 1 1>")
-     LAMP QUAD("<-2 3 -2>", "<2 3 -2>", "<2 3 2>", "<-2 3 2>") "WorldEnd", mirror_lamp, 3, 4, "lt"},
+     FACE("<-1 -1 -1>", "<1 -1 -1>", "<1 1 1>", "<-1 1 1>")
+     LAMP FACE("<-2 3 -2>", "<2 3 -2>", "<2 3 2>", "<-2 3 2>") "WorldEnd", mirror_lamp, 3, 4, "lt"},
     {"sun by a mirror at 45 degrees",
      VIEW("<0 -1 0>", "<0 -2 0>", "<0 0 1>", "1") "WorldBegin Material \"mirror\"\n"
-     QUAD("<-1 1 -1>", "<1 1 -1>", "<1 -1 1>", "<-1 -1 1>") SUN("<0 0 -1>") FLOOR "WorldEnd", mirror_sun, 2, 64, "pt"},
+     FACE("<-1 1 -1>", "<1 1 -1>", "<1 -1 1>", "<-1 -1 1>") SUN("<0 0 -1>") FLOOR "WorldEnd", mirror_sun, 2, 64, "pt"},
     {"lamp behind glass, head-on",
      VIEW("<0 0 -5>", "<0 0 0>", "<0 1 0>", ".5") "WorldBegin Material \"glass\"\n"
-     QUAD("<-1 -1 0>", "<-1 1 0>", "<1 1 0>", "<1 -1 0>") QUAD("<-1 -1 1>", "<1 -1 1>", "<1 1 1>", "<-1 1 1>")
-     LAMP QUAD("<-2 -2 3>", "<2 -2 3>", "<2 2 3>", "<-2 2 3>") "WorldEnd", glass_lamp, 12, 32, "lt"},
+     FACE("<-1 -1 0>", "<-1 1 0>", "<1 1 0>", "<1 -1 0>") FACE("<-1 -1 1>", "<1 -1 1>", "<1 1 1>", "<-1 1 1>")
+     LAMP FACE("<-2 -2 3>", "<2 -2 3>", "<2 2 3>", "<-2 2 3>") "WorldEnd", glass_lamp, 12, 32, "lt"},
     {"sun through glass, head-on",
      VIEW("<0 -1 0>", "<0 -2 0>", "<0 0 1>", "1") "WorldBegin Material \"glass\"\n"
-     QUAD("<-1 0 -1>", "<1 0 -1>", "<1 0 1>", "<-1 0 1>") QUAD("<-1 1 -1>", "<-1 1 1>", "<1 1 1>", "<1 1 -1>")
+     FACE("<-1 0 -1>", "<1 0 -1>", "<1 0 1>", "<-1 0 1>") FACE("<-1 1 -1>", "<-1 1 1>", "<1 1 1>", "<1 1 -1>")
      SUN("<0 1 0>") FLOOR "WorldEnd", glass_sun, 3, 64, "pt"}};
 enum { N_SCENES = sizeof SCENES / sizeof SCENES[0] };
 
@@ -169,8 +168,8 @@ static double brightness(struct test *t, const char *way, double size, double li
     char scaled[TEXT];
     struct scene scene;
     snprintf(scaled, sizeof scaled, LOOK("0 0 -5", "0 0 0", "0 1 0") "Scale %.17g %.17g %.17g\n" CAMERA("1")
-             "WorldBegin Scale %.17g %.17g %.17g\n" FLOOR QUAD("-1 -2 1", "1 -2 1", "1 2 1", "-1 2 1")
-             "AreaLightSource \"diffuse\" \"rgb L\" [%.17g %.17g %.17g]\n" QUAD("-1 2 -1", "1 2 -1", "1 2 1", "-1 2 1")
+             "WorldBegin Scale %.17g %.17g %.17g\n" FLOOR FACE("-1 -2 1", "1 -2 1", "1 2 1", "-1 2 1")
+             "AreaLightSource \"diffuse\" \"rgb L\" [%.17g %.17g %.17g]\n" FACE("-1 2 -1", "1 2 -1", "1 2 1", "-1 2 1")
              "WorldEnd", 1 / size, 1 / size, 1 / size, size, size, size, light, light, light);
     char text[TEXT];
     turn_text(scaled, 0, text);

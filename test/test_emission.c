@@ -28,7 +28,7 @@ static const char LIGHTS[] =
     "LightSource \"distant\" \"rgb L\" [.1 .1 .1] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n"
     "LightSource \"infinite\" \"rgb L\" [.01 .01 .01]\n"
     "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] Shape \"sphere\"\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [0 0 1  2 0 1  2 3 1  0 3 1]\n"
+    QUAD("0 0 1  2 0 1  2 3 1  0 3 1")
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [0 0 1  2 0 1  0 0 3]\n"
     "Rotate 60 1 2 3 Shape \"disk\" Shape \"cylinder\" AttributeEnd\n"
     "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" \"true\"\n"

@@ -64,10 +64,9 @@ static const char MIXED[] =
     "LightSource \"distant\" \"rgb L\" [1 1 1] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n"
     "LightSource \"point\" \"rgb I\" [3 2 1] \"point from\" [-1 2 0]\n"
     "Material \"none\" AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \"bool twosided\" \"true\"\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 4 -2  2 4 -2  2 4 2  -2 4 2]\n"
-    "AttributeEnd Material \"matte\" \"rgb Kd\" [.8 .7 .6] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-    "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 1.5  2 0 1.5  2 3 1.5  -2 3 1.5]\n"
+    QUAD("-2 4 -2  2 4 -2  2 4 2  -2 4 2")
+    "AttributeEnd Material \"matte\" \"rgb Kd\" [.8 .7 .6] " QUAD("-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5")
+    QUAD("-2 0 1.5  2 0 1.5  2 3 1.5  -2 3 1.5")
     "Material \"glass\" Translate 0 .7 0 Shape \"sphere\" \"float radius\" .6 WorldEnd\n";
 
 /* The film is what it is without an observer, to the bit. Gates are sums of floats (paths.h): they add up to the film
@@ -192,9 +191,8 @@ static void test_mirror(struct test *t)
         "LookAt 0 2 0  0 0 0  0 0 1 Camera \"perspective\" \"float fov\" 2\n"
         "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 PixelFilter \"box\" WorldBegin\n"
         "LightSource \"point\" \"point from\" [0 3 0] Material \"matte\"\n"
-        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 1  -2 0 1]\n"
-        "Material \"mirror\" \"rgb Kr\" [1 1 1] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-        "  \"point P\" [-9 0 1  9 0 1  9 9 1  -9 9 1] WorldEnd\n";
+        QUAD("-2 0 -2  2 0 -2  2 0 1  -2 0 1")
+        "Material \"mirror\" \"rgb Kr\" [1 1 1] " QUAD("-9 0 1  9 0 1  9 9 1  -9 9 1") "WorldEnd\n";
     static const double END[] = {4.9, 5.1, 5.5, 5.9};
     const double direct = 1.0 / 9, image = 3 / sqrt(13) / 13; /* cosine over distance^2 */
     for (int i = 0; i < 4; i++) {
@@ -251,9 +249,8 @@ static void test_ellipses(struct test *t)
         "LookAt 0 2 0  0 0 0  0 0 1 Camera \"perspective\" \"float fov\" 10\n"
         "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 PixelFilter \"box\" WorldBegin\n"
         "LightSource \"point\" \"point from\" [.5 1.5 -.5] Material \"matte\" \"rgb Kd\" [.8 .7 .6]\n"
-        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 1.5  -2 0 1.5]\n"
-        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 1.5  2 0 1.5  2 3 1.5  -2 3 1.5]\n"
-        "WorldEnd\n";
+        QUAD("-2 0 -2  2 0 -2  2 0 1.5  -2 0 1.5")
+        QUAD("-2 0 1.5  2 0 1.5  2 3 1.5  -2 3 1.5") "WorldEnd\n";
     agrees_with_pt(t, MIXED, 9, 9.3, 1.25);
     agrees_with_pt(t, WALL, 5.6, 6.2, 1.1);
     agrees_with_pt(t, WALL, 6.2, 7, 1.1);

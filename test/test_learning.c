@@ -173,8 +173,7 @@ static void test_far_triangle(struct test *t)
 {
     static const char scene_text[] =
         "LookAt 0 1 -3.4  0 1 0  0 1 0 Camera \"perspective\" \"float fov\" 40 WorldBegin\n"
-        "Material \"matte\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-        "  \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
+        "Material \"matte\" " QUAD("-2 0 -2  2 0 -2  2 0 2  -2 0 2")
         "Shape \"sphere\" AttributeBegin AreaLightSource \"diffuse\" Translate 0 3 0 Shape \"disk\" AttributeEnd\n"
         "%s WorldEnd";
     static const char *const far[] = {

@@ -47,11 +47,9 @@ static const char SCENE[] =
     "\"string group\" \"warm\"\n"
     "LightSource \"infinite\" \"rgb L\" [.1 0 0] \"rgb scale\" [%d %d %d]\n"
     "Material \"none\" AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \"rgb scale\" [%d %d %d]\n"
-    "\"bool twosided\" \"true\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-    "  \"point P\" [-2 4 -2  2 4 -2  2 4 2  -2 4 2] AttributeEnd\n"
-    "Material \"matte\" \"rgb Kd\" [.8 .7 .6] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-    "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 1.5  2 0 1.5  2 3 1.5  -2 3 1.5]\n"
+    "\"bool twosided\" \"true\" " QUAD("-2 4 -2  2 4 -2  2 4 2  -2 4 2") "AttributeEnd\n"
+    "Material \"matte\" \"rgb Kd\" [.8 .7 .6] " QUAD("-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5")
+    QUAD("-2 0 1.5  2 0 1.5  2 3 1.5  -2 3 1.5")
     "Material \"glass\" Translate 0 .7 0 Shape \"sphere\" \"float radius\" .6 WorldEnd\n";
 
 static bool load(struct test *t, const char *filter, bool sky, bool warm, bool lamp, struct scene *out)
@@ -181,7 +179,7 @@ static void test_alone(struct test *t, const char *way)
 #define CAMERA                                                                                                         \
     "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 40\n"                                            \
     "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16 PixelFilter \"%s\" WorldBegin\n"
-#define HALF "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-9 0 0  9 0 0  9 9 0  -9 9 0]\n"
+#define HALF QUAD("-9 0 0  9 0 0  9 9 0  -9 9 0")
 
 static bool render_text(struct test *t, const char *text, const char *filter, int spp, struct film *film)
 {

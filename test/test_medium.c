@@ -135,7 +135,7 @@ static void test_coplanar(struct test *t)
                  "\"float screenwindow\" [-1 1 -1 1] WorldBegin Rotate %d .3 1 .2\n"
                  "LightSource \"distant\" \"rgb L\" [3 3 3] \"point from\" [.6 %d -.3] \"point to\" [0 0 0]\n"
                  "AttributeBegin Material \"%s\" \"rgb Kd\" [%s] \"rgb Ks\" [0 0 0]\n"
-                 "Translate 0 %s 0 Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [%s]\n"
+                 "Translate 0 %s 0 " QUAD("%s")
                  "AttributeEnd Material \"\" MediumInterface \"ink\" \"\"\n" BOX("0", ".5")
                  "MediumInterface \"tar\" \"\"\n" BOX(".5", "1") "WorldEnd",
                  sheet ? "2.5" : "2", sheet ? ".5" : "0", i < 2 ? 0 : -33, i < 2 ? 0 : 33, sheet ? -1 : 1,

@@ -24,21 +24,15 @@ static const char ROOM[] =
     "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 32\n"
     "WorldBegin\n"
     "%s%s\n"
-    "Material \"matte\" \"rgb Kd\" [.7 .6 .5]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  2 0 -2  2 0 2  -2 0 2]\n"
+    "Material \"matte\" \"rgb Kd\" [.7 .6 .5] " QUAD("-2 0 -2  2 0 -2  2 0 2  -2 0 2")
     "Material \"substrate\" \"rgb Kd\" [.3 .5 .2] \"float uroughness\" .2 \"float vroughness\" .1\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 2  2 0 2  2 3 2  -2 3 2]\n"
+    QUAD("-2 0 2  2 0 2  2 3 2  -2 3 2")
     "  \"normal N\" [.3 0 -1  -.3 0 -1  -.3 .2 -1  .3 .2 -1]\n"
-    "Material \"mirror\"\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 0 -2  -2 0 2  -2 3 2  -2 3 -2]\n"
-    "Material \"metal\" \"float roughness\" .2\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [2 0 -2  2 0 2  2 3 2  2 3 -2]\n"
-    "Material \"matte\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-    "  \"point P\" [1 .3 1  1.8 .3 -.6  1.8 1.8 -.6  1 1.8 1]\n"
-    "Material \"translucent\" \"rgb Ks\" [0 0 0] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-    "  \"point P\" [-1.5 1.2 1  -.5 1.2 1.5  -.5 2.4 1.5  -1.5 2.4 1]\n"
-    "Material \"glass\" \"float index\" 1.3\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 .2 -2  0 .2 -2  0 .2 2  -2 .2 2]\n"
+    "Material \"mirror\" " QUAD("-2 0 -2  -2 0 2  -2 3 2  -2 3 -2")
+    "Material \"metal\" \"float roughness\" .2 " QUAD("2 0 -2  2 0 2  2 3 2  2 3 -2")
+    "Material \"matte\" " QUAD("1 .3 1  1.8 .3 -.6  1.8 1.8 -.6  1 1.8 1")
+    "Material \"translucent\" \"rgb Ks\" [0 0 0] " QUAD("-1.5 1.2 1  -.5 1.2 1.5  -.5 2.4 1.5  -1.5 2.4 1")
+    "Material \"glass\" \"float index\" 1.3 " QUAD("-2 .2 -2  0 .2 -2  0 .2 2  -2 .2 2")
     "Material \"glass\" \"float index\" 1.5\n"
     "TransformBegin Translate .3 .8 0 Shape \"sphere\" \"float radius\" .6 TransformEnd\n"
     "Material \"glass\" \"float index\" 1.4 \"float uroughness\" .3 \"float vroughness\" .3\n"
@@ -75,8 +69,8 @@ static const struct variant VARIANTS[] = {
     {"see-through lamps", PERSPECTIVE,
      "AttributeBegin Material \"none\" AreaLightSource \"diffuse\" \"rgb L\" [2 2 2] \"bool twosided\" \"true\"\n"
      "TransformBegin Translate .3 .8 0 Shape \"sphere\" \"float radius\" .9 TransformEnd\n"
-     "AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-     "  \"point P\" [-1.9 2 -1.9  1.9 2 -1.9  1.9 2.2 1.9  -1.9 2.2 1.9] AttributeEnd"},
+     "AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] "
+     QUAD("-1.9 2 -1.9  1.9 2 -1.9  1.9 2.2 1.9  -1.9 2.2 1.9") "AttributeEnd"},
     {"orthographic, area and distant", "\"orthographic\" \"float screenwindow\" [-1.5 1.5 -1 1.5]",
      "LightSource \"distant\" \"rgb L\" [3 3 3] \"point from\" [1 4 -1] \"point to\" [0 0 0]\n"
      "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5]\n"

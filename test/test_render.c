@@ -128,8 +128,8 @@ static const char WALL[] =
     "LookAt 0 2 -4  0 .5 -1  0 1 0 Camera \"perspective\" \"float fov\" 60\n"
     "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8\n"
     "WorldBegin LightSource \"point\" \"point from\" [0 2 2] Material \"matte\"\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-5 0 -5  5 0 -5  5 0 5  -5 0 5]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-9 -9 0  9 -9 0  9 9 0  -9 9 0]\n"
+    QUAD("-5 0 -5  5 0 -5  5 0 5  -5 0 5")
+    QUAD("-9 -9 0  9 -9 0  9 9 0  -9 9 0")
     "AreaLightSource \"diffuse\" Translate 1 2 2 Shape \"sphere\" WorldEnd\n";
 
 /* --- blocks ------------------------------------------------------------------------------------------ */

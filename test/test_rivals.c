@@ -18,11 +18,10 @@ static const char SLOPE[] =
     "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 1 PixelFilter \"box\" WorldBegin\n"
     "LightSource \"spot\" \"point from\" [1 1.6 0] \"point to\" [0 .1 0] \"rgb I\" [9 9 9]\n"
     "\"float coneangle\" 15 Material \"matte\" \"rgb Kd\" [.6 .6 .6]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [.5 .5 -2  .5 .5 2  .5 .6 2  .5 .6 -2]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [0 0 -2  0 0 2  2 2 2  2 2 -2]\n"
+    QUAD(".5 .5 -2  .5 .5 2  .5 .6 2  .5 .6 -2")
+    QUAD("0 0 -2  0 0 2  2 2 2  2 2 -2")
     "Material \"uber\" \"rgb Kd\" [.5 .5 .5] \"rgb Kr\" [.4 .4 .4] \"rgb Ks\" [0 0 0]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [0 0 -2  0 0 2  0 1 2  0 1 -2]\n"
-    "WorldEnd\n";
+    QUAD("0 0 -2  0 0 2  0 1 2  0 1 -2") "WorldEnd\n";
 
 /* A floor that scatters and mirrors, a wall, and a lamp as large as both, which s = 0 and s = 1 find alike. A guide
  * that has learnt where the lamp is draws other directions than the BSDF. */
@@ -96,9 +95,8 @@ static const char CORNER[] =
     "LookAt 1 2 3  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 20\n"
     "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16 WorldBegin\n"
     "LightSource \"infinite\" \"rgb L\" [1 1 1] Material \"matte\" \"rgb Kd\" [1 1 1]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-4 0 0  4 0 0  4 0 4  -4 0 4]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-4 0 0  4 0 0  4 4 0  -4 4 0]\n"
-    "WorldEnd\n";
+    QUAD("-4 0 0  4 0 0  4 0 4  -4 0 4")
+    QUAD("-4 0 0  4 0 0  4 4 0  -4 4 0") "WorldEnd\n";
 
 static void test_furnace(struct test *t, int more)
 {

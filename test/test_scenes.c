@@ -66,8 +66,7 @@ static void check_shown(struct test *t, const struct scene *scene, uint64_t seed
 static void test_contact(struct test *t)
 {
     static const char *const grounds[] = {
-        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-        "  \"point P\" [-1e6 0 -1e6  1e6 0 -1e6  1e6 0 1e6  -1e6 0 1e6]",
+        QUAD("-1e6 0 -1e6  1e6 0 -1e6  1e6 0 1e6  -1e6 0 1e6"),
         "AttributeBegin Translate 0 -1e6 0 Shape \"sphere\" \"float radius\" 1e6 AttributeEnd"};
     for (int i = 0; i < 4; i++) {
         struct scene scene;
@@ -98,8 +97,7 @@ static void test_lamps(struct test *t)
         "Material \"none\" Shape \"sphere\" Translate 0 0 .5 Shape \"disk\" \"float radius\" 2\n"
         "AreaLightSource \"diffuse\" \"rgb L\" [3 3 3] Shape \"disk\" \"float radius\" 2\n"
         "AreaLightSource \"diffuse\" \"rgb L\" [.5 .5 .5] \"bool twosided\" \"true\" Translate 0 0 -1\n"
-        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 -2 0  2 -2 0  2 2 0  -2 2 0]\n"
-        "WorldEnd\n";
+        QUAD("-2 -2 0  2 -2 0  2 2 0  -2 2 0") "WorldEnd\n";
     static const char sky[] = "LightSource \"infinite\" \"rgb L\" [.25 .25 .25]";
     static const char wall[] = "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"disk\" \"float radius\" 9";
     static const char touching[] =
@@ -130,10 +128,9 @@ static void test_holes(struct test *t)
         "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
         "Texture \"a\" \"float\" \"checkerboard\" \"float tex1\" %s \"float tex2\" %s\n"
         "LightSource \"point\" \"point from\" [0 0 -3] \"rgb I\" [9 9 9]\n"
-        "Material \"matte\" \"rgb Kd\" [1 1 1]\n"
-        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-3 -3 0  3 -3 0  3 3 0  -3 3 0]\n"
-        "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-        "  \"point P\" [-3 -3 %s  3 -3 %s  3 3 %s  -3 3 %s] \"texture %s\" \"a\" WorldEnd\n";
+        "Material \"matte\" \"rgb Kd\" [1 1 1] " QUAD("-3 -3 0  3 -3 0  3 3 0  -3 3 0")
+        "Material \"matte\" \"rgb Kd\" [0 0 0] "
+        QUAD("-3 -3 %s  3 -3 %s  3 3 %s  -3 3 %s") "\"texture %s\" \"a\" WorldEnd\n";
     static const struct {
         const char *value, *z, *name;
         bool lit;
@@ -206,9 +203,7 @@ static void test_filter_spot(struct test *t)
         "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 20\n"
         "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 PixelFilter \"%s\"\n"
         "WorldBegin LightSource \"point\" \"point from\" [.03 .05 -.25] \"rgb I\" [.1 .1 .1]\n"
-        "Material \"matte\" \"rgb Kd\" [.8 .8 .8]\n"
-        "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-3 -3 0  3 -3 0  3 3 0  -3 3 0]\n"
-        "WorldEnd\n";
+        "Material \"matte\" \"rgb Kd\" [.8 .8 .8] " QUAD("-3 -3 0  3 -3 0  3 3 0  -3 3 0") "WorldEnd\n";
     static const char *const filters[] = {"mitchell", "sinc"};
     for (int i = 0; i < 2; i++) {
         struct scene scene;

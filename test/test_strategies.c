@@ -31,23 +31,18 @@ enum { DEPTH = 3 };
     "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12 PixelFilter \"triangle\"\n"                  \
     "WorldBegin\n"                                                                                                     \
     "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n"          \
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 4 -2  2 4 -2  2 4 2  -2 4 2]\n"          \
-    "AttributeEnd\n"                                                                                                   \
-    "Material \"matte\" \"rgb Kd\" [.8 .7 .6]\n"                                                                       \
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"                                                       \
-    "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n"
+    QUAD("-2 4 -2  2 4 -2  2 4 2  -2 4 2") "AttributeEnd\n"                                                            \
+    "Material \"matte\" \"rgb Kd\" [.8 .7 .6]\n" QUAD("-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5")
 
 #define WALL                                                                                                           \
     "Material \"plastic\" \"rgb Kd\" [.5 .6 .7] \"float roughness\" .4\n"                                            \
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"                                                       \
-    "  \"point P\" [-2 1 2.5  2 1 2.5  2 3.4 2.5  -2 3.4 2.5] WorldEnd\n"
+    QUAD("-2 1 2.5  2 1 2.5  2 3.4 2.5  -2 3.4 2.5") "WorldEnd\n"
 
 static const char PLAIN[] = HEAD(PERSPECTIVE) WALL;
 
 static const char LEANING[] = HEAD(PERSPECTIVE)
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 1 2.5  2 1 2.5  2 3.4 2.5  -2 3.4 2.5]\n"
-    "  \"normal N\" [-.2 -1 -1  .2 -1 -1  .2 -.8 -1  -.2 -.8 -1]\n"
-    "WorldEnd\n";
+    QUAD("-2 1 2.5  2 1 2.5  2 3.4 2.5  -2 3.4 2.5")
+    "\"normal N\" [-.2 -1 -1  .2 -1 -1  .2 -.8 -1  -.2 -.8 -1] WorldEnd\n";
 
 /* The first scene by the other cameras: t = 1 joins a point to its projection on a plane, and to a point from where the
  * whole sphere is seen, whose picture goes on beyond its edges. */
@@ -59,10 +54,8 @@ static const char HOLED[] = PERSPECTIVE
     "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 12 PixelFilter \"triangle\" WorldBegin\n"
     "Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 3 \"float vscale\" 3\n"
     "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [9 9 9] Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-2 4 -2  2 4 -2  2 4 2  -2 4 2]\n"
-    "  \"float uv\" [0 0 1 0 1 1 0 1] \"texture alpha\" \"holes\" AttributeEnd\n"
-    "Material \"matte\" \"rgb Kd\" [.8 .7 .6] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-    "  \"point P\" [-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5]\n" WALL;
+    QUAD("-2 4 -2  2 4 -2  2 4 2  -2 4 2") "\"float uv\" [0 0 1 0 1 1 0 1] \"texture alpha\" \"holes\" AttributeEnd\n"
+    "Material \"matte\" \"rgb Kd\" [.8 .7 .6] " QUAD("-1.5 0 -1.5  1.5 0 -1.5  1.5 0 1.5  -1.5 0 1.5") WALL;
 
 /* Fog about the lens and everything, and milk in it, which joins go into and through. */
 static const char FOG[] =
