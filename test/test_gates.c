@@ -206,36 +206,17 @@ static void test_mirror(struct test *t)
 
 /* --- ellipsoidal connections -------------------------------------------------------------------------- */
 
-/* Of a gate, or of the whole film. */
-static struct batches gated_batches(struct test *t, const struct scene *scene, const char *way, long spp, uint64_t seed,
-                                    const double gate[2], bool whole)
-{
-    enum { BATCHES = 12, TILE = 4 };
-    struct batches pixels = batches_new(BATCHES, 3L * scene->width * scene->height, false);
-    for (int k = 0; k < BATCHES; k++) {
-        struct render_options o = {.integrator = set_method((struct scene *)scene, way), .n_threads = os_cores(),
-                                   .end = spp, .max_depth = 4, .seed = seed + (uint64_t)k};
-        struct flight f = fly(t, scene, &o, (struct gates){gate[0], gate[1] - gate[0], 1});
-        for (long i = 0; i < pixels.n; i++)
-            pixels.value[pixels.n * k + i] = (whole ? film_value(&f.film, (size_t)i) : f.sum[i]) / (double)spp;
-        flight_free(&f);
-    }
-    struct batches tiles = batches_tiles(&pixels, scene->width, scene->height, TILE);
-    batches_free(&pixels);
-    return tiles;
-}
-
 /* The whole film of an `ellipse` with these bounds is what pt has in that gate. */
 static void agrees_with_pt(struct test *t, const char *text, double begin, double end, double brighter)
 {
-    const double gate[2] = {begin, end};
+    const struct gate gate = {begin, end};
     struct scene scene;
     if (!scene_from_text(t, text, &scene))
         return;
     char way[64];
     snprintf(way, sizeof way, "ellipse from=%g to=%g", begin, end);
-    struct batches a = gated_batches(t, &scene, way, 64, 100 * test_seed(t), gate, true);
-    struct batches b = gated_batches(t, &scene, "pt", 128, 100 * test_seed(t) + 50, gate, false);
+    struct batches a = render_batches(t, &scene, set_method(&scene, way), 4, 64, 12, 4, 91);
+    struct batches b = render_gated(t, &scene, set_method(&scene, "pt"), 4, gate, 128, 12, 4, 92);
     check_agree(t, &a, &b, false, brighter - 1, "ellipse against pt, %g to %g", begin, end);
     batches_free(&b);
     scene_free(&scene);

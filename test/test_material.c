@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab/stats.h"
 #include "base/warp.h"
 #include "helpers.h"
 #include "material/lobe_list.h"
@@ -324,22 +323,6 @@ static void bump(struct test *t)
 /* --- walks -------------------------------------------------------------------------------------------- */
 
 enum { WALKS = 20000 };
-struct mean {
-    double sum, square;
-};
-
-static void take(struct mean *m, double x)
-{
-    m->sum += x;
-    m->square += x * x;
-}
-
-static double same_p(const struct mean *a, const struct mean *b)
-{
-    const double n = WALKS;
-    return stats_welch_p(a->sum / n, (a->square - a->sum * a->sum / n) / (n - 1), n, b->sum / n,
-                         (b->square - b->sum * b->sum / n) / (n - 1), n);
-}
 
 /* A walk that leaves a surface into the sky carries, on average, what uniform directions find that is scattered. */
 static void check_walks(struct test *t, const char *material)
@@ -348,24 +331,26 @@ static void check_walks(struct test *t, const char *material)
     struct mis_counts counts = {.hit = {1, 1}};
     struct arena arena = {0}, kept = {0};
     struct vertex path[3], first[3];
-    struct mean walked = {0, 0}, uniform = {0, 0};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 50, 0);
     if (!scene_from_format(t, &scene, "LookAt 3 0 2  0 0 0  0 0 1 Camera \"perspective\" WorldBegin\n"
                            "LightSource \"infinite\" Material %s Shape \"disk\" \"float radius\" 5 WorldEnd", material))
         return;
+    struct batches walked = batches_new(WALKS, 1, false), uniform = batches_new(WALKS, 1, false);
     for (int i = 0; i < WALKS; i++) {
         struct sampler sampler = sampler_start(test_seed(t), RNG_EYE, (uint64_t)i, 0);
         struct walk w = {&scene, &counts, i == 0 ? &kept : &arena, &sampler, 0};
         struct vertex *v = i == 0 ? first : path;
         arena_reset(&arena);
         int n = path_eye(&w, scene.width / 2.0, scene.height / 2.0, v, 3);
-        take(&walked, n == 3 ? rgb_luminance(v[2].beta) : 0);
+        walked.value[i] = n == 3 ? rgb_luminance(v[2].beta) : 0;
         vec3 wi = warp_sphere(rng_uniform(&r), rng_uniform(&r));
         rgb f = bsdf_eval(&first[1].bsdf, first[1].wo, wi, RADIANCE).f;
-        take(&uniform, rgb_luminance(f) * scatter_cosine(&first[1], wi, RADIANCE) * 4 * PI);
+        uniform.value[i] = rgb_luminance(f) * scatter_cosine(&first[1], wi, RADIANCE) * 4 * PI;
     }
-    TEST_ACCEPT(t, same_p(&walked, &uniform), "%s: walks carry %.4f, uniform directions %.4f", material,
-                walked.sum / WALKS, uniform.sum / WALKS);
+    TEST_ACCEPT(t, batches_smallest_p(&walked, &uniform), "%s: walks carry %.4f, uniform directions %.4f", material,
+                batches_mean(&walked, NULL), batches_mean(&uniform, NULL));
+    batches_free(&walked);
+    batches_free(&uniform);
     arena_free(&arena);
     arena_free(&kept);
     scene_free(&scene);

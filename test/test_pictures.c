@@ -1,13 +1,11 @@
-/* test_pictures.c: figures made of images: the pyramid of strategies, the demonstration. */
+/* test_pictures.c: figures made of images: the pyramid of strategies, and what a place is worth. test_report.c has the
+ * sheet of an experiment, of which the demonstration is one. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "image/image.h"
-#include "lab/compare.h"
-#include "lab/measure.h"
-#include "lab/pictures.h"
 #include "lab/pyramid.h"
 #include "lab/worth.h"
 #include "parser/parser.h"
@@ -92,48 +90,6 @@ static void test_dark_pyramid(struct test *t)
     image_free(&img);
 }
 
-/* --- the demonstration ------------------------------------------------------------------------------- */
-
-/* What it says is what it shows. */
-static void test_demo(struct test *t)
-{
-    struct error err = {.text = ""};
-    struct sheet sheet;
-    enum { SIDES = 2 };
-    const char *scene = "scenes/cornell-box.pbrt";
-    struct plan plan = {.scene = &scene, .n_scenes = 1, .n_seeds = 1, .equal = true, .n_threads = 1,
-                        .seed = 7, .quiet = true};
-    struct results r = {0};
-    plan_set_spp(&plan, 2, 2, &err);
-    plan_set_methods(&plan, "bdpt,lvc", &err);
-    int width, height;
-    float *ref = image_read_linear("ref/cornell-box.pfm", &width, &height, NULL, &err);
-    bool ok = CHECK(t, ref != NULL && measure(&plan, &r, &err), "%s", err.text);
-    if (ok)
-        sheet = pictures_sheet(&r.scene[0]);
-    for (int i = 0; ok && i < SIDES; i++) {
-        /* Pictures of 32 x 32 pixels, each a square of k x k: take one back out of the sheet. */
-        int k = COLUMN_WIDTH / 32, left = COLUMN_GAP + i * (32 * k + COLUMN_GAP), top = COLUMN_GAP + COLUMN_LABEL;
-        float taken[32 * 32 * 3];
-        for (int y = 0; y < 32; y++)
-            for (int x = 0; x < 32; x++)
-                memcpy(&taken[3 * (y * 32 + x)], &sheet.pixels[3 * ((top + y * k) * sheet.width + left + x * k)],
-                       3 * sizeof *taken);
-        double rmse8 = compare_pixels(taken, ref, 32 * 32 * 3).rmse8, said = r.scene[0].run[i][0][0].value[Q_RMSE8];
-        CHECK(t, fabs(rmse8 - said) < 0.01 && said > 1, "label %d says %g, the picture has %g", i, said, rmse8);
-    }
-    if (ok) {
-        CHECK(t, r.scene[0].run[0][0][0].spp == 2 && r.scene[0].run[1][0][0].spp >= 1, "samples");
-        sheet_free(&sheet);
-    }
-    free(ref);
-    results_free(&r);
-    scene = "scenes/test/nothing.pbrt";
-    ok = measure(&plan, &r, &err);
-    CHECK(t, !ok && strstr(err.text, "cannot open the file") != NULL, "says \"%s\"", err.text);
-    results_free(&r);
-}
-
 /* --- what was learnt --------------------------------------------------------------------------------- */
 
 enum { SIZE = 32 };
@@ -186,6 +142,5 @@ void test_pictures(struct test *t)
 {
     test_pyramid(t);
     test_dark_pyramid(t);
-    test_demo(t);
     test_worth(t);
 }

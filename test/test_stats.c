@@ -6,7 +6,6 @@
 #include <math.h>
 
 #include "base/number.h"
-#include "base/rng.h"
 #include "lab/numbers.h"
 #include "tests.h"
 
@@ -119,42 +118,10 @@ static void no_numbers(struct test *t)
     CHECK(t, isnan(most_of(NAN, 1)) && isnan(most_of(1, NAN)) && most_of(1, 2) == 2 && most_of(2, 1) == 2, "most");
 }
 
-/* p-values of true hypotheses are uniform: each test is run on data made to be true and judged by the KS test. */
-static void p_values_are_uniform(struct test *t)
-{
-    enum { RUNS = 400, N = 200, CELLS = 7 };
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 1, 0);
-    double chi2[RUNS], welch[RUNS], shifted[RUNS];
-    for (int run = 0; run < RUNS; run++) {
-        double observed[CELLS] = {0}, expected[CELLS];
-        for (int i = 0; i < CELLS; i++)
-            expected[i] = 100.0 * N / CELLS;
-        for (int i = 0; i < 100 * N; i++)
-            observed[rng_below(&r, CELLS)]++;
-        chi2[run] = stats_chi2_test(observed, expected, CELLS);
-        double sum[2] = {0}, square[2] = {0}, n[2] = {N, N / 4}, mean[2], var[2];
-        for (int s = 0; s < 2; s++) {
-            for (int i = 0; i < (int)n[s]; i++) {
-                double x = (rng_uniform(&r) - 0.5) * (1 + 3 * s); /* equal means, unequal variances and counts */
-                sum[s] += x;
-                square[s] += x * x;
-            }
-            mean[s] = sum[s] / n[s];
-            var[s] = (square[s] - sum[s] * mean[s]) / (n[s] - 1);
-        }
-        welch[run] = stats_welch_p(mean[0], var[0], n[0], mean[1], var[1], n[1]);
-        shifted[run] = stats_welch_p(mean[0] + 0.2, var[0], n[0], mean[1], var[1], n[1]);
-    }
-    TEST_ACCEPT(t, stats_ks_uniform_p(chi2, RUNS), "p-values of the chi-square test are uniform");
-    TEST_ACCEPT(t, stats_ks_uniform_p(welch, RUNS), "p-values of Welch's test are uniform");
-    TEST_REJECT(t, stats_ks_uniform_p(shifted, RUNS), "p-values of Welch's test, means shifted");
-}
-
 void test_stats(struct test *t)
 {
     special_functions(t);
     published_tables(t);
     tests_of_hypotheses(t);
     no_numbers(t);
-    p_values_are_uniform(t);
 }
