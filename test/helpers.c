@@ -179,6 +179,14 @@ bool scene_from_format(struct test *t, struct scene *out, const char *format, ..
     return CHECK(t, n > 0 && n < (int)sizeof text, "a text of %d bytes", n) && scene_from_text(t, text, out);
 }
 
+struct filter filter_of(const char *name)
+{
+    struct filter f;
+    filter_default(name, &f);
+    filter_prepare(&f);
+    return f;
+}
+
 const char *set_method(struct scene *scene, const char *way)
 {
     static char text[256];
@@ -206,6 +214,14 @@ void render_film(struct test *t, const struct scene *scene, const struct render_
     struct error err;
     film_init(film, render_crop(scene), scene->width, scene->height);
     CHECK(t, render_scene(scene, o, film, &err), "%s", err.text);
+}
+
+void render_pixels(struct test *t, const struct scene *scene, const struct render_options *o, float *out)
+{
+    struct film film;
+    render_film(t, scene, o, &film);
+    film_develop(&film, scene->film_scale, out);
+    film_free(&film);
 }
 
 bool films_equal(const struct film *a, const struct film *b)
@@ -403,6 +419,17 @@ double mean_p(const struct batches *b, double expected)
     if (error <= 1e-12 * fabs(expected))
         return fabs(mean - expected) <= 1e-9 * fabs(expected) ? 1 : 0;
     return stats_student_p((mean - expected) / error, b->n_batches - 1);
+}
+
+char *text_of(struct test *t, const char *directory, const char *name)
+{
+    char path[512];
+    uint8_t *data = NULL;
+    size_t size = 0;
+    struct error err;
+    snprintf(path, sizeof path, "%s/%s", directory, name);
+    bool ok = CHECK(t, file_read(path, &data, &size, &err), "%s", err.text);
+    return ok ? (char *)data : mem_copy_text(""); /* file_read puts a zero byte behind it */
 }
 
 bool remove_tree(const char *path)

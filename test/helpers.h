@@ -68,6 +68,9 @@ struct surface surface_at(const struct geometry *geo, int prim, double b1, doubl
  * becomes more than some ten times as long as another. */
 struct transform random_affine(struct rng *r);
 
+/* filter_of: the filter of that name, as pbrt has it, prepared. */
+struct filter filter_of(const char *name);
+
 /* set_method: choose by "asbdpt select=bins restart=16", say, whose parameters replace all settings of the scene.
  * Returns the integrator's name, which the next call overwrites. */
 const char *set_method(struct scene *scene, const char *way);
@@ -77,6 +80,9 @@ const char *method_name(const struct method *m);
 
 /* render_film: render into a fresh film of the scene's crop window, to be given to film_free. */
 void render_film(struct test *t, const struct scene *scene, const struct render_options *o, struct film *film);
+
+/* render_pixels: render and develop: out is [pixels * 3]. */
+void render_pixels(struct test *t, const struct scene *scene, const struct render_options *o, float *out);
 
 /* films_equal: the sums of all pixels of two films of one size, to the last bit. */
 bool films_equal(const struct film *a, const struct film *b);
@@ -119,6 +125,9 @@ double batches_p(const struct batches *a, const struct batches *b, double *ratio
 /* batches_paired_p: the same for batches that are not independent, as those of one seed, which share eye sub-paths and
  * with them most of their noise: by Student's t over the differences, of every value and of the mean. */
 double batches_paired_p(const struct batches *a, const struct batches *b, double *ratio);
+
+/* text_of: the content of a file in a directory, to be freed; an empty text after a failed check. */
+char *text_of(struct test *t, const char *directory, const char *name);
 
 /* remove_tree: a directory and all that is in it. False if something is left. */
 bool remove_tree(const char *path);

@@ -65,15 +65,12 @@ static char *written(struct test *t, const struct results *r, void (*write)(FILE
 {
     char path[512];
     snprintf(path, sizeof path, "%s/equal", test_tmp(t));
-    char *text = mem_alloc(1 << 16, 1);
-    FILE *f = fopen(path, "w+");
-    if (!CHECK(t, f != NULL, "%s", path))
-        return text;
-    write(f, r);
-    rewind(f);
-    text[fread(text, 1, (1 << 16) - 1, f)] = '\0';
-    fclose(f);
-    return text;
+    FILE *f = fopen(path, "w");
+    if (CHECK(t, f != NULL, "%s", path)) {
+        write(f, r);
+        fclose(f);
+    }
+    return text_of(t, test_tmp(t), "equal");
 }
 
 /* --- the arithmetic ------------------------------------------------------------------------------------ */

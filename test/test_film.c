@@ -9,6 +9,7 @@
 #include "lab/numbers.h"
 #include "lab/stats.h"
 #include "transport/pixel_sample.h"
+#include "helpers.h"
 #include "tests.h"
 
 
@@ -96,11 +97,9 @@ static void count_full(void *context, struct tile *tile)
 static void test_memory(struct test *t)
 {
     struct pixel_rect all = {0, 0, 64, 64}, one = {0, 0, 1, 1};
-    struct filter f;
-    struct tile tile;
+    struct filter f = filter_of("gaussian");
+    struct tile tile = {.sum = NULL};
     int calls = 0;
-    memset(&tile, 0, sizeof tile);
-    filter_default("gaussian", &f);
     f.radius[0] = f.radius[1] = 32;
     filter_prepare(&f);
     tile_start(&tile, pixels_all(one), all, &f);
@@ -122,11 +121,8 @@ static void test_splats(struct test *t)
     struct pixel_rect all = {0, 0, 20, 12};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 3, 0);
     for (int i = 0; i < N_FILTERS; i++) {
-        struct filter f;
-        filter_default(NAMES[i], &f);
-        filter_prepare(&f);
-        struct tile tile;
-        memset(&tile, 0, sizeof tile);
+        struct filter f = filter_of(NAMES[i]);
+        struct tile tile = {.sum = NULL};
         double total = 0;
         int pixels;
         for (int k = 0; k < 2000; k++) {
@@ -175,9 +171,7 @@ static void test_unfinished(struct test *t)
     static const float MEANS[] = {5, 3, 2, 1};
     struct pixel_rect all = {0, 0, 8, 8};
     const struct planes planes = {2, true};
-    struct filter box;
-    filter_default("box", &box);
-    filter_prepare(&box);
+    struct filter box = filter_of("box");
     for (int whole = 0; whole < 3; whole++)
         for (int in = 0; in < 4; in++) {
             struct film film;
@@ -211,15 +205,12 @@ static void test_errors(struct test *t)
 {
     struct pixel_rect all = {0, 0, 8, 8};
     enum { ITERATIONS = 500, SPLATS = 20, PIXELS = 64 };
-    struct filter box;
-    filter_default("box", &box);
-    filter_prepare(&box);
+    struct filter box = filter_of("box");
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 4, 0);
     struct film film;
     film_init(&film, all, 8, 8);
     film_keep_errors(&film);
-    struct tile tile;
-    memset(&tile, 0, sizeof tile);
+    struct tile tile = {.sum = NULL};
     tile_start(&tile, pixels_all(all), all, &box);
     for (int i = 0; i < ITERATIONS; i++) {
         for (int p = 0; p < PIXELS; p++)
@@ -249,13 +240,10 @@ static void test_errors(struct test *t)
 static void test_overflow(struct test *t)
 {
     struct pixel_rect all = {0, 0, 4, 4};
-    struct filter f;
-    filter_default("gaussian", &f);
-    filter_prepare(&f);
-    struct tile tile;
+    struct filter f = filter_of("gaussian");
+    struct tile tile = {.sum = NULL};
     struct film film;
     int pixels_met;
-    memset(&tile, 0, sizeof tile);
     film_init(&film, all, 4, 4);
     film_keep_errors(&film);
     tile_start(&tile, pixels_all(all), all, &f);
@@ -351,9 +339,8 @@ static void test_one_lost(struct test *t)
     struct pixel_rect one = {0, 0, 1, 1};
     const struct vertex z = {.kind = VERTEX_SURFACE};
     for (int i = 0; i < 6; i++) {
-        struct filter box;
+        struct filter box = filter_of("box");
         struct tile tile = {.sum = NULL};
-        filter_default("box", &box);
         tile_start(&tile, pixels_all(one), one, &box);
         struct pixel_sample sample = {.tile = &tile, .filter_weight = 1};
         for (int k = 0; k < 3; k++) {

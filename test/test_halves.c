@@ -19,11 +19,9 @@ static void test_known(struct test *t)
     enum { SIDE = 64, ITERATIONS = 8, SPLATS = SIDE * SIDE / 4 };
     struct pixel_rect all = {0, 0, SIDE, SIDE};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 61, 0);
-    struct filter box;
+    struct filter box = filter_of("box");
     struct tile tile = {.splat = NULL};
     struct film film;
-    filter_default("box", &box);
-    filter_prepare(&box);
     film_init(&film, all, SIDE, SIDE);
     CHECK(t, !halves_noise(&film, 1), "a film without halves has an estimate");
     film_keep_halves(&film);

@@ -113,9 +113,8 @@ static void test_left_out(struct test *t)
 {
     static const double STEP[] = {0, 1, 1e39, NAN, 2};
     struct pixel_rect one = {0, 0, 1, 1};
-    struct filter box;
+    struct filter box = filter_of("box");
     struct tile tile = {.planes = {2, false}};
-    filter_default("box", &box);
     tile_start(&tile, pixels_all(one), one, &box);
     for (int i = 0; i < 4; i++)
         tile_add_light(&tile, 0, 0, i % 2, rgb_grey(STEP[i + 1]), rgb_grey(STEP[i]));

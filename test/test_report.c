@@ -17,18 +17,6 @@
 #include "helpers.h"
 #include "tests.h"
 
-/* The content of a file in a directory as text, to be freed; an empty text after a failed check. */
-static char *text_of(struct test *t, const char *directory, const char *name)
-{
-    char path[512];
-    uint8_t *data = NULL;
-    size_t size = 0;
-    struct error err;
-    snprintf(path, sizeof path, "%s/%s", directory, name);
-    bool ok = CHECK(t, file_read(path, &data, &size, &err), "%s", err.text);
-    return ok ? (char *)data : mem_copy_text(""); /* file_read puts a zero byte behind it */
-}
-
 /* --- statistics -------------------------------------------------------------------------------------- */
 
 static void test_statistics(struct test *t)
@@ -173,8 +161,6 @@ static double direct_rmse8(struct test *t, const struct results *r, int method, 
 {
     const struct measured *m = &r->plan->methods.item[method];
     struct scene scene;
-    struct film film;
-    struct error err = {.text = ""};
     struct settings base = {0};
     float pixels[8 * 6 * 3];
     if (!scene_from_file(t, r->scene[0].path, 8, 6, &scene))
@@ -185,10 +171,7 @@ static double direct_rmse8(struct test *t, const struct results *r, int method, 
     settings_clear(&base);
     struct render_options o = {.integrator = m->integrator, .n_threads = 2, .max_depth = 4,
                                .seed = plan_seed(r->plan, method, 1), .end = r->plan->spp[step]};
-    film_init(&film, render_crop(&scene), 8, 6);
-    CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
-    film_develop(&film, scene.film_scale, pixels);
-    film_free(&film);
+    render_pixels(t, &scene, &o, pixels);
     scene_free(&scene);
     return compare_pixels(pixels, r->scene[0].reference.pixels, 8 * 6 * 3).rmse8;
 }

@@ -123,11 +123,8 @@ enum { SIDE = 16 };
 
 static void render_image(struct test *t, struct scene *scene, const char *method, int depth, float *image)
 {
-    struct film film;
     struct render_options o = {.integrator = set_method(scene, method), .end = 4, .n_threads = 2, .max_depth = depth};
-    render_film(t, scene, &o, &film);
-    film_develop(&film, 1, image);
-    film_free(&film);
+    render_pixels(t, scene, &o, image);
 }
 
 /* Largest difference of two methods, relative. */

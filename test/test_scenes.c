@@ -214,8 +214,7 @@ static void test_filter_spot(struct test *t)
         struct batches lt = render_batches(t, &scene, "lt", 1, 96, 16, 1, 827);
         double p = batches_p(&pt, &lt, &ratio);
         TEST_ACCEPT(t, p, "a spot through the %s filter: pt against lt, ratio %.4f", filters[i], ratio);
-        filter_default("triangle", &scene.filter);
-        filter_prepare(&scene.filter);
+        scene.filter = filter_of("triangle");
         struct batches other = render_batches(t, &scene, "pt", 1, 64, 16, 1, 828);
         TEST_REJECT(t, batches_p(&other, &lt, &ratio), "a spot through the triangle instead of the %s filter",
                     filters[i]);

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "lab/compare.h"
-#include "render/render.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -11,14 +10,9 @@ enum { SIDE = 16, DEPTH = 5 };
 
 static void picture(struct test *t, struct scene *scene, const char *way, long spp, float out[SIDE * SIDE * 3])
 {
-    struct film film;
-    struct error err = {.text = ""};
     struct render_options o = {.integrator = set_method(scene, way), .end = spp, .max_depth = DEPTH, .n_threads = 2,
                                .seed = test_seed(t)};
-    film_init(&film, render_crop(scene), SIDE, SIDE);
-    CHECK(t, render_scene(scene, &o, &film, &err), "%s", err.text);
-    film_develop(&film, scene->film_scale, out);
-    film_free(&film);
+    render_pixels(t, scene, &o, out);
 }
 
 /* The same random numbers: without merges it is bdpt, and the larger the radius the farther from it. */
