@@ -205,8 +205,8 @@ static void test_bridges(struct test *t, const char *name, const char *text, uin
     scene_free(&scene);
 }
 
-/* What light sub-paths send to one edge of an environment camera is seen at the other, too: by filters, which bridges do
- * not have. */
+/* What light sub-paths send to one edge of an environment camera is seen at the other, too: by filters, which bridges
+ * do not have. */
 static const struct agreement EDGES = {AROUND, 0, 0, DEPTH, "pt", "lt", 64, 256, 16, 12, false, 0.05};
 
 void test_strategies(struct test *t)
@@ -214,7 +214,7 @@ void test_strategies(struct test *t)
     check_agreements(t, &EDGES, 1, 1);
     static const struct {
         const char *name, *text;
-    } scenes[] = {{"plain normals", PLAIN},          {"leaning normals", LEANING}, {"orthographic camera", PARALLEL},
+    } scenes[] = {{"plain normals", PLAIN},     {"leaning normals", LEANING},   {"orthographic camera", PARALLEL},
                   {"environment camera", AROUND}, {"a light with holes", HOLED}, {"fog and milk", FOG}};
     struct made_more all[KINDS] = {{{0}, {0}}};
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++)
