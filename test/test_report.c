@@ -1,4 +1,4 @@
-/* test_report.c: experiments: statistics, marks, and a tiny experiment that is run, resumed, written and read. */
+/* test_report.c: experiments: statistics, marks, and a tiny experiment that is run, written and read. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
