@@ -1,6 +1,6 @@
 #!/bin/sh
 # add_method.sh: is a method one file and one row? Takes the code of doc/add-a-method.md, plants it in a copy of the
-# tree with nothing else edited, builds, and finds the method in --help, render, trace, equal-time, demo and verify,
+# tree with nothing else edited, builds, and finds the method in --help, render, trace, equal-time and verify,
 # which accepts it, and rejects it with a planted fault. BUILD names a build directory to begin with.
 build=${BUILD:-build}
 dir=$(mktemp -d) || exit 1
@@ -30,8 +30,6 @@ must ./asbdpt-lab equal-time scenes/cornell-box.pbrt --methods bdpt,resampling:c
     --quiet -o equal
 says 'resampling:candidates=2'
 if grep -q '^In cornell-box, ' log; then echo "FAIL: it is marked:"; cat log; exit 1; fi
-must ./asbdpt-lab demo scenes/cornell-box.pbrt --methods pt,resampling --spp 4 --quiet -o x.png
-says 'resampling'
 cp test/lab/rivals/resampling.c whole.c
 sed 's/(L \* M \*/(L */' whole.c >test/lab/rivals/resampling.c
 must make BUILD="$build" LTO=

@@ -24,7 +24,7 @@ nan() { head -c "$1" /dev/zero | LC_ALL=C tr '\000' '\377'; } # so many bytes of
 prints '^asbdpt SCENE.pbrt' "$program" --help
 prints '^    experiment  ' "$lab" --help
 for command in render merge convert; do prints "usage: asbdpt $command" "$program" $command --help; done
-for command in info compare trace worth strategies verify experiment equal-time family demo transient bench; do
+for command in info compare trace worth strategies verify experiment equal-time family transient bench; do
     prints "usage: asbdpt-lab $command" "$lab" $command -h
 done
 expect 0 '' "$program" --version
@@ -37,7 +37,7 @@ refuse() { # PATTERN WORDS...: wrong usage of the program; test_options.c has wh
 }
 # What only the laboratory has, as it lists it itself, the program does not have.
 "$lab" --help | sed -n 's/^    \([a-z][a-z-]*\)  .*/\1/p' >theirs.list
-check [ "$(wc -l <theirs.list)" = 15 ]
+check [ "$(wc -l <theirs.list)" = 14 ]
 for command in $(grep -Ev '^(render|merge|convert)$' theirs.list); do
     refuse "^asbdpt: unknown command $command; try" $command
 done
@@ -344,15 +344,6 @@ if [ -e /dev/full ]; then
 fi
 check [ ! -e stats.json -a ! -e made.png ]
 
-# --- demo
-# demo: one picture of two methods, wherever a reference is stored.
-printf 'Film "image" "integer xresolution" 48 "integer yresolution" 32 Translate 0 0 4 Camera "perspective"
-WorldBegin LightSource "point" "point from" [0 0 -3] Shape "sphere" WorldEnd\n' >small.pbrt
-prints '^bdpt .* spp .* s of CPU   rmse8' "$lab" demo "$box" --methods pt,bdpt --spp 1 --quiet -o demo.png
-check [ -s demo.png ]
-expect 0 '' "$lab" demo small.pbrt --spp 1 --quiet -o demo.png # whose reference is rendered
-expect 2 'there is no integrator bdtp; known are: .*bdpt' "$lab" demo "$box" --methods bdtp,asbdpt -o demo.png
-
 # --- gates
 # gates: light by how far it has come; a sequence of pictures in one render.
 expect 0 '' "$program" render "$box" $small -o whole.pfm
@@ -495,6 +486,13 @@ check cmp -s table.txt equal/equal-time.md
 says '^Squared error of asbdpt over that of bdpt after the same time, per pixel: ' \
     '^In means over 8x8 pixels, .*: .*\.$' '^Measured with 2 seeds on cornell-box 8x8\.$'
 check [ -s equal/images/cornell-box.png ]
+printf 'Film "image" "integer xresolution" 48 "integer yresolution" 32 Translate 0 0 4 Camera "perspective"
+WorldBegin LightSource "point" "point from" [0 0 -3] Shape "sphere" WorldEnd\n' >small.pbrt
+expect 0 '' "$lab" equal-time small.pbrt --spp 1 --seeds 1 --quiet -o small # whose reference is rendered
+check [ -s small/images/small.png ]
+prints 'per pixel: [0-9.e+]*; more --seeds tell how sure this is\.$' \
+    "$lab" equal-time "$box" --methods bdpt,pt --res 8x8 --seeds 1 --spp 8 --quiet -o one
+expect 2 'there is no integrator bdtp; known are: .*bdpt' "$lab" equal-time "$box" --methods bdtp,asbdpt -o equal
 check [ "$(grep -c '^cornell-box,' equal/runs.csv)" = 4 ]
 check [ "$(grep -c '^cornell-box,bdpt,.*,2,' equal/runs.csv)" = 2 ]
 prints 'equal-time --seconds 0.01 --methods bdpt,asbdpt:select=pool --seeds 2' \

@@ -48,7 +48,7 @@ refused 2 'its value is empty' render --stats=
 
 # ---- standard streams ----
 # One stream carries one thing: what a command prints is not mixed with what it writes.
-for words in 'compare a.pfm b.pfm --heatmap' 'trace scene.pbrt --svg' 'demo scene.pbrt -o'; do
+for words in 'compare a.pfm b.pfm --heatmap' 'trace scene.pbrt --svg'; do
     refused 2 "$same" "$lab" $words -
 done
 # Closed ones do not become files that are opened.

@@ -377,10 +377,12 @@ static void check_both_ways(struct test *t)
 static void check_missing(struct test *t)
 {
     const char *scenes[2] = {NULL, NULL};
+    char directory[300];
     struct error err = {.text = ""};
     struct plan p;
     struct results r = {0};
-    small_plan(&p, scenes, NULL, "bdpt,pt,caustics");
+    snprintf(directory, sizeof directory, "%s/missing", test_tmp(t));
+    small_plan(&p, scenes, directory, "bdpt,pt,caustics");
     scenes[0] = "scenes/caustic-glass.pbrt";
     p.n_scenes = 1;
     p.width = 36;

@@ -1,5 +1,5 @@
 /* test_pictures.c: figures made of images: the pyramid of strategies, and what a place is worth. test_report.c has the
- * sheet of an experiment, of which the demonstration is one. */
+ * sheet of an experiment. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -16,8 +16,9 @@ static void test_methods(struct test *t)
         {"asbdpt:select", "expected NAME=VALUE"}, {"asbdpt:selects=bins", "no parameter \"selects\""},
         {"asbdpt:select=bin", "\"bin\" is unknown"}, {"asbdpt:select=bins:restart=x", "restart = \"x\""},
         {"bdpt:select=bins", "no parameter \"select\""}, {"lt:rrthreshold=0/1/0", "given twice"}};
-    static const char *const usual[] = {METHODS_EXPERIMENT, METHODS_EQUAL_TIME, METHODS_DEMO, SWEEPS_FULL, SWEEPS_QUICK,
-                                        METHOD_REFERENCE "," METHOD_PARTNER "," METHOD_PRINTED, METHODS_BENCH};
+    static const char *const usual[] = {METHODS_EXPERIMENT, METHODS_EQUAL_TIME, METHODS_OWN_SCENE, SWEEPS_FULL,
+                                        SWEEPS_QUICK, METHOD_REFERENCE "," METHOD_PARTNER "," METHOD_PRINTED,
+                                        METHODS_BENCH};
     static const char *const set[][2] = {{"restart", "0"}, {"binpaths", "16"}, {"rrthreshold", "0"}};
     struct methods m;
     struct error err = {.text = ""};

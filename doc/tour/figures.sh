@@ -23,7 +23,8 @@ for method in pt lt bdpt; do
 done
 
 # The same scene in the same CPU time: how many samples that is depends on the machine.
-"$lab" demo "$scene" --spp 16 --quiet -o "$out/equal.png"
+"$lab" equal-time "$scene" --spp 16 --seeds 1 --reference-spp 512 --quiet -o equal >/dev/null
+cp equal/images/rooms.png "$out/equal.png"
 
 # Every strategy alone, as it is and weighted.
 "$lab" strategies "$scene" --integrator bdpt --spp 64 --res 80x80 --maxdepth 4 -o pyramid --quiet

@@ -67,7 +67,7 @@ static const struct option EXPERIMENT[] = {
 };
 
 static const struct option EQUAL_TIME[] = {
-    {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_DEMO
+    {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_OWN_SCENE
      "; of eleven scenes more)"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20,
      .help = "samples per pixel of the first method (default: 32); the others are given its CPU time"},
@@ -147,7 +147,7 @@ static bool plan_equal_time(struct plan_options *o, char command[COMMAND], struc
 {
     static const struct preset preset = {"equal-time", 32, 5, 0, 0};
     if (o->methods == NULL) /* of one's own scene one asks which of the two to use */
-        o->methods = o->scenes.n > 0 ? METHODS_DEMO : METHODS_EQUAL_TIME;
+        o->methods = o->scenes.n > 0 ? METHODS_OWN_SCENE : METHODS_EQUAL_TIME;
     o->plan.equal = true;
     return begin_plan(o, &preset, N_SCENES, command, err) && plan_set_spp(&o->plan, o->spp, o->spp, err);
 }

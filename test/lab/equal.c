@@ -136,6 +136,10 @@ static void say(FILE *f, const struct results *all, struct interval r, bool mark
         fputs("unknown, as the time is too short for it: more --spp.\n", f);
         return;
     }
+    if (!isfinite(r.low)) {
+        fprintf(f, "%.3g; more --seeds tell how sure this is.\n", r.value);
+        return;
+    }
     fprintf(f, "%.3g (95 %%: %.3g to %.3g): %s.\n", r.value, r.low, r.high,
             r.low > 1 ? "a loss" : r.high < 1 ? (marked ? "less error, but see above" : "a gain") :
             all->plan->n_scenes > 1 ? "undecided; more scenes may decide" :

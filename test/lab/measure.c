@@ -186,12 +186,11 @@ static bool make_reference(struct subject *s)
     r->by = by;
     snprintf(m.text, sizeof m.text, "%s", by);
     snprintf(m.integrator, sizeof m.integrator, "%s", by);
-    snprintf(directory, sizeof directory, "%s/reference", p->directory != NULL ? p->directory : "");
+    snprintf(directory, sizeof directory, "%s/reference", p->directory);
     snprintf(key, sizeof key, "%s %016" PRIx64 " %08lx %dx%d maxdepth=%d %s spp=%d", r->name, s->scene.content,
              subject_probe(s, 0), r->width, r->height, r->max_depth, m.text, p->reference_spp);
     struct render_options o = subject_options(s, &m, ~p->seed - REFERENCE_SEED, p->n_threads);
-    return reference_make(&s->scene, &o, p->reference_spp, p->directory != NULL ? directory : NULL, r->name, key,
-                          &r->reference, s->err);
+    return reference_make(&s->scene, &o, p->reference_spp, directory, r->name, key, &r->reference, s->err);
 }
 
 /* Seeds come before methods, so that a machine that slows down in between slows down all alike. */
@@ -227,7 +226,7 @@ static bool make_directories(const struct plan *p, struct error *err)
     static const char *const names[] = {"store", "images"};
     char path[4096];
     bool ok = true;
-    for (size_t i = 0; ok && p->directory != NULL && i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 0; ok && i < sizeof names / sizeof names[0]; i++) {
         snprintf(path, sizeof path, "%s/%s", p->directory, names[i]);
         ok = file_make_directory(path, err);
     }

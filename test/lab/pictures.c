@@ -49,11 +49,6 @@ static float *display_errors(const struct scene_results *s, long *n)
     return out;
 }
 
-double pictures_blocks(const struct scene_results *s, int method)
-{
-    return compare_shown_blocks(s->image[method], s->reference.pixels, s->width, s->height);
-}
-
 /* How many times as wide and high as it is a picture is shown: of many methods less. */
 static int enlarged(int width, int methods)
 {
@@ -94,7 +89,7 @@ struct sheet pictures_sheet(const struct scene_results *s)
     for (int v = 0; v < p->n_compared; v++) {
         const struct run *last = &s->run[v][0][plan_last_step(p)];
         snprintf(text, sizeof text, "%ld spp, %.1f s; 8x8 means %.1f", last->spp, last->value[Q_SECONDS],
-                 pictures_blocks(s, v));
+                 compare_shown_blocks(s->image[v], s->reference.pixels, s->width, s->height));
         draw_column(&sheet, v, p->methods.item[v].label, "rmse8", last->value[Q_RMSE8], text, s->image[v], s->width,
                     s->height, k);
     }

@@ -20,7 +20,4 @@ enum { COLUMN_GAP = 24, COLUMN_LABEL = 60, COLUMN_WIDTH = 480, PICTURES_PERCENTI
 struct sheet pictures_sheet(const struct scene_results *s);
 bool pictures_write(const struct scene_results *s, struct error *err);
 
-/* pictures_blocks: the error of means over 8x8 pixels of a method's first picture. */
-double pictures_blocks(const struct scene_results *s, int method);
-
 #endif

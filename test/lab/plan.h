@@ -30,7 +30,7 @@ struct plan {
     int reference_spp;        /* of a reference made here */
     int n_threads;
     bool quiet;
-    const char *directory; /* where everything is written; NULL: nothing is kept */
+    const char *directory; /* where everything is written */
     const char *reference; /* file or directory of stored references; NULL: ref/ next to the scene */
     const char *command;   /* that carries it out again, without -o and scenes */
 };

@@ -17,7 +17,6 @@
 #include "lab/methods.h"
 #include "lab/sheet.h"
 #include "lab/sides.h"
-#include "lab/timed.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -189,28 +188,12 @@ const char *reference_method(const struct scene *scene, bool *all)
     return *all || scene->media.n > 0 ? METHOD_REFERENCE : METHOD_CAUSTICS;
 }
 
-static bool render_unkept(const struct scene *scene, const struct render_options *options, long spp,
-                          struct reference *out, struct error *err)
-{
-    struct reference made = {.width = scene->width, .height = scene->height, .max_depth = options->max_depth,
-                             .content = scene->content, .noise8 = NAN, .mean_error = NAN, .origin = "rendered here"};
-    struct render_options o = *options;
-    struct timed took;
-    o.end = spp;
-    bool ok = timed_render(scene, &o, &took, err);
-    made.pixels = took.pixels;
-    *out = made;
-    return ok;
-}
-
 bool reference_make(const struct scene *scene, const struct render_options *options, long spp, const char *directory,
                     const char *name, const char *key, struct reference *out, struct error *err)
 {
     char stem[PATH_SIZE - 4], path[PATH_SIZE];
     struct render_options o = *options;
     struct side a = {0}, b = {0};
-    if (directory == NULL)
-        return render_unkept(scene, options, spp, out, err);
     snprintf(stem, sizeof stem, "%s/%s", directory, name);
     snprintf(path, sizeof path, "%s.pfm", stem);
     read_text(path, out);

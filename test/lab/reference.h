@@ -58,7 +58,6 @@ const char *reference_method(const struct scene *scene, bool *all);
  * .error.pfm and .txt, or read back the one that is stored there with the same key, which says what it depends on, size
  * and depth too.
  *   options    who renders it, from which seed, how deep, on how many threads
- *   directory  NULL: it is not stored, and its errors are not known
  * Returns false with a message. */
 bool reference_make(const struct scene *scene, const struct render_options *options, long spp, const char *directory,
                     const char *name, const char *key, struct reference *out, struct error *err);

@@ -47,8 +47,8 @@ bool store_read(const char *directory, const char *name, const char *key, struct
     char path[PATH_SIZE];
     struct record in = {{0}, NULL, 0, 0};
     unsigned long crc;
-    path_of(directory != NULL ? directory : "", name, "txt", path);
-    FILE *f = directory != NULL ? os_open_input(path) : NULL;
+    path_of(directory, name, "txt", path);
+    FILE *f = os_open_input(path);
     if (f == NULL)
         return false;
     bool ok = read_text(f, key, &in, &crc);
@@ -71,8 +71,6 @@ bool store_write(const char *directory, const char *name, const char *key, const
 {
     char path[PATH_SIZE];
     struct file_output f;
-    if (directory == NULL)
-        return true;
     path_of(directory, name, "pfm", path);
     if (r->pixels != NULL && !image_write(path, r->width, r->height, r->pixels, err))
         return false;

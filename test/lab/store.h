@@ -22,8 +22,7 @@ struct record {
 };
 
 /* store_read: DIRECTORY/NAME.txt, and NAME.pfm if the record has a picture. False, without a message, when there
- * is none, its key is another or it is damaged. store_write: false with a message. Without a directory (NULL) nothing
- * is found, and nothing kept. */
+ * is none, its key is another or it is damaged. store_write: false with a message. */
 bool store_read(const char *directory, const char *name, const char *key, struct record *out);
 bool store_write(const char *directory, const char *name, const char *key, const struct record *r, struct error *err);
 
