@@ -16,7 +16,8 @@
  * Learning. A path tracer makes training paths, and trees are grown where they have vertices. Then Gamma minimises the
  * second moment of the whole estimate with these weights, an upper bound of its variance:
  *     J = sum over training paths of f^2 / (p sum_i n_i p_i),   n_i = n(e,l) for every strategy that draws.
- * The render uses (1 - delta) Gamma + delta / n.
+ * The render uses (1 - delta) Gamma + delta / n. A few steps lower J for new paths by some 5 %; more steps raise it,
+ * because they fit the few training paths.
  *
  * We could read the abstract of the paper and the two programs of its author. Differences from the programs:
  *   weights    as above
@@ -24,7 +25,9 @@
  *   pools      are a tile's, and leave many subspaces empty: P is divided by the sum of Gamma over the others
  *   subspaces  are leaves of a tree, of equal contributions; there, cells around sampled centres that a tree encodes
  *   learning   f is not relative to the pixel's brightness, and another optimiser finds the minimum of J
- * As in the newer program, directions are not classified.
+ * As in the newer program, directions are not classified. Constants were chosen in four training scenes at 96x72, by
+ * squared error times CPU time: 64 subspaces (of 16, 32, 64, 96, 128), 4 eye sub-paths per pixel to learn from (2, 4,
+ * 16), 2 steps (0, 2, 4, 10, 40), C = 3 (1, 2, 3), delta = 0.2 (0.1, 0.2).
  *
  * Tests: test_spcbpt.c, test_rivals.c, test_family.c.
  */
