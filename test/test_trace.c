@@ -183,33 +183,12 @@ static void test_pdf_rev(struct test *t, const struct scene *scene)
     CHECK(t, n > SIZE * SIZE, "only %d densities", n);
 }
 
-/* --- samples that there are not ---------------------------------------------------------------------- */
-
-static void test_refused(struct test *t, const struct scene *scene)
-{
-    static const struct {
-        int x, y;
-        long sample;
-        const char *says;
-    } cases[] = {{SIZE, 0, 0, "pixel 4,0"}, {0, -1, 0, "pixel 0,-1"}, {0, 0, SAMPLES, "sample 2"},
-                 {0, 0, -2, "sample -2"}};
-    struct render_options options = options_of(0);
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct error err = {.text = ""};
-        struct trace trace = {.x = cases[i].x, .y = cases[i].y, .iteration = cases[i].sample};
-        CHECK(t, !trace_render(scene, &options, &trace, &err) && strstr(err.text, cases[i].says) != NULL,
-              "%s: \"%s\"", cases[i].says, err.text);
-        trace_free(&trace);
-    }
-}
-
 void test_trace(struct test *t)
 {
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", SIZE, SIZE, &scene))
         return;
     test_pdf_rev(t, &scene);
-    test_refused(t, &scene);
     for (int way = 0; way < N_WAYS; way++) {
         if (WAYS[way].select[0] != '\0')
             settings_set(&scene.settings, "select", WAYS[way].select, "test");
