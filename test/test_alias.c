@@ -1,8 +1,8 @@
 /* test_alias.c: an alias table holds exactly the mass of every element, and its draws have these probabilities.
  *
  * The exact test adds up, over all bins, the share each element has in them and compares with the weights. The
- * statistical ones are then about alias_sample: right counts, and a left-over u that is uniform and tells nothing
- * about the index.
+ * statistical ones are then about alias_sample: right counts. What it leaves of u makes points of maps, whose densities
+ * test_light_sent.c has.
  */
 #include "base/alias.h"
 
@@ -78,26 +78,6 @@ static double draw_p(const struct alias_table *t, int n, int n_draws, struct rng
         count[i]++;
     }
     double p = told ? stats_chi2_test(count, expected, (size_t)n) : NAN;
-    free(count);
-    free(expected);
-    return p;
-}
-
-/* p-value of: what is left of u is uniform, and independent of the index (a table of index x left-over cells). The
- * planted fault: u handed on as it came. */
-static double rest_p(const struct alias_table *t, int n_draws, bool planted, struct rng *r)
-{
-    enum { CELLS = 16 };
-    size_t size = (size_t)t->n * CELLS;
-    double *count = mem_alloc(size, sizeof *count), *expected = mem_alloc(size, sizeof *expected);
-    for (int i = 0; i < n_draws; i++) {
-        double u = uniform52(r), rest;
-        int index = alias_sample(t, u, NULL, &rest);
-        count[index * CELLS + (int)((planted ? u : rest) * CELLS)]++;
-    }
-    for (size_t i = 0; i < size; i++)
-        expected[i] = n_draws * alias_pmf(t, (int)(i / CELLS)) / CELLS;
-    double p = stats_chi2_test(count, expected, size);
     free(count);
     free(expected);
     return p;
@@ -256,21 +236,6 @@ static void ends_of_u(struct test *t)
     alias_free(&table);
 }
 
-static void what_is_left_of_u(struct test *t)
-{
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 5, 0);
-    double w[12];
-    struct alias_table table = {0};
-    for (int shape = 0; shape < N_SHAPES; shape++) {
-        make_weights((enum shape_of_weights)shape, w, 12, &r);
-        w[3] += shape == HOLES;
-        alias_build(&table, w, 12);
-        TEST_ACCEPT(t, rest_p(&table, 60000 * test_effort(t), false, &r), "left-over u, %s", SHAPE_NAME[shape]);
-    }
-    TEST_REJECT(t, rest_p(&table, 60000, true, &r), "u handed on unchanged");
-    alias_free(&table);
-}
-
 /* The last sum that is not above the target, also where it is met exactly and where elements of weight 0 stand. */
 static void cumulative_sums(struct test *t)
 {
@@ -293,5 +258,4 @@ void test_alias(struct test *t)
     a_million(t);
     what_is_refused(t);
     ends_of_u(t);
-    what_is_left_of_u(t);
 }

@@ -205,6 +205,37 @@ static void test_far_triangle(struct test *t)
               regions[0][1]);
 }
 
+/* --- figures ------------------------------------------------------------------------------------------ */
+
+/* How far the worth of pairs of regions is from even, the mean of h^2 over that of h, squared, is what it was when
+ * these numbers were written down: a change that is meant to move them writes them again. */
+static void test_unevenness(struct test *t)
+{
+    static const struct {
+        const char *path;
+        double unevenness;
+    } cases[] = {{"scenes/veach-ajar.pbrt", 4.78}, {"scenes/corridor.pbrt", 5.95}};
+    for (int i = 0; i < 2; i++) {
+        struct scene scene;
+        struct watcher w = {.patience = INFINITY};
+        double sum = 0, square = 0;
+        if (!scene_from_file(t, cases[i].path, 32, 24, &scene))
+            continue;
+        struct render_job job = job_of(&scene, &w, 2);
+        job.max_depth = 5;
+        struct tables l = learn(&job, &ALL);
+        double n = l.pairs.n_eye * l.pairs.n_light;
+        for (int k = 0; k < l.pairs.n_eye * l.pairs.n_light; k++) {
+            sum += l.pairs.h[k] / n;
+            square += sqr(l.pairs.h[k]) / n;
+        }
+        CHECK(t, fabs(square / sqr(sum) / cases[i].unevenness - 1) <= 0.03, "%s: %.4g, but it was %.4g", cases[i].path,
+              square / sqr(sum), cases[i].unevenness);
+        tables_free(&l);
+        scene_free(&scene);
+    }
+}
+
 void test_learning(struct test *t)
 {
     test_budget(t);
@@ -212,4 +243,5 @@ void test_learning(struct test *t)
     test_dear_paths(t);
     test_early_end(t);
     test_far_triangle(t);
+    test_unevenness(t);
 }

@@ -52,25 +52,6 @@ static void fresnel_values(struct test *t)
     CHECK(t, near(fresnel_conductor(0, n, k).r, 1, 1e-12), "copper, grazing");
 }
 
-static void snell(struct test *t)
-{
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 20, 0);
-    for (int i = 0; i < 200; i++) {
-        vec3 n = direction(2 * rng_uniform(&r) - 1, 7 * rng_uniform(&r)), wi;
-        vec3 wo = direction(2 * rng_uniform(&r) - 1, 7 * rng_uniform(&r));
-        double eta = 0.6 + rng_uniform(&r);
-        n = faceforward(n, wo);
-        bool through = fresnel_refract(wo, n, eta, &wi);
-        double sin_o = length(cross(n, wo));
-        CHECK(t, through == (eta * sin_o < 1), "total internal reflection when sin would exceed 1");
-        if (!through)
-            continue;
-        CHECK(t, near(length(wi), 1, 1e-12) && dot(wi, n) < 0, "unit, on the other side");
-        CHECK(t, length(add(cross(n, wi), mul(cross(n, wo), eta))) < 1e-12,
-              "Snell's law, in the plane of incidence");
-    }
-}
-
 /* --- sampling maps: density = 1 / |Jacobian| --------------------------------------------------------- */
 
 static struct lobe facet_lobe(enum lobe_kind kind, double alpha_x, double alpha_y)
@@ -362,7 +343,6 @@ void test_lobe(struct test *t)
     substrate_as_printed(t);
     facets_as_printed(t);
     fresnel_values(t);
-    snell(t);
     narrow_lobes(t);
     clear_coat(t);
     disney_values(t);

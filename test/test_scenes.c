@@ -1,4 +1,4 @@
-/* test_scenes.c: the scenes of scenes/test: known radiance, pairs of light kinds, mirrored scenes, all integrators. */
+/* test_scenes.c: the scenes of scenes/test: known radiance, pairs of light kinds, all integrators. */
 #include <math.h>
 #include <stdio.h>
 
@@ -225,19 +225,6 @@ static void test_filter_spot(struct test *t)
     }
 }
 
-static struct batches render(struct test *t, const char *name, const char *integrator, int size, int spp, uint64_t seed)
-{
-    char path[256];
-    struct scene scene;
-    struct batches b = {0};
-    snprintf(path, sizeof path, "scenes/test/%s.pbrt", name);
-    if (!scene_from_file(t, path, size, size, &scene))
-        return b;
-    b = render_batches(t, &scene, integrator, 4, spp, 12, size / 2, seed);
-    scene_free(&scene);
-    return b;
-}
-
 /* Two kinds of light in one room: the density with which a light is chosen is where integrators differ. Every second
  * pair has all kinds. */
 static void test_light_pairs(struct test *t, int spp, size_t step)
@@ -250,18 +237,6 @@ static void test_light_pairs(struct test *t, int spp, size_t step)
         snprintf(name, sizeof name, "scenes/test/light-%s", pairs[i]);
         const struct agreement a = {name, 16, 16, 4, "pt", "bdpt, asbdpt", 2 * spp, spp, 12, 8, false, 0.2};
         check_agreements(t, &a, 1, 1);
-    }
-}
-
-/* A mirrored world and the same world with its mirrored coordinates written out. */
-static void test_mirrored(struct test *t, int spp)
-{
-    static const char *const methods[] = {"pt", "bdpt"};
-    for (int m = 0; m < 2; m++) {
-        struct batches a = render(t, "negative-scale", methods[m], 24, spp, 841);
-        struct batches b = render(t, "negative-scale-plain", methods[m], 24, spp, 842);
-        check_agree(t, &a, &b, false, 0, "a mirrored world by %s", methods[m]);
-        batches_free(&b);
     }
 }
 
@@ -285,10 +260,9 @@ void test_scenes(struct test *t)
     test_four(t, "scenes/test/pass-through", 16); /* see-through lamps, one of them around a ball */
 }
 
-/* Other cameras, too, which test_strategies.c has for the quick suite, and a mirrored world. */
+/* Other cameras, too, which test_strategies.c has for the quick suite. */
 void test_scenes_long(struct test *t)
 {
-    test_mirrored(t, 400);
     test_light_pairs(t, 200, 1);
     test_four(t, "scenes/test/pass-through", 400);
     test_four(t, "scenes/test/orthographic", 400);

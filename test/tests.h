@@ -53,7 +53,6 @@ void test_mis(struct test *t);
 void test_options(struct test *t);
 void test_pairs(struct test *t);
 void test_probe(struct test *t);
-void test_figures(struct test *t);
 void test_parser(struct test *t);
 void test_pictures(struct test *t);
 void test_ply(struct test *t);
@@ -67,7 +66,6 @@ void test_rivals(struct test *t);
 void test_ris(struct test *t);    /* part of test_rivals */
 void test_spcbpt(struct test *t); /* the same */
 void test_rivals_long(struct test *t);
-void test_vcm(struct test *t);
 void test_scenes(struct test *t);
 void test_scenes_long(struct test *t);
 void test_family_long(struct test *t);

@@ -15,7 +15,7 @@
  * between iterations: the radius of iteration i is r_0 (i + 1)^((alpha - 1) / 2). With fewer sub-paths a merge adds
  * more at a time; over iterations it is the same. Only the balance heuristic is right here.
  *
- * Tests: test_vcm.c.
+ * Tests: test_rivals.c.
  */
 #include <math.h>
 #include <stddef.h>
