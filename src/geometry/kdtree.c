@@ -16,6 +16,7 @@
 
 #include "base/mem.h"
 #include "geometry/kd_block.h"
+#include "geometry/triangle.h"
 
 void kd_free(struct kdtree *kd)
 {

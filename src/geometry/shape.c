@@ -6,6 +6,7 @@
 
 #include "base/mem.h"
 #include "base/warp.h"
+#include "geometry/triangle.h"
 
 static bool is_quadric(int prim) { return prim >= FIRST_QUADRIC; }
 static const struct quadric *quadric_of(const struct geometry *geo, int prim)

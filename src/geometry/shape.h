@@ -18,7 +18,6 @@
 #include "base/vec.h"
 #include "geometry/quadric.h"
 #include "geometry/surface.h"
-#include "geometry/triangle.h"
 
 enum { FIRST_QUADRIC = 1 << 30 };
 
