@@ -1,17 +1,8 @@
 #!/bin/sh
 # cli.sh: the command line as a user meets it: exit codes, one clear line per error, formats, determinism of files.
-# Run from the top: sh test/cli.sh ./asbdpt [PART...]    PART: one that begins with a line "# --- PART" below
-if [ $# -gt 1 ]; then # this script without the other parts
-    program=$1 script=$(mktemp) || exit 1
-    shift
-    trap 'rm -f "$script"' EXIT
-    awk -v wanted=" $* end " '
-        /^# --- / { here = index(wanted, " " $3 " "); found += here > 0; started = 1 }
-        !started || here
-        END { exit found != split(wanted, part, " ") }' test/cli.sh >"$script" || { echo "cli.sh: no part $*"; exit 2; }
-    sh "$script" "$program"
-    exit
-fi
+# Run from the top: sh test/cli.sh ./asbdpt
+# What a value of an option may be is in test_options.c, formats are in test_file.c, test_image.c and test_hdr.c, what
+# pictures hold is in test_aov.c, test_lights.c, test_gates.c and test_pictures.c.
 . test/expect.sh
 small="--res 16x16 --spp 2 --quiet"
 ln -s "$top/ref" ref
@@ -28,57 +19,34 @@ for command in info compare trace worth strategies verify experiment equal-time 
     prints "usage: asbdpt-lab $command" "$lab" $command -h
 done
 expect 0 '' "$program" --version
-expect 0 '' "$program" "$box" --res 8x8 --spp 1 --quiet --time 1h -o unnamed.pfm
-check [ -s unnamed.pfm ]
-refuse() { # PATTERN WORDS...: wrong usage of the program; test_options.c has what is wrong with values
+refuse() { # PATTERN WORDS...: wrong usage of the program
     pattern=$1
     shift
     expect 2 "$pattern" "$program" "$@"
 }
-# What only the laboratory has, as it lists it itself, the program does not have.
-"$lab" --help | sed -n 's/^    \([a-z][a-z-]*\)  .*/\1/p' >theirs.list
-check [ "$(wc -l <theirs.list)" = 14 ]
-for command in $(grep -Ev '^(render|merge|convert)$' theirs.list); do
-    refuse "^asbdpt: unknown command $command; try" $command
-done
-"$program" help integrators | sed -n 's/^[a-z0-9]*$/&/p' | sort -u >ours.list
-"$lab" help integrators | sed -n 's/^[a-z0-9]*$/&/p' | sort -u >theirs.list
-for integrator in $(comm -13 ours.list theirs.list); do
-    refuse "^asbdpt: there is no integrator $integrator; known are: pt lt bdpt asbdpt\$" \
-        render "$box" $small --integrator $integrator
-done
-check [ "$(comm -13 ours.list theirs.list | grep -c .)" -ge 13 ]
-check [ "$(comm -23 ours.list theirs.list | grep -c .)" = 0 ]
+# What only the laboratory has the program does not have.
+for command in info equal-time bench; do refuse "^asbdpt: unknown command $command; try" $command; done
+refuse '^asbdpt: there is no integrator lvc; known are: pt lt bdpt asbdpt$' render "$box" --integrator lvc
+prints '^lvc$' "$lab" help integrators
 refuse 'unknown command .*cornell-box; try' "${box%.pbrt}"
 # A file that is called like an option is not taken for one: what is wrong with it is no wrong usage.
-for word in -o--x/y.png --stats=--x/y --resume=--x --checkpoint=--x/y --lights=--x/y/z; do
+for word in -o--x/y.png --stats=--x/y --resume=--x; do
     expect 1 '^asbdpt: --x' "$program" render "$box" $small "$word"
 done
-expect 1 '^asbdpt: --x' "$lab" trace "$box" $small --svg=--x/y
 # One meaning of --res everywhere: a width keeps the film's shape.
 ajar=$scenes/veach-ajar.pbrt
 prints '^film  *24x14,' "$lab" info "$ajar" --res 24
 expect 0 '' "$program" render "$ajar" --spp 1 --maxdepth 1 --quiet --res 24 -o shape.pfm
 check [ "$(head -n 2 shape.pfm | tail -n 1)" = "24 14" ]
-prints 'veach-ajar 24x14' \
-    "$lab" equal-time "$ajar" --methods pt --seeds 1 --spp 1 --reference-spp 4 --quiet --res 24 -o shape
 refuse 'asbdpt: which command'
 refuse 'unknown command rendr; try asbdpt --help' rendr
 refuse 'needs a scene' render
 refuse 'needs a scene' --quick # no command: render
 refuse 'unknown option --sppp; try asbdpt render --help' render "$box" --sppp 3
-refuse '[-]-samples needs -o NAME.part' render "$box" --samples 0:1
-expect 2 '[-]-res: 65536 x 65536 pixels are too many' "$program" render "$box" --res 65536
-refuse 'x.jpg: images are written as .pfm, .exr' render "$box" $small -o x.jpg
-refuse 'there is no integrator asbdtp; known are: pt lt' render "$box" $small --integrator=asbdtp
 refuse 'no integrator has a parameter "selct"; asbdpt help' render "$box" -P selct=bins
-refuse 'delta' render "$box" $small -P delta=7 --integrator asbdpt -o x.pfm
+refuse 'delta = "7": give a number' render "$box" -P delta=7 --integrator asbdpt
 refuse 'select = "bin" is unknown: give "subspaces", "bins", "pool" or "vertices"' \
     render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
-for command in info trace worth; do # what a command would ignore it does not take
-    expect 2 'unknown option --aov' "$lab" $command "$box" --aov depth
-done
-expect 2 'compare needs a picture of the same size' "$lab" compare a.pfm
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
 
 # --- parameters
@@ -87,11 +55,9 @@ strategy() { printf 'Integrator "%s" "string lightsamplestrategy" "%s"\nWorldBeg
 strategy path spacial >strategy.pbrt
 expect 1 '^asbdpt: strategy.pbrt:1:[0-9]+: lightsamplestrategy = "spacial" is unknown: give "spatial"' \
     "$lab" info strategy.pbrt
-for method in path asbdpt; do
-    strategy $method uniform >known.pbrt
-    expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: "lightsamplestrategy" is "power" instead of "uniform"' \
-        "$program" render known.pbrt --res 16x16 --spp 2 -o x.pfm
-done
+strategy path uniform >known.pbrt
+expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: "lightsamplestrategy" is "power" instead of "uniform"' \
+    "$program" render known.pbrt --res 16x16 --spp 2 -o x.pfm
 check grep -q '^asbdpt: warning: known.pbrt: there are no lights, so the image is black' stderr.txt
 # Then nothing is rendered, whatever is asked for: a million samples of each of a hundred thousand pixels, in no time.
 printf 'WorldBegin Shape "sphere" WorldEnd\n' >dark.pbrt
@@ -106,12 +72,6 @@ expect 0 '' "$program" render empty.pbrt --res 16x16 --spp 4 --alpha --quiet -o 
 check test -n "$(cmp dark.png empty.png 2>&1)"
 expect 0 '' "$program" render dark.pbrt --res 16x16 --spp 4 --samples 1:3 --quiet -o dark.part
 check grep -aq '^done 2 0$' dark.part
-for strategy in spatial power uniform; do
-    expect 0 '' "$program" render "$scenes/living-room.pbrt" $small --integrator asbdpt \
-        -P lightsamplestrategy=$strategy -P probe=off -o $strategy.pfm
-done
-check cmp -s power.pfm uniform.pfm
-check test -n "$(cmp power.pfm spatial.pfm 2>&1)"
 
 # Parameters of pbrt's integrators that have no effect here are said; those of -P must be right. info and render agree.
 printf 'Integrator "sppm" "integer numiterations" 3 "integer maxdepth" 100000
@@ -139,10 +99,8 @@ expect 0 '^asbdpt: warning: other.pbrt:1:19: "select" is not used: it is a param
 expect 0 '' "$lab" info other.pbrt --strict --integrator asbdpt
 sed s/bdpt/asbdpt/ other.pbrt >own.pbrt
 expect 0 '' "$lab" info own.pbrt --strict --integrator bdpt
-sides="--res 12x12 --spp 8 --maxdepth 2 --quiet"
-expect 0 '' "$lab" verify "$box" --methods pt,asbdpt $sides -P select=vertices
 expect 2 '"select" is a parameter of asbdpt, not of pt; see' \
-    "$lab" verify "$box" --methods pt,bdpt $sides -P select=vertices
+    "$lab" verify "$box" --methods pt,bdpt --spp 8 --quiet -P select=vertices
 
 depth() { sed -n 's/^  maxdepth    //p' stdout.txt; }
 printf 'Integrator "bdpt" "integer maxdepth" 6\nWorldBegin\nLightSource "point"\nWorldEnd\n' >typed.pbrt
@@ -154,10 +112,7 @@ check [ "$(depth)" = 7 ]
 # --- outputs
 
 # Outputs are opened before the work begins, and nothing is left of them when it fails.
-for wrong in no/such/dir/x.pfm /proc/x.pfm stdout.txt/x.pfm; do
-    expect 1 "^asbdpt: $wrong: cannot be created" "$program" render nothing.pbrt -o good.pfm -o $wrong
-done
-expect 1 '^asbdpt: good.ppm/s/light00_area.pfm: cannot be created' "$program" render "$box" --lights good.ppm/s
+expect 1 "^asbdpt: no/x.pfm: cannot be created" "$program" render nothing.pbrt -o good.pfm -o no/x.pfm
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt -o good.pfm
 expect 1 'binpaths 7 is odd' \
     "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o good.pfm
@@ -222,13 +177,6 @@ printf 'Film "image" "float scale" 1e20\nWorldBegin LightSource "infinite" "rgb 
     >bright.pbrt
 expect 0 'warning: 512 pixel values were beyond' "$program" render bright.pbrt $small -o bright.pfm
 prints '^nonfinite  0$' "$lab" compare bright.pfm bright.pfm
-cat >mirrors.pbrt <<'END'
-Camera "perspective" "float fov" 5 WorldBegin LightSource "infinite" "rgb L" [ 1e30 1 1 ]
-Material "mirror" "rgb Kr" [ 1e6 1e6 1e6 ] Translate 0 0 3 Shape "sphere" Translate 0 0 -6 Shape "sphere" WorldEnd
-END
-expect 0 'warning: [0-9]+ contributions were not finite, or too large' \
-    "$program" render mirrors.pbrt $small -o mirrors.pfm
-prints '^nonfinite  0$' "$lab" compare mirrors.pfm mirrors.pfm
 
 # --- render
 # Files: three formats from one run, the same bytes for any number of threads.
@@ -242,12 +190,9 @@ makes crop.exr "$program" merge crop.part --quiet -o sum.exr
 check [ "$(head -c 2 a.ppm)" = P6 ]
 prints '^rmse       0$' "$lab" compare a.pfm b.pfm
 says '^rmse8      0$' '^relmse     0$' '^relmse8x8  0$' '^mean_ratio 1$' '^nonfinite  0$' '^psnr       inf$'
-expect 0 '' "$lab" compare a.png a.ppm --heatmap heat.png
-check [ -s heat.png ]
-says '^psnr       inf' '^heatmap    0 to 0 (percentile)'
-check [ ! -s stderr.txt ]
 expect 0 'a.png holds sRGB values from 0 to 1, a.pfm linear' "$lab" compare a.png a.pfm --heatmap heat.png --max 2
 says '^heatmap    0 to 2$'
+check [ -s heat.png ]
 expect 0 '' "$lab" compare a.png a.pfm --max-rmse 1000
 expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$lab" compare a.png a.pfm --max-rmse 1e-9
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
@@ -256,20 +201,14 @@ expect 1 cornell-box.pbrt "$lab" compare "$box" a.pfm
 expect 0 '' "$lab" strategies "$box" $small --maxdepth 2 -o s
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]
-printf 'Film "image" "float scale" 3 WorldBegin LightSource "infinite" "rgb L" [ 1 2 3 ] WorldEnd\n' >scale.pbrt
-expect 0 '' "$program" render scale.pbrt $small --maxdepth 1 -o scale.pfm
-expect 0 '' "$lab" strategies scale.pbrt $small --maxdepth 1 -o s
-check cmp -s scale.pfm s/d00_s00_t02_weighted.pfm
 
 # --- aov
-# --aov: a picture each beside the first, the same for any number of threads and whatever is rendered.
+# --aov: a picture each beside the first.
 expect 0 '^wrote aov.albedo.pfm, .*, aov.variance.pfm$' "$program" render "$box" --res 16x16 --spp 2 -j 1 \
     --aov variance,albedo,normal,depth,position -o aov.png
 expect 0 '' "$program" render "$box" $small --integrator pt -j 3 --aov depth,albedo,depth -o two.x.pfm -o a.png
 check cmp -s aov.depth.pfm two.x.depth.pfm
-check cmp -s aov.albedo.pfm two.x.albedo.pfm
 check [ ! -e two.x.normal.pfm ]
-check [ -s aov.normal.pfm -a -s aov.position.pfm ]
 expect 2 'known are albedo' "$program" render "$box" $small --aov albedo,norml -o aov.png
 expect 1 'aov: not written, for one sample' "$program" render "$box" --spp 2 --samples 0:1 --res 8x8 --quiet \
     --aov variance -o few.png
@@ -283,9 +222,7 @@ check [ ! -e taken.png -a ! -e taken.albedo.pfm ]
 expect 0 'wrote l.float.exr, l.pfm$' "$program" render "$box" --res 16x16 --spp 2 -j 2 --layers \
     --aov variance,albedo,normal,depth,position -o l.float.exr -o l.pfm
 makes l.pfm "$program" convert l.float.exr -o back.pfm
-for name in R albedo.R albedo.G albedo.B normal.X normal.Y normal.Z depth.Z position.X position.Z variance.B; do
-    check grep -aq "$name" l.float.exr
-done
+for name in albedo.R normal.X depth.Z position.Z variance.B; do check grep -aq "$name" l.float.exr; done
 check [ ! -e l.albedo.pfm ]
 expect 2 'no other format has them' "$program" render "$box" $small --aov depth --layers -o a.png
 
@@ -295,7 +232,6 @@ noisy="--res 20x16 --integrator bdpt --maxdepth 3"
 expect 0 '128 spp' "$program" render "$box" $noisy --spp 1000 --noise 0.055 -j 1 -o noise1.pfm
 check grep -q 'noise 0.0[0-9]* +- .* of the brightness around, .* at 128 samples per pixel: below' stderr.txt
 expect 0 'at 64 samples per pixel: above' "$program" render "$box" $noisy --spp 70 --noise 0.001 -o a.pfm
-expect 0 'noise is unknown' "$program" render "$box" $noisy --spp 60 --noise 0.5 -o a.pfm
 expect 2 'noise is that of the whole' "$program" render "$box" $noisy --spp 60 --noise 0.5 --samples 0:4 -o a.part
 expect 2 'are a chain' "$lab" render "$box" $small --integrator mmlt --noise 0.1 -o a.pfm
 # It goes on from a checkpoint to the same end, also from the end itself; one without halves is refused.
@@ -317,10 +253,9 @@ expect 0 '' "$program" render "$box" --quick -j 2 --integrator asbdpt -P delta=0
     -o a.png
 check grep -q ': 120x120, 1 spp, asbdpt;' stderr.txt
 check [ "$(grep -c draws stderr.txt)" = 0 ] # what was chosen is for --stats alone
-for line in '"version": "asbdpt ' '"integrator": "asbdpt",' '"select": "subspaces",' '"delta": 0.25,' '"maxdepth": 6,' \
-    '"film": .120, 120.,' '"spp": 1,' '"spp_done": 1,' '"threads": 2,' '"nonfinite": 0,' '"draws_first_hit": [1-9]' \
-    '"a.png",' '"a.depth.pfm"' '"cpu_seconds": [0-9]' \
-    '"us_per_path": [1-9]' '"peak_memory": [1-9]'; do
+for line in '"version": "asbdpt ' '"select": "subspaces",' '"delta": 0.25,' '"maxdepth": 6,' '"film": .120, 120.,' \
+    '"spp_done": 1,' '"threads": 2,' '"draws_first_hit": [1-9]' '"a.depth.pfm"' '"us_per_path": [1-9]' \
+    '"peak_memory": [1-9]'; do
     check grep -q "$line" stats.json
 done
 # Without light sub-paths there are no draws; who chooses nothing says nothing of it.
@@ -347,12 +282,8 @@ check [ ! -e stats.json -a ! -e made.png ]
 # --- gates
 # gates: light by how far it has come; a sequence of pictures in one render.
 expect 0 '' "$program" render "$box" $small -o whole.pfm
-expect 2 'there is nothing between 3 and 2' "$lab" transient "$box" $small --gate 3:2 -o flight
-expect 2 'expected L0:L1, numbers from 0 to' "$lab" transient "$box" $small --gate 1:nan -o flight
 expect 0 '' "$lab" transient "$box" $small --gates 3 --gate 1000:2500 -o flight
 check [ -s flight/gate002.pfm -a -s flight/transient.png -a ! -e flight/gate003.pfm ]
-expect 0 '' "$lab" transient "$box" $small -o flight/found # across the scene
-check [ -s flight/found/gate015.pfm ]
 
 # --- lights
 # lights: of one light all that there is; of several, pictures that convert adds up, each times a weight.
@@ -367,23 +298,16 @@ expect 0 '' "$program" convert lit/light0?_*.pfm -o sum.pfm
 expect 0 '' "$lab" compare sum.pfm a.pfm --max-rmse 1e-6
 makes a.pfm "$program" convert a.pfm sum.pfm a.pfm --weights 2,0,-1 -o b.pfm
 check [ "$(od -An -tu1 -j25 -N1 a.png | tr -d ' ')" = 6 ] # RGB and alpha
-expect 2 'weights 1,2: expected a number for each image' "$program" convert a.pfm sum.pfm a.pfm --weights 1,2 -o b.pfm
-expect 2 'weights 1,nan: expected a number for each' "$program" convert a.pfm sum.pfm --weights 1,nan -o b.pfm
-expect 2 'weights nan: expected a number for each' "$program" convert a.pfm --weights nan -o b.pfm
-# Halfs end at 65504, which is said.
+for weights in 1 1,2,3 1,nan; do
+    expect 2 "weights $weights: expected a number for each" "$program" convert a.pfm sum.pfm --weights $weights -o b.pfm
+done
+# Halfs end at 65504.
 printf 'PF\n1 1\n-1\n\000\120\303\107\000\000\200\077\000\120\303\307' >far.pfm # 1e5 1 -1e5
 expect 0 'far.exr: 2 values are beyond 65504, .* ends in .float.exr' "$program" convert far.pfm -o far.exr
-expect 0 '^wrote far.float.exr$' "$program" convert far.pfm -o far.float.exr
-check [ "$(grep -c warning stderr.txt)" = 0 ]
 expect 1 'is 16x16, the images before it 24x16|whole.pfm is ' "$program" convert a.pfm whole.pfm -o b.pfm
-awk 'BEGIN {
-    print "WorldBegin"
-    while (i < 65) print "LightSource \"point\" \"string group\" \"" i++ "\""
-    print "WorldEnd"
-}' >many.pbrt
+{ echo WorldBegin; seq -f 'LightSource "point" "string group" "%g"' 65; echo WorldEnd; } >many.pbrt
 expect 2 'lights: 65 images, one for each light, and 64 are the most' \
     "$program" render many.pbrt --res 2x2 --spp 1 --quiet --lights many -o b.pfm
-expect 0 '' "$program" render many.pbrt --res 2x2 --spp 1 --quiet --alpha -o b.pfm
 expect 2 'alpha: the samples of mmlt are a chain' "$lab" render lamps.pbrt --integrator mmlt --alpha -o b.png
 expect 1 'no pixel has one to tell of' "$lab" trace lamps.pbrt --res 4x4 --spp 4 --integrator pssmlt
 
@@ -391,10 +315,8 @@ expect 1 'no pixel has one to tell of' "$lab" trace lamps.pbrt --res 4x4 --spp 4
 # help: as a whole no wider than a terminal, with every integrator once.
 expect 0 '' "$program" help all
 check [ -z "$(awk 'length > 100' stdout.txt)" ]
-check [ "$(grep -c 'usage: asbdpt' stdout.txt)" = 3 ]
-expect 0 '' "$program" help integrators
+prints '^    lightsamplestrategy *spatial ' "$program" help integrators
 check [ "$(grep -c '^asbdpt$' stdout.txt)" = 1 ] # however many selections it has
-says '^    lightsamplestrategy *spatial '
 expect 2 'there is no help on rendering' "$program" help rendering
 printf 'P3\n3 2\n255\n0 0 0 255 0 0 0 0 0\n0 0 0 0 0 0 0 255 255\n' >picture.ppm
 prints '^format        .ppm, sRGB, here made linear$' "$lab" info picture.ppm
@@ -440,13 +362,11 @@ check awk '/<svg x=/ { n = 0 }
 prints '^CHOICE of what to connect with: ' "$lab" trace "$box" $one --spp 4 --brightest -P select=vertices \
     --integrator asbdpt --all
 check grep -Eq '^  \([2-9],[2-9]\) +y_[0-9(]+\)? - z_[0-9] +0\.' stdout.txt # with its probability
-expect 2 'sample 4 is not taken: they are numbered 0 to 3' "$lab" trace "$box" $one --spp 4 --sample 4
 
 # --- worth
 # worth: what was learnt, as a picture.
 expect 0 '' "$lab" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o worth.png
 check [ -s worth.png ]
-expect 2 'pixel 12,0 lies outside' "$lab" worth "$box" --pixel 12,0 --res 12x12 -o worth.png
 expect 1 'learns nothing about pairs' "$lab" worth "$box" --pixel 3,9 --res 12x12 -P select=pool -o worth.png
 expect 2 'the whole film is shown' "$lab" worth "$box" --pixel 3,9 --cropwindow 0 1 0 0.5 -o worth.png
 
@@ -458,8 +378,6 @@ expect 0 '' "$lab" verify "$box" --methods pt,bdpt --res 12x12 --spp 8 --maxdept
 prints 'verdict: agree' "$lab" verify "$box" --methods bdpt,bdpt --res 12x12 --spp 8 --maxdepth 2 --quiet
 expect 1 '' "$lab" verify "$box" --methods pt --spp 2 --quiet --reference ref/veach-ajar.pfm
 says 'verdict: DIFFER'
-expect 1 'crop window leaves 16x16' "$lab" verify "$box" --methods bdpt --spp 4 --quiet \
-    --reference ref/cornell-box.pfm --cropwindow 0 0.5 0 0.5
 # A picture against itself is identical; with other errors it is too alike to be independent.
 prints '^verdict: identical' "$lab" verify --images $picture $picture
 expect 1 '' "$lab" verify --images $picture ref/bathroom.pfm ref/bathroom.pfm
@@ -469,11 +387,9 @@ expect 1 '' "$lab" verify --images nan.pfm ref/bathroom.error.pfm nan.pfm ref/ba
 says '^verdict: DIFFER'
 expect 1 'nan.pfm: NaN or infinite values: 2592$' "$lab" compare nan.pfm nan.pfm --max-rmse 1
 prints '^nonfinite  2592$' "$lab" compare nan.pfm nan.pfm
-expect 1 'same size' "$lab" verify --images $picture a.pfm a.pfm
 expect 2 'usage: asbdpt-lab verify' "$lab" verify --images a.pfm
 expect 2 'no integrator nonsense' "$lab" verify "$box" --methods nonsense
 expect 2 'two methods are compared' "$lab" verify "$box" --methods pt,lt,bdpt
-expect 2 'is unknown: give' "$lab" verify "$box" --methods pt,asbdpt:select=bin
 prints '^B  asbdpt:select=vertices ' \
     "$lab" verify "$box" --methods asbdpt:select=pool,asbdpt:select=vertices --res 12x12 --spp 8 --maxdepth 2 --quiet
 
@@ -483,8 +399,6 @@ tiny="--res 8x8 --seeds 2 --reference-spp 4 --quiet"
 prints 'geometric mean' "$lab" equal-time "$box" $tiny --spp 2 -o equal
 sed '/^equal\/equal-time.md$/,$d' stdout.txt >table.txt
 check cmp -s table.txt equal/equal-time.md
-says '^Squared error of asbdpt over that of bdpt after the same time, per pixel: ' \
-    '^In means over 8x8 pixels, .*: .*\.$' '^Measured with 2 seeds on cornell-box 8x8\.$'
 check [ -s equal/images/cornell-box.png ]
 printf 'Film "image" "integer xresolution" 48 "integer yresolution" 32 Translate 0 0 4 Camera "perspective"
 WorldBegin LightSource "point" "point from" [0 0 -3] Shape "sphere" WorldEnd\n' >small.pbrt
@@ -492,7 +406,6 @@ expect 0 '' "$lab" equal-time small.pbrt --spp 1 --seeds 1 --quiet -o small # wh
 check [ -s small/images/small.png ]
 prints 'per pixel: [0-9.e+]*; more --seeds tell how sure this is\.$' \
     "$lab" equal-time "$box" --methods bdpt,pt --res 8x8 --seeds 1 --spp 8 --quiet -o one
-expect 2 'there is no integrator bdtp; known are: .*bdpt' "$lab" equal-time "$box" --methods bdtp,asbdpt -o equal
 check [ "$(grep -c '^cornell-box,' equal/runs.csv)" = 4 ]
 check [ "$(grep -c '^cornell-box,bdpt,.*,2,' equal/runs.csv)" = 2 ]
 prints 'equal-time --seconds 0.01 --methods bdpt,asbdpt:select=pool --seeds 2' \
@@ -523,30 +436,21 @@ expect 0 'bathroom.pfm.* is of another scene: measured at 32x32 pixels' \
     "$lab" equal-time bathroom/scene.pbrt $tiny -o foreign
 expect 1 'bathroom.pfm.* is of another scene$' \
     "$lab" equal-time bathroom/scene.pbrt --reference bathroom/ref $tiny --quiet -o foreign
-sed -i.old '/^content/d' bathroom/ref/bathroom.txt
-expect 0 'does not say what scene it is of: measured at 32x32' \
-    "$lab" equal-time bathroom/scene.pbrt $tiny -o foreign
 expect 1 'have the same name, bathroom' \
     "$lab" equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign
-for command in experiment equal-time; do
-    expect 2 'there is no integrator bdtp; known are: .*bdpt' "$lab" $command "$box" --methods bdtp -o equal
-done
-expect 2 'there is no parameter "selects"' "$lab" experiment "$box" --sweep pt,asbdpt:selects=bins -o equal
+expect 2 'there is no integrator bdtp; known are: .*bdpt' "$lab" equal-time "$box" --methods bdtp -o equal
 
 # --- convert
 # convert: linear formats keep light (.float.exr exactly), 8-bit ones what they hold; - reads and writes PFM.
 "$program" render "$box" --res 37x23 --spp 4 --quiet -o light.pfm -o light.png
 makes light.png "$program" convert light.pfm -o x.float.exr -o x.exr -o x.ppm -o x.png
 makes light.pfm "$program" convert x.float.exr -o back.pfm
-makes x.exr "$program" convert x.exr -o x2.exr
 makes light.png "$program" convert x.ppm -o y.PNG
 expect 2 'x.tga: images are written as' "$program" convert light.pfm -o x.tga
 "$program" convert - -o - --quiet <light.pfm >through.pfm
 check cmp -s light.pfm through.pfm
 expect 0 '' "$program" convert ref/bathroom.pfm -o ref.float.exr
 prints 'verdict: identical' "$lab" verify --images ref.float.exr ref/bathroom.error.pfm $picture
-printf 'P5 1 1 255 a' >grey.pgm
-prints '^channels  *1, grey$' "$lab" info grey.pgm
 expect 1 'nothing.exr' "$program" convert nothing.exr -o x.png
 
 # --exposure and --tonemap: of 8-bit pictures alone, the same in render and convert; without them nothing changes.
@@ -554,14 +458,11 @@ makes light.pfm "$program" render "$box" --res 37x23 --spp 4 --quiet --exposure 
     -o dark.pfm
 makes dark.png "$program" convert light.pfm --exposure -2 --tonemap filmic -o y.png
 check test -n "$(cmp light.png y.png 2>&1)"
-expect 2 'known are none, filmic' "$program" convert light.pfm -o y.png --tonemap film
 expect 2 'for 8-bit images' "$program" convert light.pfm -o y.exr --exposure 1
 
 # ImageMagick, where it is installed, reads the same bytes of pixels from our files.
 if command -v convert >/dev/null && convert -version | grep -q ImageMagick; then
-    for kind in png ppm; do
-        expect 0 '' convert x.$kind -depth 8 rgb:theirs.$kind
-    done
+    for kind in png ppm; do expect 0 '' convert x.$kind -depth 8 rgb:theirs.$kind; done
     check cmp -s theirs.png theirs.ppm
 else
     echo "skipped: pictures of ImageMagick (convert is not installed)"

@@ -13,7 +13,7 @@ struct target {
     bool on;
     int integer, size[2], width[2], range[2];
     uint64_t seed;
-    double number, window[4];
+    double number, window[4], lengths[2];
     double time;
     const char *text, *image;
     struct texts texts, pairs, list, rest;
@@ -34,6 +34,7 @@ static const struct option TABLE[] = {
     {"--time", "TIME", OPTION_TIME, offsetof(struct target, time), 0.5, 7200, .help = "a duration"},
     {"--window", "X0 X1 Y0 Y1", OPTION_WINDOW, offsetof(struct target, window), 0, 1, .help = "a window"},
     {"--range", "FIRST:END", OPTION_RANGE, offsetof(struct target, range), 0, 100, .help = "a range"},
+    {"--lengths", "L0:L1", OPTION_LENGTHS, offsetof(struct target, lengths), 0, 1e9, .help = "lengths"},
     {"--size", "WIDTH[xHEIGHT]", OPTION_WIDTH, offsetof(struct target, size), 1, 65536, .help = "a size"},
     {"--width", "WIDTH[xHEIGHT]", OPTION_WIDTH, offsetof(struct target, width), 1, 65536, .help = "a width"},
     {"--text", "TEXT", OPTION_TEXT, offsetof(struct target, text), .alias = "-t", .help = "a text"},
@@ -97,6 +98,8 @@ static void check_refused(struct test *t)
         {"--range 3:101", "expected FIRST:END, integers from 0 to 100"},
         {"--range -1:4", "expected FIRST:END, integers from 0 to 100"},
         {"--range 3:3", "nothing between 3 and 3"},
+        {"--lengths 3:2", "nothing between 3 and 2"},
+        {"--lengths 1:nan", "expected L0:L1, numbers from 0 to 1000000000"},
         {"--integer 1", "--integer 1: expected an integer from 2 to 1073741824"},
         {"--integer 1073741825", "expected an integer"},
         {"--integer 99999999999999999999", "expected an integer"},
