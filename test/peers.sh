@@ -1,6 +1,6 @@
 #!/bin/sh
 # peers.sh: bdpt of this program beside that of others, on the same scenes.
-#   PEERS=DIR sh test/peers.sh build         fetches and builds, in DIR, what is not there; says what cannot be had
+#   PEERS=DIR sh test/peers.sh build         fetches and builds, in DIR, what is not there
 #   PEERS=DIR PUBLISHED=DIR sh test/peers.sh measure OUT
 #       CPU time of a sample path, gain of two threads, memory, into OUT/peers.txt; what is there is not measured again
 #   sh test/peers.sh table <OUT/peers.txt    as a table
@@ -21,22 +21,15 @@ pbrt=$PEERS/pbrt
 smallvcm=$PEERS/smallvcm
 [ -x "$smallvcm" ] || smallvcm=$PEERS/SmallVCM/smallvcm
 
-# fetch NAME URL: its repository, if it is not there.
-fetch() {
-    [ -d "$PEERS/$1" ] || GIT_TERMINAL_PROMPT=0 git clone -q --recursive "$2" "$PEERS/$1" 2>"$dir/log" ||
-        { echo "$1: $2 is not reachable"; return 1; }
-}
+# fetch NAME OWNER: its repository, if it is not there.
+fetch() { [ -d "$PEERS/$1" ] || git clone -q --recursive "https://github.com/$2/$1" "$PEERS/$1"; }
 build() {
     mkdir -p "$PEERS"
-    if [ ! -x "$pbrt" ] && fetch pbrt-v3 https://github.com/mmp/pbrt-v3; then
-        { cmake -S "$PEERS/pbrt-v3" -B "$PEERS/pbrt-v3/build" -DCMAKE_BUILD_TYPE=Release &&
-            cmake --build "$PEERS/pbrt-v3/build" --target pbrt_exe -j 2; } >"$PEERS/pbrt-v3.log" 2>&1 ||
-            echo "pbrt-v3 does not build: $PEERS/pbrt-v3.log"
-    fi
-    if [ ! -x "$smallvcm" ] && fetch SmallVCM https://github.com/SmallVCM/SmallVCM; then
-        make -C "$PEERS/SmallVCM" >"$PEERS/SmallVCM.log" 2>&1 || echo "SmallVCM does not build: $PEERS/SmallVCM.log"
-    fi
-    for program in "$pbrt" "$smallvcm"; do [ ! -x "$program" ] || echo "$program is there"; done
+    [ -x "$pbrt" ] || {
+        fetch pbrt-v3 mmp && cmake -S "$PEERS/pbrt-v3" -B "$PEERS/pbrt-v3/build" -DCMAKE_BUILD_TYPE=Release &&
+            cmake --build "$PEERS/pbrt-v3/build" --target pbrt_exe -j 2
+    }
+    [ -x "$smallvcm" ] || { fetch SmallVCM SmallVCM && make -C "$PEERS/SmallVCM"; }
 }
 
 # cpu COMMAND...: seconds of CPU of a command and its threads.
