@@ -75,15 +75,15 @@ check "$program" render $lit --samples 32:70 -o 32:70.part
 expect 1 'another image: it has "size 8 12, planes 3 0", not "size 8 12, planes 3 1"' \
     "$program" merge -o sum.png 0:32.part 32:70.part
 
-# ---- a picture is gone on with, parts are of one whole: each learns the same, and has the same bytes ----
+# ---- a picture is gone on with, parts are of one whole: each learns the same, more than of 24 samples ----
 rm -f state
-check "$program" render "$box" $size --integrator asbdpt --spp 64 -o whole.pfm
+check "$program" render "$box" $size --integrator asbdpt --spp 400 -o whole.pfm
 check "$program" render "$box" $size --integrator asbdpt --spp 24 -o x.pfm --checkpoint state
-makes whole.pfm "$program" render "$box" $size --integrator asbdpt --spp 64 --checkpoint state --resume state -o x.pfm
+makes whole.pfm "$program" render "$box" $size --integrator asbdpt --spp 400 --checkpoint state --resume state -o x.pfm
 check "$program" render "$box" $size --integrator asbdpt --spp 24 -o x.pfm --checkpoint short
-check "$program" render "$box" $size --integrator asbdpt --spp 64 --time 1e-6 -o x.pfm --checkpoint short --resume short
+check "$program" render "$box" $size --integrator asbdpt --spp 400 --time 1e-6 -o x.pfm --checkpoint short --resume short
 check [ "$(work_in short)" -gt 0 ] # which is not lost when the time is over before all is learnt anew
-makes whole.pfm "$program" render "$box" $size --integrator asbdpt --spp 64 --resume short -o x.pfm
+makes whole.pfm "$program" render "$box" $size --integrator asbdpt --spp 400 --resume short -o x.pfm
 check "$program" render "$box" $size --integrator asbdpt -P select=bins --spp 40 -o x.pfm --checkpoint bins.state
 expect 1 'ends at sample 40: here they come in blocks of 32' "$program" render "$box" $size --integrator asbdpt \
     -P select=bins --spp 64 -o x.pfm --resume bins.state
