@@ -81,7 +81,8 @@ check "$program" render "$box" $size --integrator asbdpt --spp 400 -o whole.pfm
 check "$program" render "$box" $size --integrator asbdpt --spp 24 -o x.pfm --checkpoint state
 makes whole.pfm "$program" render "$box" $size --integrator asbdpt --spp 400 --checkpoint state --resume state -o x.pfm
 check "$program" render "$box" $size --integrator asbdpt --spp 24 -o x.pfm --checkpoint short
-check "$program" render "$box" $size --integrator asbdpt --spp 400 --time 1e-6 -o x.pfm --checkpoint short --resume short
+check "$program" render "$box" $size --integrator asbdpt --spp 400 --time 1e-6 -o x.pfm --checkpoint short \
+    --resume short
 check [ "$(work_in short)" -gt 0 ] # which is not lost when the time is over before all is learnt anew
 makes whole.pfm "$program" render "$box" $size --integrator asbdpt --spp 400 --resume short -o x.pfm
 check "$program" render "$box" $size --integrator asbdpt -P select=bins --spp 40 -o x.pfm --checkpoint bins.state
