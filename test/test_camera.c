@@ -15,6 +15,7 @@ static void test_inverse(struct test *t, const struct camera *c, struct rng *r)
         double px = c->width * rng_uniform(r), py = c->height * rng_uniform(r), qx, qy;
         struct ray ray = camera_ray(c, px, py, rng_uniform(r), rng_uniform(r));
         double J = camera_project(c, ray.o, ray.d, &qx, &qy);
+        CHECK(t, !(ray.tmin > 0) && ray.tmax == INFINITY, "interval: a ray from %g to %g", ray.tmin, ray.tmax);
         CHECK(t, J > 0 && fabs(length(ray.d) - 1) < 1e-12, "J = %g, |d| = %.17g", J, length(ray.d));
         worst = most_of(worst, most_of(fabs(px - qx), fabs(py - qy)));
     }

@@ -117,6 +117,7 @@ static void narrow_lobes(struct test *t)
                 double e = jacobian_error(&l, &l, wo);
                 CHECK(t, e < 1e-3, "kind %d, alpha %g %g, cos %g: pdf off by %g", k, ALPHA[a][0], ALPHA[a][1],
                       COS[c], e);
+                CHECK(t, k == 1 || a > 0 || stretch(&l, wo, 0.4, 0.4) >= 0, "no sample is drawn, cos %g", COS[c]);
                 CHECK(t, k == 1 || (stretch(&l, wo, 1 - 3e-5, 0.4) != 0 && stretch(&l, wo, 0.4, 1 - 3e-5) != 0),
                       "last numbers: all u above some number below 1 give one and the same direction");
                 if (k == 1 && COS[c] == -0.2)

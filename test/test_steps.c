@@ -269,6 +269,9 @@ static void joints_in_a_box(struct test *t, const char *scale)
                     continue;
                 if (CHECK(t, connect_join(y, z, &j), "refused: two that face each other are not joined"))
                     check_joint(t, y, z, &j);
+                struct vertex dark = *y;
+                dark.beta = rgb_black();
+                refused(t, &dark, z, "black");
                 joined++;
             }
         refused(t, &eye[1], &eye[1], "same point");

@@ -3,67 +3,44 @@
 # What no assignment needs, as a regular expression: whatever ends, starts or reads another program, and other files.
 OUTSIDE='constructor|destructor|_?exit|abort|atexit|exec[a-z]*|system|popen|fork|syscall|asm|dlopen|fopen|getenv'
 
-# grade_all DIR JOBS: DIR/STUDENT/N/ holds the files of assignment N that the student wrote, by their names alone. Each
-# set is put into a fresh copy and graded there, so that the tests are ours; DIR/grades.csv gets a line,
-# DIR/STUDENT/N.txt the words, DIR/STUDENT/N.report/ the pictures. What is graded runs with limits of time (course.sh)
-# and of files, and without a network where unshare can take it away; as another user if GRADER names one and we may
-# become it.
+# grade_all DIR JOBS: DIR/STUDENT/N/ holds the files of assignment N that the student wrote, by their names alone.
+# DIR/grades.csv gets a line for each set, DIR/STUDENT/N.txt the words, DIR/STUDENT/N.report/ the pictures.
 grade_all() {
     original
-    top=$(cd "$1" && pwd) && began=$(date +%s) && rm -f "$top"/*/*.row || exit
-    jobs=0 sets=0
+    top=$(cd "$1" && pwd) && began=$(date +%s) sets=0 && rm -rf "$top"/*/*.row "$top"/*/*.report || exit
     for folder in "$top"/*/*/; do
-        folder=${folder%/}
-        case $folder in *.report) continue ;; esac # of an earlier run
-        n=$(names assignment | grep "^$(basename "$folder")-") || { say "$folder is of no assignment"; continue; }
-        (one "$folder" "$n") &
-        sets=$((sets + 1)) jobs=$((jobs + 1))
-        [ $jobs -lt "$2" ] || { wait; jobs=0; }
+        one "${folder%/}" &
+        sets=$((sets + 1))
+        [ $((sets % $2)) -ne 0 ] || wait
     done
     wait
-    echo "student,assignment,passed,builds,tests passed,test failed,mean,noise,steps to think of,to be looked at" |
-        cat - "$top"/*/*.row >"$top/grades.csv"
+    say "student,assignment,passed,what failed,mean,noise,steps to think of,to be looked at" |
+        cat - "$top"/*/*.row | tee "$top/grades.csv"
     rm -f "$top"/*/*.row
-    cat "$top/grades.csv"
     say "$sets sets in $((($(date +%s) - began + 59) / 60)) minutes: $top/grades.csv"
 }
 
-# one FOLDER NAME: grade what is in it, and make its row.
+# one FOLDER: graded in a fresh copy, so that the tests are ours, with a limit to the size of files; its row.
 one() {
+    n=$(names assignment | grep "^${1##*/}-") || { say "$1 is of no assignment"; return; }
     tree=$(mktemp -d "${TMPDIR:-/tmp}/XXXXXXXXXX") && cp -Rp "$original/." "$tree" || exit
-    missing= result=no
-    for file in $(get "$2" hole | sed 's/ .*//' | sort -u); do
-        cp "$1/$(basename "$file")" "$tree/$file" 2>/dev/null || missing="$missing ${file##*/}"
-        touch "$tree/$file"
+    missing= words=
+    for file in $(files "$n"); do
+        cp "$1/${file##*/}" "$tree/$file" 2>/dev/null || missing="$missing ${file##*/}"
+        words=$words$(used "$tree/$file" | grep -vxF "$(used "$original/$file")" | tr ',"\n' '   ')
     done
-    (ulimit -f 200000; [ -z "$missing" ] && grade "$2" "$tree") >"$1.txt" 2>&1 && result=yes
-    [ -z "$missing" ] || echo "not handed in:$missing" >"$1.txt"
-    rm -rf "$1.report" && mkdir "$1.report" || exit
-    cp "$tree"/report/*.html "$tree"/report/*.png "$1.report/" 2>/dev/null # none, if nothing was drawn
-    sed "s|^Pictures and words: .*|Pictures and words: $1.report/index.html|" "$1.txt" >"$1.words" &&
-        mv "$1.words" "$1.txt"
-    row "$(basename "$(dirname "$1")")" "$2" $result "$1.txt" "$(outside "$2" "$tree")" >"$1.row"
-    rm -rf "$tree"
-}
-
-# outside NAME TREE: the words of OUTSIDE and the includes that the student's files have and ours have not.
-outside() {
-    for file in $(get "$1" hole | sed 's/ .*//' | sort -u); do
-        words "$original/$file" >"$2/ours"
-        words "$2/$file" | comm -23 - "$2/ours" | tr ',"\n' '   '
-    done
-}
-words() { { grep -owE "$OUTSIDE" "$1"; grep '^ *# *include' "$1"; } | sort -u; }
-
-# row STUDENT NAME PASSED WORDS OUTSIDE: a line of the table.
-row() {
-    awk -v student="$1" -v name="$2" -v passed="$3" -v outside="$5" '
-        /does not compile|not handed in/ { builds = "no" }
-        /^Test .* passed$/ { tests++ }
-        /^Test .*FAILED/ { failed = $2 }
+    if [ -n "$missing" ]; then say "Not handed in:$missing"; else (ulimit -f 200000; grade "$n" "$tree"); fi 2>&1 |
+        sed "s|$tree/report|$1.report|; s|$tree|$1|" >"$1.txt"
+    [ ! -d "$tree/report" ] || mv "$tree/report" "$1.report"
+    awk -v set="$(basename "${1%/*}"),$n" -v words="$words" '
+        BEGIN { passed = "no"; failed = "picture" }
+        /^All is well/ { passed = "yes"; failed = "" }
+        /^It does not compile|^Not handed in/ { failed = tolower($0) }
+        /^Test .*FAILED/ { failed = "test " $2 }
         /^Mean: / { mean = $2 }
         /^Noise: / { noise = $2 }
-        /^- Step / { sub(/:.*/, ""); if (!named[$3]++) steps = steps (steps != "" ? " " : "") $3 }
-        END { printf "%s,%s,%s,%s,%d,%s,%s,%s,%s,%s\n", student, name, passed, builds == "" ? "yes" : builds, tests,
-            failed, mean, noise, steps, outside }' "$4"
+        /^- Step / && !named[$3]++ { steps = steps " " substr($3, 1, length($3) - 1) }
+        END { print set "," passed "," failed "," mean "," noise "," substr(steps, 2) "," words }' "$1.txt" >"$1.row"
+    rm -rf "$tree" "$1.report"/*.pfm
 }
+used() { { grep -owE "$OUTSIDE" "$1"; grep '^ *# *include' "$1"; } | sort -u; }

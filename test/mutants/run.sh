@@ -3,7 +3,8 @@
 #   sh test/mutants/run.sh [WORKERS [NAME...]]      `make mutants` calls it; results in build-mutants/table.txt
 # A fault is caught when a test fails, or crashes, which the table says then; one that keeps a test running for TIMEOUT
 # seconds is reported as an error. What is doubtful fails at once, as in one suite of three hundred something does
-# without a fault. With WHOLE=no only the tests that the list names are run. Exit status 0 only if all faults are caught.
+# without a fault. With WHOLE=no only the tests that the list names are run.
+# Exit status 0 only if all faults are caught.
 set -u
 list=test/mutants/list.txt
 work=build-mutants
