@@ -95,7 +95,7 @@ prove() {
             bad=1
         done
     done
-    [ $bad -eq 0 ] && say "course: every hole and every step left out is found and named, and every original passes"
+    [ $bad -eq 0 ] && say "course: every mistake handed in is found and named, every original handed in passes"
     return $bad
 }
 
