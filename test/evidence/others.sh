@@ -1,6 +1,7 @@
 #!/bin/sh
 # others.sh: clones from GitHub the scenes that others.txt beside it lists. DIR/NAME is a copy of the folder of each
-# scene, so that relative paths hold, with a scene.pbrt that includes the scene. A scene that is there stays as it is.
+# scene, so that relative paths hold, with a scene.pbrt that includes the scene unless that is its name. A scene
+# that is there stays as it is.
 #   sh test/evidence/others.sh DIR
 set -eu
 [ $# -eq 1 ] || { echo "usage: sh test/evidence/others.sh DIR" >&2; exit 2; }
@@ -15,6 +16,7 @@ grep -v '^#' "$list" | while read -r name kind repository path commit; do
     mkdir -p "$1/$name"
     git -C "$clone" archive -o "$clone.tar" "$commit:./$(dirname "$path")"
     tar -x -f "$clone.tar" -C "$1/$name"
-    echo "Include \"$(basename "$path")\"" >"$1/$name/scene.pbrt"
+    scene=$(basename "$path")
+    [ "$scene" = scene.pbrt ] || echo "Include \"$scene\"" >"$1/$name/scene.pbrt"
     echo "$name: $kind, $repository/$path"
 done
