@@ -16,8 +16,9 @@
  * Learning. A path tracer makes training paths, and trees are grown where they have vertices. Then Gamma minimises the
  * second moment of the whole estimate with these weights, an upper bound of its variance:
  *     J = sum over training paths of f^2 / (p sum_i n_i p_i),   n_i = n(e,l) for every strategy that draws.
- * The render uses (1 - delta) Gamma + delta / n. A few steps lower J for new paths by some 5 %; more steps raise it,
- * because they fit the few training paths.
+ * Gamma begins in proportion to what paths contribute, and the render uses (1 - delta) Gamma + delta / n. In six
+ * training scenes, two steps of minimising change J of other paths by -1.1 to 0.3 %, and more steps are no better. So
+ * the first Gamma has nearly all of the gain.
  *
  * We could read the abstract of the paper and the two programs of its author. Differences from the programs:
  *   weights    as above
