@@ -186,20 +186,24 @@ static void ends(struct test *t)
     }
 }
 
-/* Emitted light does not pass see-through lamps, reflected light does: here from wall to wall. */
+/* Emitted light does not pass see-through lamps, reflected light does: here from wall to wall by way of a ball. */
 static void light_passes(struct test *t)
 {
     struct room r;
     struct vertex path[4];
-    int passed = 0;
+    int passed = 0, emitted = 0;
     if (!build(t, BOX, "AttributeBegin Material \"none\" AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] "
                "Shape \"sphere\" \"float radius\" .9 AttributeEnd\n", &r))
         return;
     for (uint64_t i = 0; i < 200; i++) {
         int n = walk(t, &r, IMPORTANCE, i, 0, path, 4);
-        for (int k = 1; k + 1 < n; k++)
-            passed += length(cross(path[k].p, normalize(sub(path[k + 1].p, path[k].p)))) < 0.85;
+        for (int k = 0; k + 1 < n; k++) {
+            bool through = length(cross(path[k].p, normalize(sub(path[k + 1].p, path[k].p)))) < 0.85;
+            passed += k > 0 && through;
+            emitted += k == 0 && through && length(path[0].p) > 1; /* by the ceiling, not by the ball itself */
+        }
     }
+    CHECK(t, emitted == 0, "lamp: emitted light passes a see-through lamp %d times in 200 walks", emitted);
     CHECK(t, passed > 10, "lamp: reflected light passes a see-through lamp %d times in 200 walks", passed);
     tear_down(&r);
 }
