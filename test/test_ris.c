@@ -166,8 +166,8 @@ static void test_weights(struct test *t, const char *path, const char *method)
 
 void test_ris(struct test *t)
 {
-    test_weights(t, "scenes/cornell-box-modified.pbrt", "ris records=.02 rrthreshold=1");
+    test_weights(t, "scenes/cornell-box-modified.pbrt", "ris records=.02 subpaths=200 rrthreshold=1");
     test_weights(t, "scenes/cornell-box-modified.pbrt", "ris2 records=.02 presampled=30");
-    test_weights(t, "scenes/veach-ajar.pbrt", "ris records=.02");
-    test_weights(t, "scenes/many-lights.pbrt", "ris records=.02 emission=0.2");
+    test_weights(t, "scenes/veach-ajar.pbrt", "ris records=.02 subpaths=200");
+    test_weights(t, "scenes/many-lights.pbrt", "ris records=.02 subpaths=200 emission=0.2");
 }

@@ -168,7 +168,7 @@ static void test_limits(struct test *t)
         const char *a, *b, *other;
         double bound;
     } cases[] = {
-        {"light-kinds", 1, 4, "mbdpt", "bdpt", "cbdpt connections=2", 0},
+        {"light-kinds", 1, 4, "mbdpt pathpixels=1", "bdpt", "cbdpt connections=2", 0},
         {"mirror-glass", SIDE, 4, "restir candidates=1 neighbours=0 worth=1", "bdpt",
          "restir candidates=1 neighbours=9 worth=1", 1e-6},
         {"light-kinds", SIDE, 4, "restir candidates=1 neighbours=0 worth=1", "bdpt",
@@ -176,8 +176,8 @@ static void test_limits(struct test *t)
         /* without records the choice is uniform; where light sub-paths have two vertices, two draws count like one */
         {"white", SIDE, 2, "pcbdpt records=0 connections=2 subpaths=256", "lvc connections=2",
          "pcbdpt records=.1 connections=2 subpaths=256", 0},
-        {"all-materials", SIDE, 4, "ris weights=counts records=.02", "pcbdpt normals=0 records=.02",
-         "pcbdpt records=.02", 0},
+        {"all-materials", SIDE, 4, "ris weights=counts records=.02 subpaths=200",
+         "pcbdpt normals=0 records=.02 connections=1", "pcbdpt records=.02 connections=1", 0},
         /* of one light sub-path every draw counts like one: the arrays of the path give what the recursion does */
         {"light-kinds", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
          "ris records=0 subpaths=2", 1e-5},

@@ -60,7 +60,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
 
 #define AT(member) offsetof(struct cbdpt_state, member)
 static const struct field PARAMETERS[] = {
-    {"connections", FIELD_INTEGER, AT(connections), 8, 1, 1024, "light sub-paths for each pixel", NULL},
+    {"connections", FIELD_INTEGER, AT(connections), 2, 1, 1024, "light sub-paths for each pixel", NULL},
     {"pathpixels", FIELD_INTEGER, AT(frozen.numbers.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path", NULL},
     SERVICES(false, 1, 1, DEFAULT_TILE_SIZE, 1),

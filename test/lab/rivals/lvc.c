@@ -64,7 +64,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
 
 #define AT(member) offsetof(struct lvc_state, member)
 static const struct field PARAMETERS[] = {
-    {"connections", FIELD_INTEGER, AT(connections), 1, 0, 1024,
+    {"connections", FIELD_INTEGER, AT(connections), 4, 0, 1024,
      "light vertices drawn for each eye vertex; 0, as in the paper: as many as a light sub-path has on average", NULL},
     {"pathpixels", FIELD_INTEGER, AT(frozen.numbers.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
      "pixels for each light sub-path", NULL},

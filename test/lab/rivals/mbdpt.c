@@ -108,7 +108,7 @@ static void connect_all(void *scratch, const void *state, const struct tile_pass
 }
 
 static const struct field PARAMETERS[] = {
-    {"pathpixels", FIELD_INTEGER, offsetof(struct frozen, numbers.path_pixels), 1, 1,
+    {"pathpixels", FIELD_INTEGER, offsetof(struct frozen, numbers.path_pixels), 2, 1,
      DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE, "pixels for each light sub-path", NULL},
     {"key", FIELD_WORD, offsetof(struct mbdpt_state, throughput), 0, 0, 0, "what sub-paths are sorted by", KEYS},
     SERVICES(false, 1, 1, DEFAULT_TILE_SIZE, 1),

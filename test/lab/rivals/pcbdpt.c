@@ -53,8 +53,8 @@ static void prepare(const struct render_job *job, struct preparation *out)
 
 #define AT(member) offsetof(struct pcbdpt_state, member)
 static const struct field PARAMETERS[] = {
-    {"connections", FIELD_INTEGER, AT(connections), 1, 1, 1024, "light vertices drawn for each eye vertex", NULL},
-    {"subpaths", FIELD_INTEGER, AT(ris.sub_paths), RECORDS_SUB_PATHS, 1, 1e6, "light sub-paths that are drawn from",
+    {"connections", FIELD_INTEGER, AT(connections), 4, 1, 1024, "light vertices drawn for each eye vertex", NULL},
+    {"subpaths", FIELD_INTEGER, AT(ris.sub_paths), 200, 1, 1e6, "light sub-paths that are drawn from",
      NULL},
     {"records", FIELD_NUMBER, AT(ris.records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
     {"normals", FIELD_NUMBER, AT(normals), 0.5, 0, 1e6, "weight of normals relative to places when records are sought",

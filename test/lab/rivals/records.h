@@ -14,7 +14,7 @@
 
 #include "integrators/pooled.h"
 
-enum { RECORDS_NEAR = 3, RECORDS_DEPTH = 5, RECORDS_TILE = MAX_TILE_SIZE, RECORDS_SUB_PATHS = 200 };
+enum { RECORDS_NEAR = 3, RECORDS_DEPTH = 5, RECORDS_TILE = MAX_TILE_SIZE };
 #define RECORDS_SHARE 0.004 /* of the pixels have a record's eye sub-path */
 
 struct record {

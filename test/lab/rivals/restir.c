@@ -127,7 +127,7 @@ static void prepare(const struct render_job *job, struct preparation *out)
 
 #define AT(member) offsetof(struct restir_state, member)
 static const struct field PARAMETERS[] = {
-    {"candidates", FIELD_INTEGER, AT(candidates), 16, 1, 1024, "light points of which a pixel keeps one", NULL},
+    {"candidates", FIELD_INTEGER, AT(candidates), 8, 1, 1024, "light points of which a pixel keeps one", NULL},
     {"neighbours", FIELD_INTEGER, AT(neighbours), 5, 0, MOST_NEIGHBOURS, "pixels whose light points it shares",
      NULL},
     {"worth", FIELD_NUMBER, AT(credit), 4, 1e-3, 1e6, "samples that one kept counts for in the weights", NULL},

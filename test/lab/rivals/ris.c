@@ -429,7 +429,7 @@ void ris_prepare(const struct render_job *job, struct preparation *out)
 #define AT(member) offsetof(struct ris_state, member)
 static const struct field PARAMETERS[] = {
     {"weights", FIELD_WORD, AT(nabata), 1, 0, 0, "what draws count for", RIS_WEIGHTS},
-    {"subpaths", FIELD_INTEGER, AT(sub_paths), RECORDS_SUB_PATHS, 1, 1e6, "light sub-paths that are drawn from",
+    {"subpaths", FIELD_INTEGER, AT(sub_paths), 50, 1, 1e6, "light sub-paths that are drawn from",
      NULL},
     {"records", FIELD_NUMBER, AT(records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
     RIS_SERVICES,
