@@ -1,5 +1,4 @@
 /* cmd_compare.c: asbdpt-lab compare IMAGE REFERENCE: how far apart two pictures are. */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 

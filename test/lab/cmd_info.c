@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/os.h"
-#include "base/progress.h"
 #include "cli/job_options.h"
 #include "image/image.h"
 #include "lab/commands.h"

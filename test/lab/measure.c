@@ -5,10 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/mem.h"
-#include "base/number.h"
 #include "base/progress.h"
 #include "lab/files.h"
 #include "lab/equal.h"
