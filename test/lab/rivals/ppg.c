@@ -17,7 +17,8 @@
  *   - Training is a fixed number of samples, which are not part of the image: a render may go on, so its length is not
  *     known. The papers give half of all samples to the last pass, or combine passes by their inverse variances.
  *   - a is found by Newton's method and kept between 0.1 and 0.9. The papers take Adam with a term of regularisation.
- *   - Roulette is that of `pt`. Its author's program does not have that of the first paper either.
+ *   - Roulette is that of `pt`, by the throughput that the path would have if the BSDF had drawn all directions: a path
+ *     towards light has a low one. The first paper's takes expected contributions; its author's program has none.
  * The tree sees neither normals nor materials. Delta lobes and all scattering in media are left to the BSDF. Like `pt`,
  * it misses what delta lights send through mirrors and glass. Without training it is `pt` to the bit.
  *
@@ -26,8 +27,8 @@
 #include <stddef.h>
 
 #include "base/warp.h"
-#include "integrators/method.h"
 #include "learning/training.h"
+#include "rivals/plain.h"
 #include "rivals/sdtree.h"
 
 struct ppg_state {
@@ -41,7 +42,7 @@ struct step {
     const struct sd_leaf *guide; /* of the place; NULL: there the BSDF draws alone */
     bool left;
     struct departure from; /* before roulette */
-    double odds;           /* p_bsdf / (p_bsdf + p_guide) in that direction */
+    double odds, lost;     /* p_bsdf / (p_bsdf + p_guide) and p_bsdf / p in that direction */
     rgb before;            /* what the sample had found up to this vertex */
 };
 
@@ -77,6 +78,7 @@ static bool leave(const struct walk *w, const struct vertex *z, struct step *ste
         out->pdf = mixed(guide, bsdf, known);
         out->beta = rgb_scale(out->beta, (by_guide ? 1 : bsdf) / out->pdf);
         step->odds = bsdf / (bsdf + known);
+        step->lost = bsdf / out->pdf;
         step->from = *out;
     }
     return step->left;
@@ -86,15 +88,17 @@ static bool leave(const struct walk *w, const struct vertex *z, struct step *ste
 static int walk_guided(const struct sdtree *tree, const struct walk *w, struct vertex *path, struct step *step, int n,
                        int most)
 {
+    double lost = 1; /* of the throughput, since directions are likelier than by the BSDF */
     for (bool met = n > 1; met;) {
         struct vertex *z = &path[n - 1];
         struct departure from;
-        step[n - 1] = (struct step){.guide = NULL};
+        step[n - 1] = (struct step){.lost = 1};
         if (z->kind == VERTEX_SURFACE && z->bsdf.n_smooth > 0)
             step[n - 1].guide = &tree->node[sdtree_find(tree, z->p, NULL)].leaf;
         if (n == most || !leave(w, z, &step[n - 1], &from))
             break;
-        double left = rgb_max(from.beta), q = sqrt(left / w->rr_threshold);
+        lost *= step[n - 1].lost;
+        double left = rgb_max(from.beta) / lost, q = sqrt(left / w->rr_threshold);
         if (n > 2 && left < w->rr_threshold) { /* roulette, see path.h */
             from.beta = rgb_scale(from.beta, 1 / q);
             if (sampler_number(w->sampler, DRAW_ROULETTE) >= q)
@@ -219,6 +223,8 @@ static void prepare(const struct render_job *job, struct preparation *out)
                          .patience = patience_begin(job)};
     struct pass pass = {.training = &t, .context = s, .trace = trace, .take = take};
     vec3 low, high;
+    s->frozen.services.emission = 1; /* there are no light sub-paths */
+    plain_prepare(job, out);
     train_extent(&t, &low, &high);
     sdtree_init(&s->tree, low, high);
     for (long n = 1; 2 * n - 1 <= s->training && !t.patience.over; n *= 2) {
@@ -240,7 +246,8 @@ static void release(void *state)
 #define AT(member) offsetof(struct ppg_state, member)
 static const struct field PARAMETERS[] = {
     {"training", FIELD_INTEGER, AT(training), 15, 0, 1 << 20, "most samples of a pixel in all of training", NULL},
-    {"cell", FIELD_INTEGER, AT(cell), 4000, 1, 1 << 30, "records of the first pass above which a leaf is halved", NULL},
+    {"cell", FIELD_INTEGER, AT(cell), 250, 1, 1 << 30, "records of the first pass above which a leaf is halved", NULL},
+    SERVICE_GUIDE(false), SERVICE_CREDIT(1),
     {.name = NULL}};
 
 const struct method method_ppg = {

@@ -9,7 +9,7 @@
 #include "base/warp.h"
 
 enum { QUAD_DEPTH = 20, NODES_MOST = 8192 }; /* about 40 MiB */
-static const double QUAD_SHARE = 0.01;       /* rho: most of the light in a cell [Mueller 2017] */
+static const double QUAD_SHARE = 0.04;       /* rho: most of the light in a cell [Mueller 2017] */
 static const double FIRST_SHARE = 0.5, LEAST_SHARE = 0.1, MOST_SHARE = 0.9;
 
 /* --- directions -------------------------------------------------------------------------------------- */
