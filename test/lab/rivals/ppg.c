@@ -19,7 +19,7 @@
  *   - a is found by Newton's method and kept between 0.1 and 0.9. The papers take Adam with a term of regularisation.
  *   - Roulette is that of `pt`, by the throughput that the path would have if the BSDF had drawn all directions: a path
  *     towards light has a low one. The first paper's takes expected contributions; its author's program has none.
- * The tree sees neither normals nor materials. Delta lobes and all scattering in media are left to the BSDF. Like `pt`,
+ * The tree does not see normals and materials. Delta lobes and all scattering in media are left to the BSDF. Like `pt`,
  * it misses what delta lights send through mirrors and glass. Without training it is `pt` to the bit.
  *
  * Tests: test_rivals.c.
