@@ -27,7 +27,7 @@ one() {
     missing= words=
     for file in $(files "$n"); do
         cp "$1/${file##*/}" "$tree/$file" 2>/dev/null || missing="$missing ${file##*/}"
-        words=$words$(used "$tree/$file" | grep -vxF "$(used "$original/$file")" | tr ',"\n' '   ')
+        words=$words$(used "$tree/$file" | grep -vxF "$(used "$original/$file")" | tr ',\n' '  ')
     done
     if [ -n "$missing" ]; then say "Not handed in:$missing"; else (ulimit -f 200000; grade "$n" "$tree"); fi 2>&1 |
         sed "s|$tree/report|$1.report|; s|$tree|$1|" >"$1.txt"
@@ -35,12 +35,13 @@ one() {
     awk -v set="$(basename "${1%/*}"),$n" -v words="$words" '
         BEGIN { passed = "no"; failed = "picture" }
         /^All is well/ { passed = "yes"; failed = "" }
-        /^It does not compile|^Not handed in/ { failed = tolower($0) }
+        /^It does not compile/ { failed = "does not compile" }
+        /^Not handed in/ { failed = tolower($0) }
         /^Test .*FAILED/ { failed = "test " $2 }
         /^Mean: / { mean = $2 }
         /^Noise: / { noise = $2 }
         /^- Step / && !named[$3]++ { steps = steps " " substr($3, 1, length($3) - 1) }
         END { print set "," passed "," failed "," mean "," noise "," substr(steps, 2) "," words }' "$1.txt" >"$1.row"
-    rm -rf "$tree" "$1.report"/*.pfm
+    rm -rf "$tree" "$1.report"/*.pfm*
 }
-used() { { grep -owE "$OUTSIDE" "$1"; grep '^ *# *include' "$1"; } | sort -u; }
+used() { { grep -owE "$OUTSIDE" "$1"; sed -n 's/^ *# *include *["<]\(.*\)[">].*/\1/p' "$1"; } | sort -u; }
