@@ -1,4 +1,4 @@
-# bins.awk: two tables from bins.txt of bins.sh: bias, the mean against the truth (defaults: of these alone); stall,
+# bins.awk: two tables from bins.txt of bins.sh: bias, the mean against the truth; stall,
 # rmse8 beside bdpt's, in brackets without the reference's noise. The published ratios are those of the dissertation.
 BEGIN {
     noise = 0.6947
@@ -18,7 +18,6 @@ END {
     print "| `restart` 64 | " off("restart=64") " | | `binpaths` 32 | " off("binpaths=32") " |"
     print "| `restart` 0 (never) | " off("restart=0") " | | `maxage` 8 | " off("maxage=8") " |"
     print "| `bdpt` | " off("bdpt") " | | `maxage` 0 (never) | " off("maxage=0") " |"
-    print "== defaults\n" off("bins")
     print "== stall\n| spp | bins | bdpt | ratio | published ratio |\n|---|---|---|---|---|"
     for (i = 1; i <= 5; i++) {
         spp = 16 * 2 ^ i

@@ -1,5 +1,5 @@
 # equal.awk: sections of doc/measured from family.md of `asbdpt-lab family`, where the default is called subspaces. Of
-# the last file: table, a row for each scene; mean, worst: these two alone; without: the mean without the best scene;
+# the last file: table, a row for each scene; mean: that alone; without: the mean without the best scene;
 # better: the mean over the better of bdpt and pt, which counts where it has no mark, like "misses light", behind its
 # interval; losses: where that is above 1. Of two files, with 16 and 64 samples: sizes, what the default makes of the
 # better one, a line where learning left no time for a sample.
@@ -47,13 +47,12 @@ END {
     if (!n) exit 1
     split("rmse8 relmse 8x8", name, " ")
     print "== table\n| scene | pt, rmse8 | asbdpt, rmse8 | asbdpt, relmse | asbdpt, 8x8 |\n|---|---:|---:|---:|---:|"
-    best = worst = 1
+    best = 1
     for (i = 1; i <= n; i++) {
         print "| " scene[i] " | " cell("pt", "rmse8", i) " | " bold(cell("subspaces", "rmse8", i)) " | " \
             cell("subspaces", "relmse", i) " | " cell("subspaces", "8x8", i) " |"
         q[i] = number(cell("subspaces", "rmse8", i))
         if (q[i] < q[best]) best = i
-        if (q[i] > q[worst]) worst = i
         over = over_better(file, "rmse8", i)
         better += log(over > 0 ? over : 1)
         losses += over > 1
@@ -63,8 +62,7 @@ END {
     print "| **geometric mean** | " cell("pt", "summary", 4) " | " bold(all) " | " \
         cell("subspaces", "summary", 5) " | " cell("subspaces", "summary", 6) " |"
     sub(/ .*/, "", all)
-    printf "== mean\n%s\n== worst\n%.3f (`%s`)\n== without\n%.2f without `%s`\n", all, q[worst], scene[worst],
-        exp(rest / (n - 1)), scene[best]
+    printf "== mean\n%s\n== without\n%.2f without `%s`\n", all, exp(rest / (n - 1)), scene[best]
     printf "== better\n%.2f\n== losses\n%d of %d\n", exp(better / n), losses, n
     if (file > 1) sizes()
 }
