@@ -180,6 +180,7 @@ suites() {
 # hints NAME CHECK FILE: what to think of if CHECK (a test, or "picture") fails and says what is in FILE: the hints
 # whose pattern is there; if there is none, the check that failed, and those without a pattern.
 hints() {
+    [ -n "$(get "$1" hint)" ] || return 0 # an exercise has an answer instead
     say "" "What to think of:"
     get "$1" hint | awk -v check="$2" -v said="$3" '
         BEGIN { while ((getline line < said) > 0) { text = text line "\n"; if (first == "") first = line } }
@@ -193,7 +194,8 @@ hints() {
         }
         END {
             sub(/^.*FAIL [^ ]* /, "", first)
-            printf "%s", special != "" ? special : "No step is sure. " first "\nIt may be one of these:\n" general
+            if (special == "") print "No step is sure. " first
+            printf "%s", special != "" ? special : general != "" ? "It may be one of these:\n" general : ""
         }'
 }
 
