@@ -10,6 +10,10 @@ function mark(v, y, fill, radius,    x) {
     else
         printf "<circle cx='%g' cy='%g' r='%g' fill='%s' stroke='#222'/>", x, y, radius, fill
 }
+# The end of a whisker.
+function end(v, y) {
+    return sprintf("M%g %g", place(within(v)), y - 4) (v < least ? "m5 0l-5 4l5 4" : v > most ? "m-5 0l5 4l-5 4" : "v8")
+}
 BEGIN { if (left == "") left = 160; width = 420; across = left + width + 60 }
 { label[NR] = $1; value[NR] = $2; from[NR] = $3; to[NR] = $4; other[NR] = $5 }
 END {
@@ -33,8 +37,8 @@ END {
         y = 70 + 22 * (i - 1)
         printf "<text x='%g' y='%g' text-anchor='end'>%s</text>", left - 14, y + 4, label[i]
         if (other[i] != "-") mark(other[i], y, "white", 6)
-        printf "<path d='M%g %gH%gM%g %gv8M%g %gv8' stroke='#222'/>", place(within(from[i])), y, place(within(to[i])),
-            place(within(from[i])), y - 4, place(within(to[i])), y - 4
+        printf "<path d='M%g %gH%g%s%s' stroke='#222' fill='none'/>", place(within(from[i])), y, place(within(to[i])),
+            end(from[i], y), end(to[i], y)
         mark(value[i], y, "#4393c3", 4)
         print ""
     }

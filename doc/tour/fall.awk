@@ -1,13 +1,14 @@
 # fall.awk: curves as SVG, both axes logarithmic, with dashed lines from where each begins. Reads lines "NAME N VALUE",
 # those of a name together; -v title=. Unless -v across= and -v up= name the axes, N are samples per pixel, and values are
-# errors. Unless -v slope= is given, the dashed lines are proportional to 1/sqrt(N).
+# errors. Unless -v slope= is given, the dashed lines are proportional to 1/sqrt(N). -v wide=: pixels of the N axis.
 BEGIN {
     if (slope == "") slope = -0.5
+    if (wide == "") wide = 420
     if (across == "") across = "samples per pixel"
     if (up == "") up = "rmse of 8-bit values; lower is better"
     split("#1d5fbf #c96f00 #23823b #b0408f #777777 #8a6d00", colour, " ")
 }
-function X(n) { return 70 + 420 * log(n / first) / log(last / first) }
+function X(n) { return 70 + wide * log(n / first) / log(last / first) }
 function Y(e) { return 300 - 250 * log(e / least) / log(most / least) }
 # Where a name is: below all that are too near.
 function label(y,    i) {
@@ -18,19 +19,21 @@ function label(y,    i) {
 NR == 1 { first = last = $2; least = most = $3 }
 { if ($2 < first) first = $2; if ($2 > last) last = $2; if ($3 < least) least = $3; if ($3 > most) most = $3 }
 END {
-    every = last / first > 2000 ? 10 : 4
+    every = sprintf("%.3f", log(last / first) / log(10)) ~ /[.]000$/ ? 10 : 4
     least /= 1.3; most *= 1.3
-    print "<svg xmlns='http://www.w3.org/2000/svg' width='620' height='350' viewBox='0 0 620 350' font-family='sans-serif' " \
-        "font-size='13'><rect width='100%' height='100%' fill='white'/>"
+    printf "<svg xmlns='http://www.w3.org/2000/svg' width='%d' height='350' viewBox='0 0 %d 350' font-family='sans-serif' ",
+        wide + 200, wide + 200
+    print "font-size='13'><rect width='100%' height='100%' fill='white'/>"
     printf "<text x='10' y='20' font-weight='bold'>%s</text>\n", title
     for (k = first; k <= last; k *= every)
         printf "<path d='M%g 40V300' stroke='#ddd'/><text x='%g' y='318' text-anchor='middle'>%d</text>\n", X(k), X(k), k
-    print "<text x='280' y='340' text-anchor='middle'>" across "</text>"
+    print "<text x='" 70 + wide / 2 "' y='340' text-anchor='middle'>" across "</text>"
     print "<text x='14' y='175' text-anchor='middle' transform='rotate(-90 14 175)'>" up "</text>"
     for (p = -3; p < 4; p++)
         for (m = 1; m <= 5; m += m == 1 ? 1 : 3)
             if ((v = m * exp(p * log(10))) >= least && v <= most)
-                printf "<path d='M70 %gH490' stroke='#ddd'/><text x='64' y='%g' text-anchor='end'>%.3g</text>\n", Y(v), Y(v) + 4, v
+                printf "<path d='M70 %gH%d' stroke='#ddd'/><text x='64' y='%g' text-anchor='end'>%.4g</text>\n",
+                    Y(v), 70 + wide, Y(v) + 4, v
     for (i = 1; i <= NR; i++)
         if (name[i] != name[i - 1]) {
             c = colour[++series]
@@ -44,7 +47,8 @@ END {
                 d = d (j > i ? "L" : "M") sprintf("%.1f %.1f", X(n[j]), Y(e[j]))
                 printf "<circle cx='%.1f' cy='%.1f' r='3.5' fill='%s'/>\n", X(n[j]), Y(e[j]), c
             }
-            printf "<path d='%s' fill='none' stroke='%s' stroke-width='2'/><text x='500' y='%.1f' fill='%s'>%s</text>\n", d, c, label(Y(e[j - 1]) + 4), c, name[i]
+            printf "<path d='%s' fill='none' stroke='%s' stroke-width='2'/><text x='%d' y='%.1f' fill='%s'>%s</text>\n", d, c,
+                80 + wide, label(Y(e[j - 1]) + 4), c, name[i]
         }
     print "</svg>"
 }
