@@ -37,6 +37,7 @@ END {
         s = name[i]
         misses[s] = ratio["pt", "rmse8:", s] ~ /[a-z]/
         missed += misses[s]
+        if (ratio["asbdpt", "rmse8:", s] ~ /[a-z]/) dark = dark (dark ? ", `" : " in `") s "`"
         line = s " " over(s, "rmse8:") " " over(s, "8x8:")
         data = data line "\n"
         kind = s; sub(/^[0-9]+-/, "", kind)
@@ -57,9 +58,10 @@ END {
     row("**all**")
     print "\n![Squared error of asbdpt over the better of bdpt and pt, in each generated scene](structures.svg)"
     all = exp(logs["**all**", 1] / n["**all**", 1])
-    printf "== all\n%.2f of the squared error of the better of `bdpt` and `pt` in the mean, %.2f at worst; ", all,
+    printf "== all\n%.2f of the squared error of the better of `bdpt` and `pt` in the mean, %.2f at worst. ", all,
         most["**all**", 1]
-    printf "`pt` misses light in %d, learning leaves `asbdpt` no time in %d.\n== data\n%s", missed, lost, data
+    printf "`pt` misses light in %d, `asbdpt`%s. Learning leaves `asbdpt` no time in %d.\n== data\n%s", missed,
+        dark ? dark : " in 0", lost, data
     if (mean && all > mean) { bad = 1; print "structures: mean " all >"/dev/stderr" }
     exit bad
 }
