@@ -51,7 +51,7 @@ td a { overflow-wrap: normal; }
 td.right { white-space: nowrap; }
 img { max-width: 100%; height: auto; vertical-align: middle; }
 img[src$=".svg"] { background: white; }
-img[src^="figures/"][src$=".png"] { min-width: min(14em, 48%); }
+img[src*="figures/"][src$=".png"] { min-width: min(14em, 48%); }
 sub, sup { font-size: 0.72em; line-height: 0; }
 .source { max-width: none; }
 .n { color: #888; }
