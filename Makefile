@@ -121,23 +121,23 @@ check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject #
 	diff -r -x equal.png -x gains.svg doc/tour/figures out/figures
 	BUILD=$(BUILD) sh test/structures.sh out/structures
 
-check-ref: asbdpt asbdpt-lab ## are the stored references still what the program converges to?
+check-ref: asbdpt asbdpt-lab ## check that the program still converges to the stored references
 	sh ref/check-ref.sh $(PROGRAM)
 
-portability: ## build by every compiler, and for every system, that is at hand or emulated; the pictures must be the same
+portability: ## build by every compiler, and for every system, that is at hand or emulated; the images must be the same
 	sh test/portability.sh
 
-hashes: asbdpt asbdpt-lab ## write the list of pictures' checksums anew, after a change that is meant to change pictures
+hashes: asbdpt asbdpt-lab ## write the checksums of images again, after a change that is meant to change images
 	sh test/hashes.sh $(PROGRAM) renew
 	LIST=test/lab/hashes.txt sh test/hashes.sh $(LAB) renew
 
 mutants: ## apply small faults one by one; the tests must catch every one
 	sh test/mutants/run.sh 2
 
-layers: ## check that no file includes a higher room, that no room holds a circle, that headers compile alone and offer what is used
+layers: ## check that no file includes a higher folder, that no includes go in a circle, that headers compile alone and offer what is used
 	@ABOVE="test/lab/caustics test/lab/rivals test/lab/chains test/lab" sh test/layers.sh src $(CC)
 
-standard: ## check that src calls and includes nothing that differs from machine to machine, but in one place
+standard: ## check that src calls and includes nothing that differs from machine to machine, except in base/os*.c
 	@sh test/standard.sh
 
 references: ## check that every source named in a comment is in doc/references.md, and that all there are used
@@ -150,7 +150,7 @@ faults: ## check that every fault of the list of mutants still applies, and ever
 evidence: asbdpt asbdpt-lab ## measure again what is old or missing of the documents' numbers (NAMES="..."; hours), and fill it in
 	sh test/evidence.sh run $(NAMES)
 
-measured: ## check that the documents show the numbers that are stored, and say of old ones that they are
+measured: ## check that the documents show the stored numbers, and mark old ones
 	@sh test/evidence.sh check
 
 .PHONY: limits
