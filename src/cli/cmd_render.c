@@ -234,4 +234,4 @@ static int run(void *options)
 const struct command command_render = {
     "render", "render a scene to images", {"SCENE.pbrt [-o FILE.{pfm,exr,png,ppm}]... [options]"}, RENDER_OPTIONS,
     sizeof(struct job_options), run, false,
-    "render scenes/veach-ajar.pbrt --quick --spp 16 -o ajar.png"};
+    "render scenes/veach-ajar.pbrt --quick --spp 16 -o out/ajar.png"};

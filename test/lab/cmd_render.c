@@ -43,4 +43,4 @@ static int run(void *options)
 
 const struct command command_render_more = {
     "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,png,ppm}]... [options]"}, RENDER_OPTIONS,
-    sizeof(struct job_options), run, false, "render scenes/veach-ajar.pbrt --quick --spp 16 -o ajar.png"};
+    sizeof(struct job_options), run, false, "render scenes/veach-ajar.pbrt --quick --spp 16 -o out/ajar.png"};

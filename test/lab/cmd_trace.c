@@ -54,4 +54,4 @@ const struct command command_trace = {
     "trace", "one sample of a pixel, told in ten lines or in full: sub-paths, choices, connections, weights",
     {"SCENE.pbrt --pixel X,Y [--sample K | --brightest] [--all] [--svg FILE] [options]"},
     OPTIONS, sizeof(struct trace_options), run, true,
-    "trace scenes/bathroom.pbrt --pixel 150,120 --svg paths.svg"};
+    "trace scenes/bathroom.pbrt --pixel 150,120 --svg out/paths.svg"};

@@ -52,4 +52,4 @@ static int run(void *options)
 const struct command command_worth = {
     "worth", "what light vertices are worth to a surface point, as a picture",
     {"SCENE.pbrt --pixel X,Y -o FILE.png [options]"}, OPTIONS, sizeof(struct worth_options), run, false,
-    "worth scenes/veach-ajar.pbrt --pixel 24,20 --res 48x27 --spp 64 -o worth.png"};
+    "worth scenes/veach-ajar.pbrt --pixel 24,20 --res 48x27 --spp 64 -o out/worth.png"};
