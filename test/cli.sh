@@ -28,50 +28,35 @@ refuse() { # PATTERN WORDS...: wrong usage of the program
 for command in info equal-time bench; do refuse "^asbdpt: unknown command $command; try" $command; done
 refuse '^asbdpt: there is no integrator lvc; known are: pt lt bdpt asbdpt$' render "$box" --integrator lvc
 prints '^lvc$' "$lab" help integrators
-refuse 'unknown command .*cornell-box; try' "${box%.pbrt}"
 # A file that is called like an option is not taken for one: what is wrong with it is no wrong usage.
-for word in -o--x/y.png --stats=--x/y --resume=--x; do
-    expect 1 '^asbdpt: --x' "$program" render "$box" $small "$word"
-done
+expect 1 '^asbdpt: --x' "$program" render "$box" $small -o--x/y.png
 # One meaning of --res everywhere: a width keeps the film's shape.
-ajar=$scenes/veach-ajar.pbrt
-prints '^film  *24x14,' "$lab" info "$ajar" --res 24
-expect 0 '' "$program" render "$ajar" --spp 1 --maxdepth 1 --quiet --res 24 -o shape.pfm
-check [ "$(head -n 2 shape.pfm | tail -n 1)" = "24 14" ]
+prints '^film  *24x14,' "$lab" info "$scenes/veach-ajar.pbrt" --res 24
 refuse 'asbdpt: which command'
 refuse 'unknown command rendr; try asbdpt --help' rendr
 refuse 'needs a scene' render
-refuse 'needs a scene' --quick # no command: render
 refuse 'unknown option --sppp; try asbdpt render --help' render "$box" --sppp 3
 refuse 'no integrator has a parameter "selct"; asbdpt help' render "$box" -P selct=bins
 refuse 'delta = "7": give a number' render "$box" -P delta=7 --integrator asbdpt
-refuse 'select = "bin" is unknown: give "subspaces", "bins", "pool" or "vertices"' \
-    render "$box" $small -P select=bin --integrator asbdpt -o x.pfm
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
 
 # --- parameters
-# pbrt's lightsamplestrategy: its three names are taken by every integrator.
-strategy() { printf 'Integrator "%s" "string lightsamplestrategy" "%s"\nWorldBegin\nWorldEnd\n' "$1" "$2"; }
-strategy path spacial >strategy.pbrt
+# A word that a parameter does not have is an error. pbrt's lightsamplestrategy is taken by every integrator.
+printf 'Integrator "path" "string lightsamplestrategy" "spacial"\nWorldBegin\nWorldEnd\n' >strategy.pbrt
 expect 1 '^asbdpt: strategy.pbrt:1:[0-9]+: lightsamplestrategy = "spacial" is unknown: give "spatial"' \
     "$lab" info strategy.pbrt
-strategy path uniform >known.pbrt
-expect 0 '^asbdpt: warning: known.pbrt:1:[0-9]+: "lightsamplestrategy" is "power" instead of "uniform"' \
-    "$program" render known.pbrt --res 16x16 --spp 2 -o x.pfm
-check grep -q '^asbdpt: warning: known.pbrt: there are no lights, so the image is black' stderr.txt
-# Then nothing is rendered, whatever is asked for: a million samples of each of a hundred thousand pixels, in no time.
+# Without lights nothing is rendered, whatever is asked for: a million samples of a hundred thousand pixels, in no time.
 printf 'WorldBegin Shape "sphere" WorldEnd\n' >dark.pbrt
 printf 'WorldBegin WorldEnd\n' >empty.pbrt
 for method in pt lt bdpt asbdpt; do
     expect 0 '480x270, 1000000 spp' "$program" render dark.pbrt --integrator $method --res 480x270 --spp 1000000 \
         --time 5 --aov variance -o dark.ppm
 done
+check grep -q '^asbdpt: warning: dark.pbrt: there are no lights, so the image is black' stderr.txt
 check [ "$(tail -c +16 dark.ppm | tr -d '\000' | wc -c)" = 0 ]
 expect 0 '' "$program" render dark.pbrt --res 16x16 --spp 4 --alpha --quiet -o dark.png # but what the lens sees
 expect 0 '' "$program" render empty.pbrt --res 16x16 --spp 4 --alpha --quiet -o empty.png
 check test -n "$(cmp dark.png empty.png 2>&1)"
-expect 0 '' "$program" render dark.pbrt --res 16x16 --spp 4 --samples 1:3 --quiet -o dark.part
-check grep -aq '^done 2 0$' dark.part
 
 # Parameters of pbrt's integrators that have no effect here are said; those of -P must be right. info and render agree.
 printf 'Integrator "sppm" "integer numiterations" 3 "integer maxdepth" 100000
@@ -80,40 +65,22 @@ for command in info "render --res 16x16 --spp 1"; do
     expect 0 'warning: sppm.pbrt:1:19: "numiterations" is not used: no integrator here' "$lab" $command sppm.pbrt
     check grep -q 'warning: sppm.pbrt:1:45: "maxdepth" is 100000, which counts as 1000' stderr.txt
     check grep -q 'warning: sppm.pbrt: integrator "sppm" does not exist here; bdpt is used' stderr.txt
-    check [ "$(grep -c warning: stderr.txt)" = 3 ]
-    expect 1 'sppm.pbrt:1:19: "numiterations" is not used' "$lab" $command sppm.pbrt --strict
-    expect 2 '^asbdpt: -P: no integrator has a parameter "radiuss"' "$lab" $command sppm.pbrt -P radiuss=3
     expect 2 '^asbdpt: -P: maxdepth = "100000": give a whole number' "$lab" $command sppm.pbrt -P maxdepth=100000
 done
 check [ -f x.png ]
 
 # Parameters of another integrator than the one that renders: an error in -P, a warning in a file that names no other.
 printf 'Integrator "bdpt" "string select" "bins"\nWorldBegin\nLightSource "point"\nWorldEnd\n' >other.pbrt
-for command in info "render $small -o x.pfm" "trace --pixel 0,0 --res 16x16"; do
-    expect 2 '^asbdpt: -P: "select" is a parameter of asbdpt, not of bdpt; see --integrator$' \
-        "$lab" $command "$box" --integrator bdpt -P select=bins
-    expect 0 '' "$lab" $command "$box" --integrator asbdpt -P select=bins -P maxdepth=3
-done
+expect 2 '^asbdpt: -P: "select" is a parameter of asbdpt, not of bdpt; see --integrator$' \
+    "$lab" info "$box" --integrator bdpt -P select=bins
 expect 0 '^asbdpt: warning: other.pbrt:1:19: "select" is not used: it is a parameter of asbdpt$' \
     "$lab" info other.pbrt
-expect 0 '' "$lab" info other.pbrt --strict --integrator asbdpt
-sed s/bdpt/asbdpt/ other.pbrt >own.pbrt
-expect 0 '' "$lab" info own.pbrt --strict --integrator bdpt
-expect 2 '"select" is a parameter of asbdpt, not of pt; see' \
-    "$lab" verify "$box" --methods pt,bdpt --spp 8 --quiet -P select=vertices
-
-depth() { sed -n 's/^  maxdepth    //p' stdout.txt; }
-printf 'Integrator "bdpt" "integer maxdepth" 6\nWorldBegin\nLightSource "point"\nWorldEnd\n' >typed.pbrt
-expect 0 '' "$lab" info typed.pbrt -P maxdepth=7 --maxdepth 8
-check [ "$(depth)" = 8 ]
-expect 0 '' "$lab" info typed.pbrt -P maxdepth=6 -P maxdepth=7
-check [ "$(depth)" = 7 ]
+prints '^  maxdepth    8$' "$lab" info other.pbrt -P maxdepth=6 -P maxdepth=7 --maxdepth 8 # the last counts
 
 # --- outputs
 
 # Outputs are opened before the work begins, and nothing is left of them when it fails.
 expect 1 "^asbdpt: no/x.pfm: cannot be created" "$program" render nothing.pbrt -o good.pfm -o no/x.pfm
-expect 1 'nothing.pbrt' "$program" render nothing.pbrt -o good.pfm
 expect 1 'binpaths 7 is odd' \
     "$program" render "$box" $small -P select=bins -P binpaths=7 --integrator asbdpt -o good.pfm
 check [ ! -e good.pfm ]
@@ -123,33 +90,21 @@ echo 'Film "image" "string filename" "-" WorldBegin WorldEnd' >dash.pbrt
 expect 0 'wrote -\.png' "$program" render dash.pbrt --res 16x16 --spp 2
 check [ ! -s stdout.txt ]
 rm -f ./-.png
-echo 'Include "-" WorldBegin WorldEnd' >dash.pbrt
-expect 1 'dash.pbrt:1:9: \./-: cannot open' "$lab" info dash.pbrt </dev/null
-# A link to a file is replaced; a circle is refused; rights are kept.
-expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o target.pfm
-chmod 640 target.pfm
-ln -s target.pfm link.pfm
-expect 0 'wrote link.pfm, x.ppm$' "$program" render "$box" --res 8x8 --spp 1 -o link.pfm -o x.ppm
-check [ ! -h link.pfm ]
-expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o target.pfm
+# A file that is replaced keeps its rights.
+touch target.pfm && chmod 640 target.pfm
+expect 0 'wrote target.pfm, x.ppm$' "$program" render "$box" --res 8x8 --spp 1 -o target.pfm -o x.ppm
 check [ -n "$(find target.pfm -perm 640)" ]
-ln -s circle.pfm circle.pfm
-expect 1 'circle.pfm: cannot be created' "$program" render nothing.pbrt -o circle.pfm
 # Standard input and output: -.
 "$program" render - --res 8x8 --spp 1 --quiet -o - <"$box" >piped.pfm
 check cmp -s piped.pfm target.pfm
 
 # --- scenes
-# One line with place and caret for what a scene file can get wrong.
 # Warnings are errors by --strict, and all errors come in one run.
 printf 'WorldBegin\nShape "sphere" "float radus" 2\nNamedMaterial "mate"\nWorldEnd\n' >warned.pbrt
-for command in info "render $small -o x.pfm"; do
-    expect 0 '' "$lab" $command warned.pbrt
-    expect 1 '^asbdpt: warned.pbrt:2:16: parameter "float radus" of Shape "sphere" is not used' \
-        "$lab" $command warned.pbrt --strict
-    check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' stderr.txt
-    check grep -q 'refused for what is said above' stderr.txt
-done
+expect 0 '' "$lab" info warned.pbrt
+expect 1 '^asbdpt: warned.pbrt:2:16: parameter "float radus" of Shape "sphere" is not used' \
+    "$program" render warned.pbrt $small --strict -o x.pfm
+check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' stderr.txt
 # The medium that is still there at WorldEnd is the camera's, and has no bound.
 cat >sky.pbrt <<'END'
 Integrator "bdpt" WorldBegin MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "" "fog"
@@ -165,7 +120,6 @@ WorldBegin LightSource "point" "point from" [ 0 0 1 ] WorldEnd
 END
 expect 0 'media are left out' "$program" fog.pbrt --spp 4 -o clear.pfm
 expect 0 '' "$program" fog.pbrt --spp 4 -o fog.pfm --integrator bdpt
-check [ "$(grep -c 'left out' stderr.txt)" = 0 ]
 check test -n "$(cmp clear.pfm fog.pfm 2>&1)"
 
 # Bytes of a scene that mean something to a terminal do not reach it.
@@ -182,12 +136,9 @@ prints '^nonfinite  0$' "$lab" compare bright.pfm bright.pfm
 # Files: three formats from one run, the same bytes for any number of threads.
 expect 0 '' "$program" render "$box" $small -j 1 -o a.pfm -o a.ppm -o a.png
 makes a.pfm "$program" render "$box" $small -j 3 -o b.pfm
-makes a.pfm "$program" render "$box" --res=16x16 --spp=2 --quiet -j3 --outfile b.pfm # other ways to write the same
-expect 0 '' "$program" render "$box" $small --cropwindow 0 0.5 0.25 1 -o crop.pfm
 expect 0 '' "$program" render "$box" $small --cropwindow 0 0.5 0.25 1 -o crop.exr -o crop.part
 makes crop.exr "$program" convert crop.exr -o same.exr # OpenEXR keeps the window, other formats do not
 makes crop.exr "$program" merge crop.part --quiet -o sum.exr
-check [ "$(head -c 2 a.ppm)" = P6 ]
 prints '^rmse       0$' "$lab" compare a.pfm b.pfm
 says '^rmse8      0$' '^relmse     0$' '^relmse8x8  0$' '^mean_ratio 1$' '^nonfinite  0$' '^psnr       inf$'
 expect 0 'a.png holds sRGB values from 0 to 1, a.pfm linear' "$lab" compare a.png a.pfm --heatmap heat.png --max 2
@@ -197,7 +148,6 @@ expect 0 '' "$lab" compare a.png a.pfm --max-rmse 1000
 expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$lab" compare a.png a.pfm --max-rmse 1e-9
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
 expect 1 'equal size' "$lab" compare a.pfm c.pfm
-expect 1 cornell-box.pbrt "$lab" compare "$box" a.pfm
 expect 0 '' "$lab" strategies "$box" $small --maxdepth 2 -o s
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]
@@ -206,17 +156,10 @@ check [ -s s/pyramid.png ]
 # --aov: a picture each beside the first.
 expect 0 '^wrote aov.albedo.pfm, .*, aov.variance.pfm$' "$program" render "$box" --res 16x16 --spp 2 -j 1 \
     --aov variance,albedo,normal,depth,position -o aov.png
-expect 0 '' "$program" render "$box" $small --integrator pt -j 3 --aov depth,albedo,depth -o two.x.pfm -o a.png
-check cmp -s aov.depth.pfm two.x.depth.pfm
-check [ ! -e two.x.normal.pfm ]
 expect 2 'known are albedo' "$program" render "$box" $small --aov albedo,norml -o aov.png
 expect 1 'aov: not written, for one sample' "$program" render "$box" --spp 2 --samples 0:1 --res 8x8 --quiet \
     --aov variance -o few.png
 check [ -s few.png -a ! -e few.variance.pfm ]
-expect 2 'an image with a name' "$program" render "$box" $small --aov depth -o -
-mkdir taken.depth.pfm
-expect 1 'taken.depth.pfm' "$program" render "$box" $small --aov albedo,depth -o taken.png
-check [ ! -e taken.png -a ! -e taken.albedo.pfm ]
 
 # --layers: the same in the picture's own .exr, beside the colours.
 expect 0 'wrote l.float.exr, l.pfm$' "$program" render "$box" --res 16x16 --spp 2 -j 2 --layers \
@@ -224,7 +167,6 @@ expect 0 'wrote l.float.exr, l.pfm$' "$program" render "$box" --res 16x16 --spp 
 makes l.pfm "$program" convert l.float.exr -o back.pfm
 for name in albedo.R normal.X depth.Z position.Z variance.B; do check grep -aq "$name" l.float.exr; done
 check [ ! -e l.albedo.pfm ]
-expect 2 'no other format has them' "$program" render "$box" $small --aov depth --layers -o a.png
 
 # --- noise
 # --noise: the render ends when it is low enough; --spp is the most. test_halves.c: at the same sample by any threads.
@@ -232,8 +174,6 @@ noisy="--res 20x16 --integrator bdpt --maxdepth 3"
 expect 0 '128 spp' "$program" render "$box" $noisy --spp 1000 --noise 0.055 -j 1 -o noise1.pfm
 check grep -q 'noise 0.0[0-9]* +- .* of the brightness around, .* at 128 samples per pixel: below' stderr.txt
 expect 0 'at 64 samples per pixel: above' "$program" render "$box" $noisy --spp 70 --noise 0.001 -o a.pfm
-expect 2 'noise is that of the whole' "$program" render "$box" $noisy --spp 60 --noise 0.5 --samples 0:4 -o a.part
-expect 2 'are a chain' "$lab" render "$box" $small --integrator mmlt --noise 0.1 -o a.pfm
 # It goes on from a checkpoint to the same end, also from the end itself; one without halves is refused.
 rm -f noise.state
 for spp in 16 100 1000 1000; do
@@ -241,9 +181,6 @@ for spp in 16 100 1000 1000; do
         --checkpoint noise.state --resume noise.state
 done
 check cmp -s noise1.pfm a.pfm
-check "$program" render "$box" $noisy --spp 20 --noise 0.055 -o a.pfm --quiet --checkpoint half.state
-check "$program" render "$box" $noisy --spp 48 -o a.pfm --quiet --resume half.state
-makes a.pfm "$program" render "$box" $noisy --spp 48 --quiet -o noise0.pfm
 check "$program" render "$box" $noisy --spp 16 -o a.pfm --quiet --checkpoint plain.state
 expect 1 'was made without --noise' "$program" render "$box" $noisy --spp 64 --noise 0.1 -o a.pfm --resume plain.state
 
@@ -252,36 +189,29 @@ expect 1 'was made without --noise' "$program" render "$box" $noisy --spp 64 --n
 expect 0 '' "$program" render "$box" --quick -j 2 --integrator asbdpt -P delta=0.25 --aov depth --stats stats.json \
     -o a.png
 check grep -q ': 120x120, 1 spp, asbdpt;' stderr.txt
-check [ "$(grep -c draws stderr.txt)" = 0 ] # what was chosen is for --stats alone
 for line in '"version": "asbdpt ' '"select": "subspaces",' '"delta": 0.25,' '"maxdepth": 6,' '"film": .120, 120.,' \
     '"spp_done": 1,' '"threads": 2,' '"draws_first_hit": [1-9]' '"a.depth.pfm"' '"us_per_path": [1-9]' \
     '"peak_memory": [1-9]'; do
     check grep -q "$line" stats.json
 done
-# Without light sub-paths there are no draws; who chooses nothing says nothing of it.
+# Without light sub-paths there are no draws.
 prints '"pixels_per_light_path": 0,' \
     "$program" render "$scenes/sky.pbrt" --res 24x16 --spp 1 --quiet --integrator asbdpt --stats - -o a.pfm
 says '"draws_first_hit": 0,' '"draws_after": 0,'
-expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet --integrator pt --stats - -o a.pfm
-check [ "$(grep -c chosen stdout.txt)" = 0 ]
 prints '"spp": 3,' "$program" render "$box" --integrator pt --quick --quiet --spp 3 --cropwindow 0 0.5 0 1 \
     --samples 1:3 --stats - -o a.part
 says '"first_sample": 1,' '"spp_done": 2,' '"width": 60,'
 if command -v python3 >/dev/null; then check python3 -c 'import json; json.load(open("stats.json"))'; fi
-expect 0 '' "$program" render "$box" --quick --quiet --res 9x7 -o q.pfm
-makes q.pfm "$program" render "$box" --quiet --res 9x7 --spp 1 -o p.pfm
 rm stats.json # it is there when all other files are
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt --stats stats.json -o a.png
-expect 1 'no/s.json: cannot be created' "$program" render "$box" $small --stats no/s.json -o made.png
 if [ -e /dev/full ]; then
     ln -sf /dev/full full.pfm
     expect 1 'full.pfm' "$program" render "$box" $small --stats stats.json -o full.pfm
 fi
-check [ ! -e stats.json -a ! -e made.png ]
+check [ ! -e stats.json ]
 
 # --- gates
 # gates: light by how far it has come; a sequence of pictures in one render.
-expect 0 '' "$program" render "$box" $small -o whole.pfm
 expect 0 '' "$lab" transient "$box" $small --gates 3 --gate 1000:2500 -o flight
 check [ -s flight/gate002.pfm -a -s flight/transient.png -a ! -e flight/gate003.pfm ]
 
@@ -297,27 +227,18 @@ check [ -s lit/light00_infinite.pfm -a -s lit/light01_key.pfm -a -s lit/light02_
 expect 0 '' "$program" convert lit/light0?_*.pfm -o sum.pfm
 expect 0 '' "$lab" compare sum.pfm a.pfm --max-rmse 1e-6
 makes a.pfm "$program" convert a.pfm sum.pfm a.pfm --weights 2,0,-1 -o b.pfm
-check [ "$(od -An -tu1 -j25 -N1 a.png | tr -d ' ')" = 6 ] # RGB and alpha
-for weights in 1 1,2,3 1,nan; do
-    expect 2 "weights $weights: expected a number for each" "$program" convert a.pfm sum.pfm --weights $weights -o b.pfm
-done
+expect 2 'weights 1: expected a number for each' "$program" convert a.pfm sum.pfm --weights 1 -o b.pfm
 # Halfs end at 65504.
 printf 'PF\n1 1\n-1\n\000\120\303\107\000\000\200\077\000\120\303\307' >far.pfm # 1e5 1 -1e5
 expect 0 'far.exr: 2 values are beyond 65504, .* ends in .float.exr' "$program" convert far.pfm -o far.exr
-expect 1 'is 16x16, the images before it 24x16|whole.pfm is ' "$program" convert a.pfm whole.pfm -o b.pfm
-{ echo WorldBegin; seq -f 'LightSource "point" "string group" "%g"' 65; echo WorldEnd; } >many.pbrt
-expect 2 'lights: 65 images, one for each light, and 64 are the most' \
-    "$program" render many.pbrt --res 2x2 --spp 1 --quiet --lights many -o b.pfm
 expect 2 'alpha: the samples of mmlt are a chain' "$lab" render lamps.pbrt --integrator mmlt --alpha -o b.png
 expect 1 'no pixel has one to tell of' "$lab" trace lamps.pbrt --res 4x4 --spp 4 --integrator pssmlt
 
 # --- help
-# help: as a whole no wider than a terminal, with every integrator once.
+# help: as a whole no wider than a terminal, with every integrator.
 expect 0 '' "$program" help all
 check [ -z "$(awk 'length > 100' stdout.txt)" ]
 prints '^    lightsamplestrategy *spatial ' "$program" help integrators
-check [ "$(grep -c '^asbdpt$' stdout.txt)" = 1 ] # however many selections it has
-expect 2 'there is no help on rendering' "$program" help rendering
 printf 'P3\n3 2\n255\n0 0 0 255 0 0 0 0 0\n0 0 0 0 0 0 0 255 255\n' >picture.ppm
 prints '^format        .ppm, sRGB, here made linear$' "$lab" info picture.ppm
 says '^size          3x2$' '^B             0 to 1, mean 0.166667$'
@@ -330,8 +251,6 @@ prints 'bounds  *(4, 5, 6) to (6, 7, 8)' \
 # --- trace
 # trace: a sample told in words and drawn; what it says to have added is what a render's film holds.
 one="--res 12x12 --integrator bdpt --maxdepth 3 --pixel 3,9"
-expect 1 'cannot be created' "$lab" trace "$box" --pixel 3,9 --svg no/such/dir.svg # before the work
-check [ ! -s stdout.txt ]
 expect 0 '' "$lab" trace "$box" $one --spp 1
 check [ "$(wc -l <stdout.txt)" -le 11 ]
 says '^The pixel receives [0-9.e-]* [0-9.e-]* [0-9.e-]*\.' 'what they mean: --all$'
@@ -343,9 +262,6 @@ check grep -Eq '^  z_1 +matte .*/m\^2' stdout.txt
 check grep -Eq '^  \(1,2\) +light - z_1 ' stdout.txt
 says '^  sum, which the film receives '
 check awk '/<svg/ { open++ } /<\/svg>/ { open-- } /z1<\/text>/ { n++ } END { exit open != 0 || n != 2 }' paths.svg
-cp "$box" 'a&b.pbrt'
-expect 0 '' "$lab" trace 'a&b.pbrt' $one --spp 1 --svg escaped.svg
-check grep -q '>a&amp;b.pbrt, pixel 3,9' escaped.svg
 # Names of vertices do not cover each other: 10 wide for a letter, 16 high.
 expect 0 '' "$lab" trace "$scenes/../doc/mini/rooms.pbrt" --integrator bdpt --maxdepth 4 --pixel 60,80 \
     --sample 22 --svg names.svg
@@ -368,11 +284,9 @@ check grep -Eq '^  \([2-9],[2-9]\) +y_[0-9(]+\)? - z_[0-9] +0\.' stdout.txt # wi
 expect 0 '' "$lab" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o worth.png
 check [ -s worth.png ]
 expect 1 'learns nothing about pairs' "$lab" worth "$box" --pixel 3,9 --res 12x12 -P select=pool -o worth.png
-expect 2 'the whole film is shown' "$lab" worth "$box" --pixel 3,9 --cropwindow 0 1 0 0.5 -o worth.png
 
 # --- verify
 # verify: agreement is status 0, a difference status 1.
-expect 0 '' "$program" render "$box" $small -o a.pfm
 expect 0 '' "$lab" verify "$box" --methods pt,bdpt --res 12x12 --spp 8 --maxdepth 2 --quiet
 # The two sides have random numbers of their own, even with the same method: sharing them would be too alike to be true.
 prints 'verdict: agree' "$lab" verify "$box" --methods bdpt,bdpt --res 12x12 --spp 8 --maxdepth 2 --quiet
@@ -387,11 +301,7 @@ expect 1 '' "$lab" verify --images nan.pfm ref/bathroom.error.pfm nan.pfm ref/ba
 says '^verdict: DIFFER'
 expect 1 'nan.pfm: NaN or infinite values: 2592$' "$lab" compare nan.pfm nan.pfm --max-rmse 1
 prints '^nonfinite  2592$' "$lab" compare nan.pfm nan.pfm
-expect 2 'usage: asbdpt-lab verify' "$lab" verify --images a.pfm
 expect 2 'no integrator nonsense' "$lab" verify "$box" --methods nonsense
-expect 2 'two methods are compared' "$lab" verify "$box" --methods pt,lt,bdpt
-prints '^B  asbdpt:select=vertices ' \
-    "$lab" verify "$box" --methods asbdpt:select=pool,asbdpt:select=vertices --res 12x12 --spp 8 --maxdepth 2 --quiet
 
 # --- experiment
 # equal-time: a table, a line for every method and seed, and a number that may be left out.
@@ -400,12 +310,6 @@ prints 'geometric mean' "$lab" equal-time "$box" $tiny --spp 2 -o equal
 sed '/^equal\/equal-time.md$/,$d' stdout.txt >table.txt
 check cmp -s table.txt equal/equal-time.md
 check [ -s equal/images/cornell-box.png ]
-printf 'Film "image" "integer xresolution" 48 "integer yresolution" 32 Translate 0 0 4 Camera "perspective"
-WorldBegin LightSource "point" "point from" [0 0 -3] Shape "sphere" WorldEnd\n' >small.pbrt
-expect 0 '' "$lab" equal-time small.pbrt --spp 1 --seeds 1 --quiet -o small # whose reference is rendered
-check [ -s small/images/small.png ]
-prints 'per pixel: [0-9.e+]*; more --seeds tell how sure this is\.$' \
-    "$lab" equal-time "$box" --methods bdpt,pt --res 8x8 --seeds 1 --spp 8 --quiet -o one
 check [ "$(grep -c '^cornell-box,' equal/runs.csv)" = 4 ]
 check [ "$(grep -c '^cornell-box,bdpt,.*,2,' equal/runs.csv)" = 2 ]
 prints 'equal-time --seconds 0.01 --methods bdpt,asbdpt:select=pool --seeds 2' \
@@ -426,7 +330,7 @@ done
 expect 0 '' awk -f "$evidence/recompute.awk" family/runs.csv family.txt
 sed '/^| pt/s/\[/[9/' family.txt >planted.txt
 expect 1 '' awk -f "$evidence/recompute.awk" family/runs.csv planted.txt
-# A reference is of the scene, or it is none: another's of the same name is refused, and no reference is not kept quiet.
+# A reference is of the scene, or it is none: another's of the same name is not taken.
 mkdir -p bathroom/ref
 echo 'Film "image" "integer xresolution" 32 "integer yresolution" 32 WorldBegin
 LightSource "point" "point from" [0 0 -3] Shape "sphere" WorldEnd' >bathroom/scene.pbrt
@@ -434,11 +338,6 @@ cp ref/bathroom.pfm ref/bathroom.txt bathroom/ref
 tiny="--seeds 1 --spp 1 --reference-spp 4 --methods bdpt"
 expect 0 'bathroom.pfm.* is of another scene: measured at 32x32 pixels' \
     "$lab" equal-time bathroom/scene.pbrt $tiny -o foreign
-expect 1 'bathroom.pfm.* is of another scene$' \
-    "$lab" equal-time bathroom/scene.pbrt --reference bathroom/ref $tiny --quiet -o foreign
-expect 1 'have the same name, bathroom' \
-    "$lab" equal-time bathroom/scene.pbrt "$scenes/bathroom.pbrt" $tiny --quiet -o foreign
-expect 2 'there is no integrator bdtp; known are: .*bdpt' "$lab" equal-time "$box" --methods bdtp -o equal
 
 # --- convert
 # convert: linear formats keep light (.float.exr exactly), 8-bit ones what they hold; - reads and writes PFM.
@@ -446,12 +345,10 @@ expect 2 'there is no integrator bdtp; known are: .*bdpt' "$lab" equal-time "$bo
 makes light.png "$program" convert light.pfm -o x.float.exr -o x.exr -o x.ppm -o x.png
 makes light.pfm "$program" convert x.float.exr -o back.pfm
 makes light.png "$program" convert x.ppm -o y.PNG
-expect 2 'x.tga: images are written as' "$program" convert light.pfm -o x.tga
 "$program" convert - -o - --quiet <light.pfm >through.pfm
 check cmp -s light.pfm through.pfm
 expect 0 '' "$program" convert ref/bathroom.pfm -o ref.float.exr
 prints 'verdict: identical' "$lab" verify --images ref.float.exr ref/bathroom.error.pfm $picture
-expect 1 'nothing.exr' "$program" convert nothing.exr -o x.png
 
 # --exposure and --tonemap: of 8-bit pictures alone, the same in render and convert; without them nothing changes.
 makes light.pfm "$program" render "$box" --res 37x23 --spp 4 --quiet --exposure -2 --tonemap filmic -o dark.png \
