@@ -105,22 +105,6 @@ expect 0 '' "$lab" info warned.pbrt
 expect 1 '^asbdpt: warned.pbrt:2:16: parameter "float radus" of Shape "sphere" is not used' \
     "$program" render warned.pbrt $small --strict -o x.pfm
 check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' stderr.txt
-# The medium that is still there at WorldEnd is the camera's, and has no bound.
-cat >sky.pbrt <<'END'
-Integrator "bdpt" WorldBegin MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "" "fog"
-LightSource "infinite" Material "" Shape "sphere" WorldEnd
-END
-expect 0 'a medium without a bound ends on a sphere of radius 1.* about .0 0 0., beyond which' \
-    "$program" render sky.pbrt --res 8x8 --spp 2 -o sky.pfm
-# Whoever asks for an integrator has the media that the scene's does not see.
-cat >fog.pbrt <<'END'
-Film "image" "integer xresolution" 4 "integer yresolution" 4
-MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "fog"
-WorldBegin LightSource "point" "point from" [ 0 0 1 ] WorldEnd
-END
-expect 0 'media are left out' "$program" fog.pbrt --spp 4 -o clear.pfm
-expect 0 '' "$program" fog.pbrt --spp 4 -o fog.pfm --integrator bdpt
-check test -n "$(cmp clear.pfm fog.pfm 2>&1)"
 
 # Bytes of a scene that mean something to a terminal do not reach it.
 printf 'Integrator "\033[31mx" "string maxdepth" "\033[31m"\nWorldBegin\nWorldEnd\n' >escape.pbrt
@@ -231,19 +215,15 @@ expect 2 'weights 1: expected a number for each' "$program" convert a.pfm sum.pf
 # Halfs end at 65504.
 printf 'PF\n1 1\n-1\n\000\120\303\107\000\000\200\077\000\120\303\307' >far.pfm # 1e5 1 -1e5
 expect 0 'far.exr: 2 values are beyond 65504, .* ends in .float.exr' "$program" convert far.pfm -o far.exr
-expect 2 'alpha: the samples of mmlt are a chain' "$lab" render lamps.pbrt --integrator mmlt --alpha -o b.png
 expect 1 'no pixel has one to tell of' "$lab" trace lamps.pbrt --res 4x4 --spp 4 --integrator pssmlt
 
 # --- help
 # help: as a whole no wider than a terminal, with every integrator.
 expect 0 '' "$program" help all
 check [ -z "$(awk 'length > 100' stdout.txt)" ]
-prints '^    lightsamplestrategy *spatial ' "$program" help integrators
 printf 'P3\n3 2\n255\n0 0 0 255 0 0 0 0 0\n0 0 0 0 0 0 0 255 255\n' >picture.ppm
 prints '^format        .ppm, sRGB, here made linear$' "$lab" info picture.ppm
 says '^size          3x2$' '^B             0 to 1, mean 0.166667$'
-printf 'PF\n1 1\n-1\n\0\0\300\177\0\0\200\077\0\0\0\0' >one-nan.pfm
-prints '^R .*1 NaN or infinite$' "$lab" info one-nan.pfm
 printf 'WorldBegin Translate 5 6 7 Material "none" AreaLightSource "diffuse" Shape "sphere" WorldEnd\n' >lamp.pbrt
 prints 'bounds  *(4, 5, 6) to (6, 7, 8)' \
     "$lab" info lamp.pbrt # bounds are those of the surfaces that rays pass through, too
@@ -252,11 +232,8 @@ prints 'bounds  *(4, 5, 6) to (6, 7, 8)' \
 # trace: a sample told in words and drawn; what it says to have added is what a render's film holds.
 one="--res 12x12 --integrator bdpt --maxdepth 3 --pixel 3,9"
 expect 0 '' "$lab" trace "$box" $one --spp 1
-check [ "$(wc -l <stdout.txt)" -le 11 ]
 says '^The pixel receives [0-9.e-]* [0-9.e-]* [0-9.e-]*\.' 'what they mean: --all$'
-grep '^The pixel receives' stdout.txt >brief.txt
 expect 0 '' "$lab" trace "$box" $one --spp 1 --svg paths.svg --all
-check grep -qxF "$(cat brief.txt)" stdout.txt
 says 'pixel 3,9, sample 0: bdpt' '^(s,t): a path of s vertices'
 check grep -Eq '^  z_1 +matte .*/m\^2' stdout.txt
 check grep -Eq '^  \(1,2\) +light - z_1 ' stdout.txt
@@ -300,15 +277,11 @@ says '^verdict: DIFFER'
 expect 1 '' "$lab" verify --images nan.pfm ref/bathroom.error.pfm nan.pfm ref/bathroom.error.pfm
 says '^verdict: DIFFER'
 expect 1 'nan.pfm: NaN or infinite values: 2592$' "$lab" compare nan.pfm nan.pfm --max-rmse 1
-prints '^nonfinite  2592$' "$lab" compare nan.pfm nan.pfm
-expect 2 'no integrator nonsense' "$lab" verify "$box" --methods nonsense
 
 # --- experiment
-# equal-time: a table, a line for every method and seed, and a number that may be left out.
+# equal-time: a table, and a line for every method and seed.
 tiny="--res 8x8 --seeds 2 --reference-spp 4 --quiet"
 prints 'geometric mean' "$lab" equal-time "$box" $tiny --spp 2 -o equal
-sed '/^equal\/equal-time.md$/,$d' stdout.txt >table.txt
-check cmp -s table.txt equal/equal-time.md
 check [ -s equal/images/cornell-box.png ]
 check [ "$(grep -c '^cornell-box,' equal/runs.csv)" = 4 ]
 check [ "$(grep -c '^cornell-box,bdpt,.*,2,' equal/runs.csv)" = 2 ]
@@ -324,9 +297,6 @@ check [ "$(grep -c ', seed ' stderr.txt)" = 0 ]
 # Its means and intervals can be computed again from its runs; another number is found out.
 evidence=$top/test/evidence
 awk -f "$evidence/family.awk" family/family.md >family.txt
-for section in choice choice-8x8 choice-claims services services-claims bring; do
-    check grep -qx "== $section" family.txt
-done
 expect 0 '' awk -f "$evidence/recompute.awk" family/runs.csv family.txt
 sed '/^| pt/s/\[/[9/' family.txt >planted.txt
 expect 1 '' awk -f "$evidence/recompute.awk" family/runs.csv planted.txt
@@ -347,15 +317,12 @@ makes light.pfm "$program" convert x.float.exr -o back.pfm
 makes light.png "$program" convert x.ppm -o y.PNG
 "$program" convert - -o - --quiet <light.pfm >through.pfm
 check cmp -s light.pfm through.pfm
-expect 0 '' "$program" convert ref/bathroom.pfm -o ref.float.exr
-prints 'verdict: identical' "$lab" verify --images ref.float.exr ref/bathroom.error.pfm $picture
 
 # --exposure and --tonemap: of 8-bit pictures alone, the same in render and convert; without them nothing changes.
 makes light.pfm "$program" render "$box" --res 37x23 --spp 4 --quiet --exposure -2 --tonemap filmic -o dark.png \
     -o dark.pfm
 makes dark.png "$program" convert light.pfm --exposure -2 --tonemap filmic -o y.png
 check test -n "$(cmp light.png y.png 2>&1)"
-expect 2 'for 8-bit images' "$program" convert light.pfm -o y.exr --exposure 1
 
 # ImageMagick, where it is installed, reads the same bytes of pixels from our files.
 if command -v convert >/dev/null && convert -version | grep -q ImageMagick; then

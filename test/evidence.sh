@@ -7,8 +7,8 @@
 #   sh test/evidence.sh take NAME DIR      store and show what the entry's command has left in DIR, wherever it ran;
 #                                          MINUTES=, COMMIT=, ESTIMATOR= and MACHINE= say what is not as it is here
 #   sh test/evidence.sh fill               put what is stored into the documents
-#   sh test/evidence.sh recompute [NAME...]  are means and intervals those of the stored runs, NAME.csv?
-#   sh test/evidence.sh check              do the documents show what is stored, and say so where it is old?
+#   sh test/evidence.sh check              do the documents show what is stored, and say so where it is old? Are
+#                                          means and intervals those of the stored runs, NAME.csv?
 # What is stored, doc/measured/NAME.txt, has a head of lines "key: value" and sections "== SECTION". A document shows
 # one between <!-- measured: NAME.SECTION --> and <!-- end -->: both on lines of their own, or both in a line of text.
 set -u
@@ -213,20 +213,19 @@ near() {
         END { exit bad || FNR != n }' "$1" "$2"
 }
 
-# recompute NAME...: the stored runs against the stored numbers.
+# recompute: the stored runs against the stored numbers.
 recompute() {
-    for name in "$@"; do
-        [ -f "$stored/$name.csv" ] || { wrong "$name has no stored runs: sh test/evidence.sh run $name"; continue; }
+    for name in $(names); do
+        [ -f "$stored/$name.csv" ] || continue
         awk -f test/evidence/recompute.awk "$stored/$name.csv" "$stored/$name.txt" >"$dir/again" ||
             wrong "$name is not what its runs say"
         sed "s/^/$name: /" "$dir/again"
     done
 }
-with_runs() { for name in $(names); do [ ! -f "$stored/$name.csv" ] || echo "$name"; done; }
 
 check() {
     n=0 behind=
-    recompute $(with_runs)
+    recompute
     for name in $(names); do
         file=$stored/$name.txt
         if [ ! -f "$file" ]; then behind="$behind $name"; continue; fi
@@ -300,11 +299,6 @@ run)
 take) keep "$2" "$3" unknown && fill ;;
 fill) fill ;;
 check) check ;;
-recompute)
-    shift
-    [ $# -gt 0 ] || set -- $(with_runs)
-    recompute "$@"
-    ;;
 *) sed -n 's/^# *//p' "$0" | sed -n '2,13p'; bad=2 ;;
 esac
 exit $bad

@@ -107,7 +107,6 @@ expect 1 'missing are the samples 3:8' "$program" merge -o x.pfm a.part
 expect 1 'c.part: other parts have the samples 5:8' "$program" merge -o x.pfm a.part b.part c.part
 expect 1 'other.part: a part of another image: it has "seed 1", not "seed 0"' \
     "$program" merge -o x.pfm a.part other.part
-expect 1 'stdout.txt: this is no part' "$program" merge -o x.pfm a.part b.part stdout.txt
 expect 0 '' "$program" merge --partial -o partial.pfm a.part
 check [ ! -e x.pfm ]
 "$program" render changed.pbrt $tiny --res 8x8 --spp 8 --samples 3:8 -o foreign.part

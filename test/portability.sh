@@ -2,10 +2,7 @@
 # portability.sh [NAME...]: the one-line builds of doc/portability.md, by whichever compilers are at hand, for whichever
 # machines these or emulators can run: all of them make the pictures of test/hashes.txt, byte for byte. Of every target
 # one line is said: the same bytes, skipped (and why), or FAIL. Where there is no fork the suites that need none are
-# run too. With NAMEs only those; -l lists them. Run from the top.
-#
-# Systems that no emulator here runs are compiled for alone, where a variable names the directories of their headers:
-#   MACOS_HEADERS=SDK/usr/include FREEBSD_HEADERS=... NETBSD_HEADERS=... OPENBSD_HEADERS="..." sh test/portability.sh
+# run too. With NAMEs only those. Run from the top.
 chosen=" $* "
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
@@ -23,14 +20,8 @@ failed() {
     failures=$((failures + 1))
 }
 
-# asked NAME: is this target wanted? With -l its name is said instead.
-asked() {
-    case $chosen in
-    *" -l "*) echo "$1"; return 1 ;;
-    "  " | *" $1 "*) ;;
-    *) return 1 ;;
-    esac
-}
+# asked NAME: is this target wanted?
+asked() { case $chosen in "  " | *" $1 "*) ;; *) return 1 ;; esac; }
 
 # able NAME RUNNER BUILD FLAG...: can a small program be built like this, and run? If not, it is said.
 able() {
@@ -65,26 +56,6 @@ try() {
         say "$name" "$said"
     fi
     rm -f "$program"
-}
-
-# compile NAME TARGET DIRECTORY...: the program and its tests compile against the headers of another system.
-compile() {
-    name=$1 target=$2
-    shift 2
-    asked "$name" || return
-    [ $# -gt 0 ] || { say "$name" "skipped: no headers given"; return; }
-    command -v clang >/dev/null || { say "$name" "skipped: no clang"; return; }
-    for directory in "$@"; do
-        shift
-        set -- "$@" -isystem "$directory"
-    done
-    if clang --target="$target" -nostdlibinc "$@" -std=c99 -pedantic -Wall -Wextra -Wconversion -Werror -Isrc -Itest \
-        -Itest/lab -fsyntax-only src/*/*.c test/*.c test/lab/*.c test/lab/*/*.c test/fuzz/targets.c \
-        test/fuzz/hostile.c 2>"$dir/log"; then
-        say "$name" "compiles; cannot be run here"
-    else
-        failed "$name" "does not compile"
-    fi
 }
 
 # suites NAME RUNNER BUILD SUITE...: the test program, built as BUILD builds the other, passes them.
@@ -137,11 +108,4 @@ try ppc64el qemu-ppc64le powerpc64le-linux-gnu-gcc "$plain" -static
 try s390x qemu-s390x s390x-linux-gnu-gcc "$plain" -static
 try mips64el qemu-mips64el mips64el-linux-gnuabi64-gcc "$plain" -static
 try mips qemu-mips mips-linux-gnu-gcc "$plain" -static
-# shellcheck disable=SC2086
-{
-    compile macos arm64-apple-macos11 $MACOS_HEADERS
-    compile freebsd x86_64-unknown-freebsd13 $FREEBSD_HEADERS
-    compile netbsd x86_64-unknown-netbsd10 $NETBSD_HEADERS
-    compile openbsd x86_64-unknown-openbsd7 $OPENBSD_HEADERS
-}
 exit $((failures > 0))

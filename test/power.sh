@@ -1,7 +1,6 @@
 #!/bin/sh
 # power.sh: how small a fault does a suite find? Plants those of power.txt, in some sizes, in a copy of the tree.
-#   sh test/power.sh          prints the table of doc/evidence.md, section Power
-#   sh test/power.sh renew    writes it there
+# The table goes into doc/evidence.md, section Power.
 # The list may name slow suites, too. All must pass without any fault: one that does not would seem to find them all.
 # A suite that checks facts finds a size or does not. One that tests hypotheses finds an error e if its p is below 1e-4,
 # which is |z| > 3.89; z is normal about e / sigma. So one planted error that is found, though not by far, tells sigma,
@@ -95,7 +94,6 @@ done
         row "$n"
     done
 } >$work/table.md
-[ "${1-}" = renew ] || exec cat $work/table.md
 awk -v table=$work/table.md '
     /^## / { here = /^## Power/ }
     here && /^\|/ { if (!done++) while ((getline line < table) > 0) print line; next }

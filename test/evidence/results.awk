@@ -1,20 +1,15 @@
-# results.awk: sections of doc/measured from results.md files of `asbdpt-lab experiment`: of each of the five scenes
-# its table; ratios: the error of bins over that of bdpt, printed and here, with 32 samples and with most of which both
-# are known, and what the mean of bins is off by; equal: squared error over that of bdpt after the same CPU time, with
-# most samples.
+# results.awk: sections of doc/measured from results.md files of `asbdpt-lab experiment`, of the five scenes. ratios:
+# the error of bins over that of bdpt, printed and here, with 32 samples and with most of which both are known, and what
+# the mean of bins is off by; equal: squared error over that of bdpt after the same CPU time, with most samples.
 function cell(i) { return part[i + 1] }
 /^## / {
     on = $2 ~ /^(cornell-box|cornell-box-modified|veach-ajar|living-room|bathroom)$/
     scene = $2
-    if (on) { print "== " scene; order[++n] = scene }
-    blank = 1
-    next
+    if (on) order[++n] = scene
 }
-!on || /^!\[/ || (/^$/ && blank) { next } # pictures are not stored
+!on { next }
 {
     gsub(/asbdpt:select=/, "")
-    blank = /^$/
-    print
     split($0, part, / *\| */)
 }
 /^\| [0-9]+ \| bdpt \|/ { before[cell(1)] = cell(5) }

@@ -2,16 +2,10 @@
 # scale.sh DIR: how time and memory grow with triangles, lights, pixels, samples and threads. Measures into
 # DIR/scale.txt, lines "AXIS N QUANTITY VALUE"; a size that is there is not measured again. scale.awk makes the table
 # and the figure.
-# TRIANGLES, LIGHTS, PIXELS, SAMPLES, THREADS: other sizes. Memory is the peak of a process that does nothing else.
 #   triangles: a wavy floor of so many below one lamp; lights: so many small lamps under the ceiling of a hall, the sum
-#   of their power the same; the other three: the Cornell box.
+#   of their power the same; the other three: the Cornell box. Memory is the peak of a process that does nothing else.
 dir=$1
 lab=./asbdpt-lab
-TRIANGLES=${TRIANGLES:-1000 10000 100000 1000000}
-LIGHTS=${LIGHTS:-1 10 100 1000 10000 100000}
-PIXELS=${PIXELS:-32 64 128 256 512} # along a side
-SAMPLES=${SAMPLES:-1 4 16 64 256}
-THREADS=${THREADS:-$(seq "$(getconf _NPROCESSORS_ONLN)")}
 mkdir -p "$dir"
 touch "$dir/scale.txt"
 has() { grep -q "^$1 $2 " "$dir/scale.txt"; }
@@ -88,18 +82,18 @@ render() {
     done >>"$dir/scale.txt"
 }
 
-for n in $TRIANGLES; do
+for n in 1000 10000 100000 1000000; do
     has triangles "$n" && continue
     floor_of "$n" >"$dir/floor.ply"
     { header; hall; lamps 1; echo 'Shape "plymesh" "string filename" "floor.ply" WorldEnd'; } >"$dir/scene.pbrt"
     bench triangles "$n" "$dir/scene.pbrt"
 done
-for n in $LIGHTS; do
+for n in 1 10 100 1000 10000 100000; do
     has lights "$n" && continue
     { header; hall; quad -2 0 -4  2 0 -4  2 0 2  -2 0 2; lamps "$n"; echo WorldEnd; } >"$dir/scene.pbrt"
     bench lights "$n" "$dir/scene.pbrt"
 done
-for n in $PIXELS; do render pixels $((n * n)) --spp 2 --res "${n}x$n" -j1; done
-for n in $SAMPLES; do render samples "$n" --spp "$n" --res 64x64 -j1; done
-for n in $THREADS; do render threads "$n" --spp 16 --res 128x128 -j "$n"; done
+for n in 32 64 128 256 512; do render pixels $((n * n)) --spp 2 --res "${n}x$n" -j1; done
+for n in 1 4 16 64 256; do render samples "$n" --spp "$n" --res 64x64 -j1; done
+for n in $(seq "$(getconf _NPROCESSORS_ONLN)"); do render threads "$n" --spp 16 --res 128x128 -j "$n"; done
 rm -f "$dir"/floor.ply "$dir"/scene.pbrt "$dir"/x.*

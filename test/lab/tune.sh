@@ -15,15 +15,13 @@ SCENES=${SCENES:-cornell-box bathroom living-room caustic-glass many-lights sky 
     features/light-infinite}
 SEEDS=${SEEDS:-61 62 63} SPP=${SPP:-64} RES=${RES:-72x48} REFERENCE_SPP=${REFERENCE_SPP:-1024}
 REFERENCES=${REFERENCES:-$dir/reference}
-compiler=cc
-command -v ccache >/dev/null && compiler="ccache cc"
 
 # build NAME: its program is DIR/programs/NAME. The tree is then as it was, and make sees by its dates what was another.
 build() {
     file=$(awk -v name="$1" '$1 == name && NF > 3 { print $2 }' $list) program=asbdpt
     [ "$1" != asbdpt-lab ] || program=asbdpt-lab
     [ -z "$file" ] || sh test/mutants/apply.sh $list "$1" "$dir/tree" || return
-    make -s -C "$dir/tree" CC="$compiler" LTO= $program >"$dir/log.txt" 2>&1 &&
+    make -s -C "$dir/tree" LTO= $program >"$dir/log.txt" 2>&1 &&
         mv "$dir/tree/$program" "$dir/programs/$1"
     built=$?
     [ -z "$file" ] || cp "$file" "$dir/tree/$file"
