@@ -57,7 +57,7 @@ alone() {
         say "Another course command works in this tree. This one waits. (If there is none: rmdir $work/lock)" >&2
     until mkdir $work/lock 2>/dev/null; do sleep 1; done
     trap 'rmdir $work/lock' EXIT
-    trap 'exit 130' INT TERM HUP
+    trap 'exit 130' INT TERM HUP PIPE
 }
 
 # original: a copy of all that is needed, built. Others are copies of it, and compared with it. It lies in a directory
