@@ -39,8 +39,11 @@ refused 2 'checkpoint.*: its value is empty' render --checkpoint ''
 refused 2 "$same" "$lab" compare a.pfm b.pfm --heatmap -
 # Closed ones do not become files that are opened.
 expect 0 '' render -o good.png
-check sh -c "\"\$ASBDPT\" render scene.pbrt ${tiny% --quiet} -o x.png <&- >&- 2>&-" 2>/dev/null
-check cmp -s good.png x.png
+for closed in '2>&-' '<&- >&- 2>&-'; do
+    rm -f x.png
+    check sh -c "\"\$ASBDPT\" render scene.pbrt ${tiny% --quiet} -o x.png $closed" 2>/dev/null
+    check cmp -s good.png x.png
+done
 expect 1 'standard output: cannot be written' sh -c '"$LAB" info scene.pbrt >&-'
 # What cannot be printed is said.
 if [ -e /dev/full ]; then
