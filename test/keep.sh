@@ -139,7 +139,7 @@ stopped() {
     wanted=$1 signal=$2 condition=$3 says=$4
     shift 4
     heard "$signal" || return
-    "$program" render "$box" --quiet "$@" 2>stderr.txt &
+    "$program" render "$box" --quiet --time 100 "$@" 2>stderr.txt & # one that hears nothing ends all the same
     wait_until $condition
     kill -s "$signal" $!
     wait $!
@@ -174,7 +174,7 @@ if ! timeout --preserve-status 5 true 2>/dev/null; then
     echo "skipped: a render stopped by timeout (not installed)"
 elif heard INT; then
     timeout --preserve-status -s INT 1 "$program" render "$box" --integrator bdpt --res 32x32 --spp 1000000 --quiet \
-        -o caught.pfm 2>stderr.txt
+        --time 100 -o caught.pfm 2>stderr.txt
     [ $? = 130 ] && grep -q 'stopped by SIGINT, at [0-9]* of' stderr.txt || fault "SIGINT: $(cat stderr.txt)"
 fi
 # A signal while a method learns ends that, and the picture is of what there is.
