@@ -35,8 +35,6 @@ struct observer {
                    int n);
     /* A path is about to be added to the sample's sums (t >= 2), or to the tile's splats. */
     void (*joined)(void *context, const struct pixel_sample *sample, const struct joined *path);
-    /* The sample is complete. */
-    void (*ended)(void *context, const struct pixel_sample *sample);
     const struct observer *next; /* the next observer, or NULL */
 };
 

@@ -172,7 +172,4 @@ void pixel_splat_path(struct pixel_sample *sample, const struct vertex *light, i
 void pixel_sample_end(const struct pixel_sample *sample)
 {
     tile_add(sample->tile, sample->x, sample->y, sample->value);
-    for (const struct observer *o = sample->observer; o != NULL; o = o->next)
-        if (o->ended != NULL)
-            o->ended(o->context, sample);
 }

@@ -37,7 +37,7 @@ static struct observer begin(void *context, int slot)
 {
     struct lists *l = context;
     l->of[slot].n = 0;
-    const struct observer o = {&l->of[slot], NULL, joined, NULL, NULL};
+    const struct observer o = {.context = &l->of[slot], .joined = joined};
     return o;
 }
 

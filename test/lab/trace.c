@@ -138,7 +138,7 @@ static void observe(const struct render_job *job, const struct preparation *prep
  * builds on another. */
 void trace_sample(const struct render_job *job, const struct preparation *prepared, struct trace *trace)
 {
-    const struct observer observer = {trace, walked, joined, NULL, NULL};
+    const struct observer observer = {.context = trace, .walked = walked, .joined = joined};
     long block = prepared->size.block > 0 ? prepared->size.block : 1;
     observe(job, prepared, trace, trace->iteration / block * block, trace->iteration + 1, &observer);
     trace->why = prepared->method->why;
@@ -148,16 +148,22 @@ void trace_sample(const struct render_job *job, const struct preparation *prepar
 /* The sample that contributes most to the pixel. */
 struct brightest {
     const struct trace *trace;
+    rgb sum; /* so far, of the sample that is summed */
+    long summed;
     double luminance;
     long iteration;
 };
 
-static void ended(void *context, const struct pixel_sample *sample)
+/* Nothing that is added is negative, so the last sum of a sample is its brightest. */
+static void add_path(void *context, const struct pixel_sample *sample, const struct joined *path)
 {
     struct brightest *b = context;
-    double luminance = rgb_luminance(sample->value);
-    if (b->trace->x == sample->x && b->trace->y == sample->y && luminance > b->luminance) {
-        b->luminance = luminance;
+    if (b->trace->x != sample->x || b->trace->y != sample->y || path->t < 2)
+        return;
+    b->sum = b->summed == sample->iteration ? rgb_add(b->sum, path->added) : path->added;
+    b->summed = sample->iteration;
+    if (rgb_luminance(b->sum) > b->luminance) {
+        b->luminance = rgb_luminance(b->sum);
         b->iteration = sample->iteration;
     }
 }
@@ -165,8 +171,8 @@ static void ended(void *context, const struct pixel_sample *sample)
 static long find_brightest(const struct render_job *job, const struct preparation *prepared, const struct trace *trace,
                            long end)
 {
-    struct brightest found = {trace, 0, 0};
-    const struct observer observer = {&found, NULL, NULL, ended, NULL};
+    struct brightest found = {.trace = trace, .summed = -1};
+    const struct observer observer = {.context = &found, .joined = add_path};
     long block = prepared->size.block > 0 ? prepared->size.block : end;
     for (long first = 0; first < end; first += block)
         observe(job, prepared, trace, first, first + block < end ? first + block : end, &observer);
