@@ -114,11 +114,15 @@ static const struct field DOTS[] = {
     MAPPING,
     {"inside", FIELD_OPERAND, AT(tex2), .fallback = 1},
     {"outside", FIELD_OPERAND, AT(tex1), .fallback = 0}, {.name = NULL}};
+#define OCTAVES                                                                                                        \
+    {"octaves", FIELD_INTEGER, AT(octaves), 8, 0, .high = NOISE_MAX_OCTAVES},                                          \
+    {"roughness", FIELD_NUMBER, AT(omega), .fallback = 0.5}
+static const struct field FBM[] = {OCTAVES, {.name = NULL}};
+static const struct field WINDY[] = {{.name = NULL}};
 static const struct field MARBLE[] = {
+    OCTAVES,
     {"scale", FIELD_NUMBER, AT(scale), .fallback = 1},
-    {"variation", FIELD_NUMBER, AT(variation), .fallback = 0.2},
-    {"octaves", FIELD_INTEGER, AT(octaves), 8, 0, .high = NOISE_MAX_OCTAVES}, /* these two of fbm and wrinkled, too */
-    {"roughness", FIELD_NUMBER, AT(omega), .fallback = 0.5}, {.name = NULL}};
+    {"variation", FIELD_NUMBER, AT(variation), .fallback = 0.2}, {.name = NULL}};
 
 const struct object_type TEXTURE_TYPES[] = {
     {"constant", CONSTANT, TEXTURE_CONSTANT, NULL},
@@ -129,9 +133,9 @@ const struct object_type TEXTURE_TYPES[] = {
     {"bilerp", BILERP, TEXTURE_BILERP, mapped},
     {"uv", UV, TEXTURE_UV, mapped},
     {"dots", DOTS, TEXTURE_DOTS, mapped},
-    {"fbm", MARBLE + 2, TEXTURE_FBM, noise_texture},
-    {"wrinkled", MARBLE + 2, TEXTURE_WRINKLED, noise_texture},
-    {"windy", MARBLE + 4, TEXTURE_WINDY, noise_texture},
+    {"fbm", FBM, TEXTURE_FBM, noise_texture},
+    {"wrinkled", FBM, TEXTURE_WRINKLED, noise_texture},
+    {"windy", WINDY, TEXTURE_WINDY, noise_texture},
     {"marble", MARBLE, TEXTURE_MARBLE, noise_texture}, {.name = NULL}};
 
 /* The texture of params.type, or -1. */
