@@ -61,7 +61,8 @@ static const struct agreement EXPECTATIONS[] = {
 enum { N_EXPECTATIONS = sizeof EXPECTATIONS / sizeof EXPECTATIONS[0] };
 
 /* In three pixels, where sub-paths of a rank would meet too often if the lattice were not shifted at random. */
-static const struct agreement THREE_PIXELS = {"doc/mini/rooms", 3, 1, 4, "bdpt", "mbdpt", 1024, 1024, 32, 3, true, 0};
+static const struct agreement THREE_PIXELS = {"doc/mini/rooms", 3, 1, 4, "bdpt", "mbdpt pathpixels=1",
+                                              1024, 1024, 32, 3, true, 0};
 
 /* The two rooms with pools of a hundred light vertices, in which records differ. */
 static const struct agreement ROOMS = {
