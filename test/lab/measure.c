@@ -41,12 +41,11 @@ static void picture_key(struct subject *s, int method, uint64_t seed, long spp, 
 }
 
 /* Against the reference. */
-static void compare_picture(struct subject *s, int method, int seed, int step)
+static void compare_picture(struct subject *s, int method, int seed, int step, const float *x)
 {
     struct scene_results *out = s->out;
     const struct reference *ref = &out->reference;
     struct run *to = &out->run[method][seed - 1][step];
-    const float *x = s->picture[method][seed - 1];
     struct difference d = compare_pixels(x, ref->pixels, 3L * out->width * out->height);
     to->value[Q_RMSE8] = d.rmse8;
     to->value[Q_MEAN_ERROR] = d.mean_ratio - 1;
@@ -56,17 +55,18 @@ static void compare_picture(struct subject *s, int method, int seed, int step)
         to->square[k] -= ref->noise[k];
 }
 
-/* The picture of the last step is kept. */
+/* The picture is kept if it is of the last step, or if there are pairs. */
 static void take_step(struct subject *s, int method, int seed, int step, long spp, struct record *r)
 {
     struct run *to = &s->out->run[method][seed - 1][step];
-    float **picture = &s->picture[method][seed - 1];
-    free(*picture);
-    *picture = r->pixels;
     to->spp = spp;
     to->value[Q_SECONDS] = r->number[0];
     to->nonfinite = (long)r->number[1];
-    compare_picture(s, method, seed, step);
+    compare_picture(s, method, seed, step, r->pixels);
+    float *old = s->picture[method][step][seed - 1];
+    bool kept = step == plan_last_step(s->plan) || plan_seeds(s->plan, method) >= 3;
+    s->picture[method][step][seed - 1] = kept ? r->pixels : NULL;
+    free(kept ? old : r->pixels);
 }
 
 /* Those kept by an earlier start. */
@@ -144,26 +144,26 @@ static bool read_or_render_run(struct subject *s, int method, int seed)
 static bool by_pairs(const struct scene_results *out, int method)
 {
     const struct plan *p = out->plan;
-    return p->equal && p->n_seeds >= 3 && p->reference == NULL && out->reference.variance != NULL && !out->lacks &&
+    return plan_seeds(p, method) >= 3 && p->reference == NULL && out->reference.variance != NULL && !out->lacks &&
            out->mark[method] == MARK_NONE;
 }
 
-static void compare_pairs(struct subject *s, int method)
+static void compare_pairs(struct subject *s, int method, int step)
 {
     struct scene_results *out = s->out;
     int n = out->plan->n_seeds;
     double half[N_SQUARES][PLAN_MAX_SEEDS * PLAN_MAX_SEEDS], square[N_SQUARES], each[PLAN_MAX_SEEDS];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < i; j++) {
-            compare_squares(s->picture[method][i], s->picture[method][j], out->reference.pixels, out->width,
-                            out->height, square);
+            compare_squares(s->picture[method][step][i], s->picture[method][step][j], out->reference.pixels,
+                            out->width, out->height, square);
             for (int k = 0; k < N_SQUARES; k++)
                 half[k][i * n + j] = half[k][j * n + i] = square[k] / 2;
         }
     for (int k = 0; k < N_SQUARES; k++) {
         results_pairs(half[k], n, each);
         for (int i = 0; i < n; i++)
-            out->run[method][i][0].square[k] = each[i];
+            out->run[method][i][step].square[k] = each[i];
     }
 }
 
@@ -212,9 +212,10 @@ static void judge(struct subject *s)
     for (int v = 0; v < p->methods.n; v++) {
         int n = plan_seeds(p, v);
         if (n >= 2 && out->reference.variance != NULL)
-            out->mark[v] = mark_of(mark_tests(s->picture[v], n, &out->reference), p->methods.n * p->n_scenes);
-        if (by_pairs(out, v))
-            compare_pairs(s, v);
+            out->mark[v] = mark_of(mark_tests(s->picture[v][plan_last_step(p)], n, &out->reference),
+                                   p->methods.n * p->n_scenes);
+        for (int step = 0; by_pairs(out, v) && step < p->n_steps; step++)
+            compare_pairs(s, v, step);
     }
 }
 
@@ -242,9 +243,10 @@ static bool measure_scene(struct pace *pace, struct scene_results *out, struct e
     if (ok)
         judge(&s);
     for (int v = 0; v < METHODS_MAX; v++) {
-        out->image[v] = s.picture[v][0];
-        for (int i = 1; i < PLAN_MAX_SEEDS; i++)
-            free(s.picture[v][i]);
+        out->image[v] = s.picture[v][plan_last_step(s.plan)][0];
+        s.picture[v][plan_last_step(s.plan)][0] = NULL;
+        for (int i = 0; i < PLAN_MAX_STEPS * PLAN_MAX_SEEDS; i++)
+            free(s.picture[v][i / PLAN_MAX_SEEDS][i % PLAN_MAX_SEEDS]);
     }
     scene_free(&s.scene);
     return ok;

@@ -13,7 +13,7 @@ struct subject {
     struct scene scene;
     struct scene_results *out;
     unsigned long probe[METHODS_MAX]; /* what the program makes of the scene; 0: not asked yet */
-    float *picture[METHODS_MAX][PLAN_MAX_SEEDS]; /* after all samples, of the reference's size; owned */
+    float *picture[METHODS_MAX][PLAN_MAX_STEPS][PLAN_MAX_SEEDS]; /* of the reference's size; owned; NULL: not kept */
     struct pace *pace; /* see measure.c */
     struct error *err;
 };
