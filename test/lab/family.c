@@ -57,7 +57,7 @@ static bool is_ours(const struct results *e, int method)
     return strcmp(e->plan->methods.item[method].integrator, METHOD_PARTNER) == 0;
 }
 
-/* Of each scene the best method that is not asbdpt's, over the first; and asbdpt's first one over that. */
+/* Of each scene the best method that is not asbdpt's, over the first; and the default over that. */
 static void best_rival_rows(struct table *t, const struct results *e, const struct view *view)
 {
     struct view rivals = {.n = 0};
@@ -65,7 +65,7 @@ static void best_rival_rows(struct table *t, const struct results *e, const stru
     for (int i = 0; i < view->n; i++)
         if (!is_ours(e, view->method[i]))
             rivals.method[rivals.n++] = view->method[i];
-        else if (ours < 0)
+        else if (strcmp(label(e, view->method[i]), "subspaces") == 0)
             ours = view->method[i];
     for (int row = 0; row < 2 && ours >= 0 && rivals.n > 1; row++) {
         table_add(t, row == 0 ? "best rival" : "%s over best rival", label(e, ours));
