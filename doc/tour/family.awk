@@ -15,9 +15,13 @@ END {
     source("state", "the previous sample", "a Markov chain", "#b3400a")
     method("light", "pt", "one point; the light by its power")
     method("light", "restir", "one of M, then one of N + 1 pixels'")
+    method("light", "ellipse", "with one vertex between, on an ellipsoid")
+    method("light", "caustics", "also through mirrors and glass")
+    method("light", "ppg", "as pt; directions by the light that they met")
     method("own", "lt", "its vertices, connected to the lens: t = 1")
     method("own", "bdpt", "no choice: a new one each time")
     method("own", "bins", "one of two kept ones, by beta^2: biased")
+    method("own", "regularise", "a new one; mirrors are blurred: biased")
     method("paths", "pool", "q_k, by importance: weight 1 / (K q_k)")
     method("paths", "cbdpt", "M of them, in all pairs: 1 / M")
     method("paths", "mbdpt", "a lattice over pairs sorted by length")
@@ -28,12 +32,13 @@ END {
     method("vertices", "ris", "by one record; weights depend on it")
     method("vertices", "ris2", "M2 by L_v, then as ris")
     method("vertices", "spcbpt", "subspace by Gamma(e,l), then L_v")
+    method("vertices", "vcm", "as bdpt, and merges with all nearby: biased")
     method("eye", "restirgi", "one second vertex of N + 1 pixels")
     method("eye", "pathgraph", "all M of a cluster; biased")
     method("state", "pssmlt", "all its numbers, changed a little")
     method("state", "mmlt", "one strategy's numbers, changed a little")
     method("state", "mlt", "a path, a part of its vertices kept")
-    print "<svg xmlns='http://www.w3.org/2000/svg' width='740' height='600' viewBox='0 0 740 600' " \
+    print "<svg xmlns='http://www.w3.org/2000/svg' width='740' height='730' viewBox='0 0 740 730' " \
         "font-family='sans-serif' font-size='13'><rect width='100%' height='100%' fill='white'/>"
     print "<text x='12' y='22' font-weight='bold'>an eye sub-path is connected to</text>" \
         "<text x='300' y='22' font-weight='bold'>method</text><text x='392' y='22' font-weight='bold'>choice</text>"
