@@ -178,7 +178,7 @@ drawn() { # NAME FILE: the figure of an entry
     commands "$1" draw >"$dir/draw"
     sh -e "$dir/draw" <"$stored/$1.txt" >"$2"
 }
-pages() { grep -l '<!-- measured: ' README.md doc/*.md doc/tour/*.md scenes/*.md; }
+pages() { grep -l '<!-- measured: ' README.md doc/*.md doc/*/*.md scenes/*.md; }
 fill() {
     notes >"$dir/notes"
     for page in $(pages); do

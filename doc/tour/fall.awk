@@ -1,6 +1,7 @@
 # fall.awk: curves as SVG, both axes logarithmic, with dashed lines from where each begins. Reads lines "NAME N VALUE",
 # those of a name together; -v title=. Unless -v across= and -v up= name the axes, N are samples per pixel, and values are
-# errors. Unless -v slope= is given, the dashed lines are proportional to 1/sqrt(N). -v wide=: pixels of the N axis.
+# errors. Unless -v slope= is given, the dashed lines are proportional to 1/sqrt(N). -v wide=: pixels of the N axis. Lines
+# "NAME N VALUE LOW HIGH" have bars.
 BEGIN {
     if (slope == "") slope = -0.5
     if (wide == "") wide = 420
@@ -15,7 +16,7 @@ function label(y,    i) {
     for (i = 1; i <= labels; i++) if (at[i] < y + 14 && at[i] > y - 14) { y = at[i] + 14; i = 0 }
     return at[++labels] = y
 }
-{ name[NR] = $1; n[NR] = $2; e[NR] = $3 }
+{ name[NR] = $1; n[NR] = $2; e[NR] = $3; low[NR] = $4; high[NR] = $5 }
 NR == 1 { first = last = $2; least = most = $3 }
 { if ($2 < first) first = $2; if ($2 > last) last = $2; if ($3 < least) least = $3; if ($3 > most) most = $3 }
 END {
@@ -46,6 +47,9 @@ END {
             for (j = i; name[j] == name[i]; j++) {
                 d = d (j > i ? "L" : "M") sprintf("%.1f %.1f", X(n[j]), Y(e[j]))
                 printf "<circle cx='%.1f' cy='%.1f' r='3.5' fill='%s'/>\n", X(n[j]), Y(e[j]), c
+                if (high[j] > 0)
+                    printf "<path d='M%.1f %.1fV%.1f' stroke='%s'/>\n", X(n[j]), Y(low[j] > least ? low[j] : least), \
+                        Y(high[j] < most ? high[j] : most), c
             }
             printf "<path d='%s' fill='none' stroke='%s' stroke-width='2'/><text x='%d' y='%.1f' fill='%s'>%s</text>\n", d, c,
                 80 + wide, label(Y(e[j - 1]) + 4), c, name[i]

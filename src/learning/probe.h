@@ -21,7 +21,7 @@
 #include "transport/tile_pass.h"
 
 /* light_paths_useful: is that sum larger than 0.4 times BDPT's own variance? If not, a path tracer has at most 1.4
- * times the variance and takes two thirds of the time. Light sub-paths that are chosen well gain more than BDPT's, so
+ * times the variance, and its samples take less time. Light sub-paths that are chosen well gain more than BDPT's, so
  * they can be useful where a path tracer is better than BDPT. Also true if job->watch ends the probe. */
 bool light_paths_useful(const struct render_job *job);
 
