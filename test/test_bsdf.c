@@ -303,7 +303,7 @@ static void planted_faults(struct test *t, struct rng *r, const struct fourier_t
     claimed = mount(&s[0], 0.35);
     reject(t, r, &lambert, &claimed, 0.5, HONEST, "lambert, wrong geometric normal");
     struct bsdf forward = mount(&s[19], 0), backward = mount(&s[20], 0);
-    static const double WRONG[] = {-0.6, 0.57, 0};
+    static const double WRONG[] = {-0.6, 0.55, 0};
     for (int i = 0; i < 3; i++) {
         other = s[19];
         other.lobe[0].of.g = WRONG[i];

@@ -38,7 +38,7 @@ static double light_along(const struct scene *s, const struct light_point *at, v
  * to a pole of the map the last bit of a direction decides on its sine, by which densities are divided. */
 static void check_sky(struct test *t, const struct scene *s, struct rng *r)
 {
-    enum { N = 300, DRAWS = 20000 };
+    enum { N = 600, DRAWS = 20000 };
     double integral = 0;
     for (int i = 0; i < N; i++)
         for (int k = 0; k < 2 * N; k++) {

@@ -102,7 +102,7 @@ static void test_order(struct test *t)
  * often as chance has it, which is once, on average, with the variance 1. */
 static void test_pattern(struct test *t)
 {
-    enum { CELL = 4, CELLS = 64, SIDE = CELL * CELLS };
+    enum { CELL = 4, CELLS = 96, SIDE = CELL * CELLS };
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 12, 0);
     int x0 = (int)rng_below(&r, 1 << 20), y0 = (int)rng_below(&r, 1 << 20), place[CELLS][CELLS];
     double same[2] = {0, 0}, n = CELLS * (CELLS - 1);
@@ -123,12 +123,13 @@ static void test_pattern(struct test *t)
     }
 }
 
-/* Lamps on one side of a wall, the camera on the other: no strategy may see through it. */
+/* Lamps on one side of a wall, the camera on the other: no strategy may see through it. The floor ends before the wall,
+ * since what merges vertices would merge those of both sides. */
 static const char WALL[] =
     "LookAt 0 2 -4  0 .5 -1  0 1 0 Camera \"perspective\" \"float fov\" 60\n"
     "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8\n"
     "WorldBegin LightSource \"point\" \"point from\" [0 2 2] Material \"matte\"\n"
-    QUAD("-5 0 -5  5 0 -5  5 0 5  -5 0 5")
+    QUAD("-5 0 -5  5 0 -5  5 0 -1  -5 0 -1") QUAD("-5 0 1  5 0 1  5 0 5  -5 0 5")
     QUAD("-9 -9 0  9 -9 0  9 9 0  -9 9 0")
     "AreaLightSource \"diffuse\" Translate 1 2 2 Shape \"sphere\" WorldEnd\n";
 
