@@ -20,7 +20,7 @@ async function rendered(settings) {
   await until(() => SCENES.length > 0, 'the unpacked scenes');
   check(SCENES.length === 10 && SCENES.includes('rooms'), 'scenes: ' + SCENES);
   await until(() => sides.every(s => s.worker), 'its start');
-  check($('reference').width > 20 && $('select').length === 18, 'reference and methods');
+  check($('reference').width > 20 && $('select').length === 21, 'reference and methods');
   await until(() => $('reference').width >= 72, 'a reference as fine as the picture');
   turn('scale', 2);
   turn('spp', 4);
