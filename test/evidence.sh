@@ -234,6 +234,7 @@ check() {
             grep -q -e "<!-- measured: $name\\." "$page" || wrong "$page does not show $name"
         done
         old "$file" "$name" && behind="$behind $name"
+        [ "$(head_of "$file" samples)" = "$(field "$name" samples)" ] || wrong "$file has other samples than $list"
         figure=$(field "$name" figure)
         [ -z "$figure" ] || { drawn "$name" "$dir/figure" && cmp -s "$dir/figure" "$figure"; } ||
             wrong "$figure is not of what $file says: sh test/evidence.sh fill"
