@@ -370,6 +370,13 @@ static void check_both_ways(struct test *t)
         CHECK(t, by_pairs.scene[0].mark[v] == MARK_NONE && by_reference.scene[0].mark[v] == MARK_NONE, "%s is marked",
               p.methods.item[v].text);
     results_free(&by_pairs);
+    p.equal = false, p.reference = NULL;
+    double sum[3] = {0, 0, 0}; /* after 4, 8 and 16 samples: each step has pairs of its own */
+    ok = plan_set_spp(&p, 4, 16, &err) && measure(&p, &by_pairs, &err);
+    for (int i = 0; ok && i < 9 * p.n_seeds; i++)
+        sum[i % 3] += by_pairs.scene[0].run[i / 3 % 3][i / 9][i % 3].square[SQUARE_RMSE8];
+    CHECK(t, sum[0] / sum[2] > 2 && sum[0] / sum[2] < 8, "by pairs: %g, %g, %g", sum[0], sum[1], sum[2]);
+    results_free(&by_pairs);
     results_free(&by_reference);
 }
 
