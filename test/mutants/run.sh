@@ -59,7 +59,7 @@ workers=${1:-2}
 only=" $* "
 rm -rf $work/part*.txt
 mkdir -p $work/tree0
-(cd $work/tree0 && rm -rf src test scenes ref doc) # what is no longer in the tree
+(cd $work/tree0 && rm -rf build src test scenes ref doc) # what is no longer in the tree, or made of a fault
 cp -Rp Makefile src test scenes ref doc $work/tree0/
 (cd $work/tree0 && make -s -j"$workers" LTO= asbdpt asbdpt-lab build/test >/dev/null) || exit 1
 for test in $(chosen | sed 's/.* //' | tr , '\n' | sort -u) $rest; do # one that fails would seem to catch them all
