@@ -2,17 +2,15 @@
 # the last file: table, a row for each scene; mean: that alone; without: the mean without the best scene;
 # better: the mean over the better of bdpt and pt, which counts where it has no mark, like "misses light", behind its
 # interval; losses: where that is above 1. Of two files, with 16 and 64 samples: sizes, what the default makes of the
-# better one, a line where learning left no time for a sample.
-function number(s) { return s ~ /^[0-9]/ ? s + 0 : 0 }
+# better one, a line where learning left no time for a sample. With -v kinds=, a file of scenes and their kinds, a
+# section for each kind: both means.
+BEGIN { while (kinds != "" && (getline < kinds) > 0) kind[$1] = $2 }
 function cell(method, m, i) { return value[file, method, m, i] }
-# What the default of a file makes of the better one in a scene; 0: not known. bdpt is 1; what is printed as 0.000 is
-# taken for half of the last digit.
+function least(v) { return v + 0 > 0 ? v + 0 : 0.0005 } # what is printed as 0.000 is taken for half of the last digit
+# What the default of a file makes of the better one in a scene; 0: not known. bdpt is 1.
 function over_better(f, m, i,    q, pt) {
     q = value[f, "subspaces", m, i]; pt = value[f, "pt", m, i]
-    if (q !~ /^[0-9]/) return 0
-    q = q + 0 > 0 ? q + 0 : 0.0005
-    if (pt ~ /[a-z]/ || pt !~ /^[0-9]/ || pt + 0 >= 1) return q
-    return q / (pt + 0 > 0 ? pt + 0 : 0.0005)
+    return q !~ /^[0-9]/ ? 0 : least(q) / (pt ~ /[a-z]/ || pt !~ /^[0-9]/ || pt + 0 >= 1 ? 1 : least(pt))
 }
 FNR == 1 { file++; measure = "" }
 /^(rmse8|relmse|8x8): squared/ { measure = $1; sub(/:/, "", measure) }
@@ -51,18 +49,19 @@ END {
     for (i = 1; i <= n; i++) {
         print "| " scene[i] " | " cell("pt", "rmse8", i) " | " bold(cell("subspaces", "rmse8", i)) " | " \
             cell("subspaces", "relmse", i) " | " cell("subspaces", "8x8", i) " |"
-        q[i] = number(cell("subspaces", "rmse8", i))
+        q[i] = least(cell("subspaces", "rmse8", i))
         if (q[i] < q[best]) best = i
-        over = over_better(file, "rmse8", i)
-        better += log(over > 0 ? over : 1)
-        losses += over > 1
+        over = log(over_better(file, "rmse8", i))
+        better += over; losses += over > 0; rest += log(q[i])
+        k = kind[scene[i]]; count[k]++; ours[k] += log(q[i]); betters[k] += over
     }
-    for (i = 1; i <= n; i++) rest += i == best ? 0 : log(q[i] > 0 ? q[i] : 0.0005)
     all = cell("subspaces", "summary", 4)
     print "| **geometric mean** | " cell("pt", "summary", 4) " | " bold(all) " | " \
         cell("subspaces", "summary", 5) " | " cell("subspaces", "summary", 6) " |"
     sub(/ .*/, "", all)
-    printf "== mean\n%s\n== without\n%.2f without `%s`\n", all, exp(rest / (n - 1)), scene[best]
+    printf "== mean\n%s\n== without\n%.2f without `%s`\n", all, exp((rest - log(q[best])) / (n - 1)), scene[best]
     printf "== better\n%.2f\n== losses\n%d of %d\n", exp(better / n), losses, n
     if (file > 1) sizes()
+    for (k in count) if (k != "") printf "== %s\n%.2f (%.2f with the better of `bdpt` and `pt`; %d scenes)\n", k,
+        exp(ours[k] / count[k]), exp(betters[k] / count[k]), count[k]
 }
