@@ -20,6 +20,7 @@ function label(y,    i) {
 NR == 1 { first = last = $2; least = most = $3 }
 { if ($2 < first) first = $2; if ($2 > last) last = $2; if ($3 < least) least = $3; if ($3 > most) most = $3 }
 END {
+    if (NR == 0) exit 1
     every = sprintf("%.3f", log(last / first) / log(10)) ~ /[.]000$/ ? 10 : 4
     least /= 1.3; most *= 1.3
     printf "<svg xmlns='http://www.w3.org/2000/svg' width='%d' height='350' viewBox='0 0 %d 350' font-family='sans-serif' ",

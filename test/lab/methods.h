@@ -37,7 +37,7 @@ struct methods {
 #define SWEEPS_FULL "asbdpt:select=bins:binpaths=4/8/16/32", "asbdpt:select=bins:restart=0/8/16/32"
 #define SWEEPS_QUICK "asbdpt:select=bins:binpaths=8/32", "asbdpt:select=bins:restart=0/32"
 #define METHODS_ALSO \
-    ",ris:weights=counts,lvc:connections=0,mbdpt:key=throughput,cbdpt:connections=1," \
+    ",ris:weights=counts,lvc:connections=0,lvc:connections=1,mbdpt:key=throughput,cbdpt:connections=1," \
     "asbdpt:select=subspaces:connections=1:pathpixels=1" /* family */
 #define METHOD_REFERENCE "bdpt"         /* renders references */
 #define METHOD_CAUSTICS "caustics"      /* the same, where reference_method says so */
