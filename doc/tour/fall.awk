@@ -27,7 +27,8 @@ END {
         wide + 200, wide + 200
     print "font-size='13'><rect width='100%' height='100%' fill='white'/>"
     printf "<text x='10' y='20' font-weight='bold'>%s</text>\n", title
-    for (k = first; k <= last; k *= every)
+    for (k = every == 10 ? first : 1; k < first; k *= 2);
+    for (; k <= last; k *= every)
         printf "<path d='M%g 40V300' stroke='#ddd'/><text x='%g' y='318' text-anchor='middle'>%d</text>\n", X(k), X(k), k
     print "<text x='" 70 + wide / 2 "' y='340' text-anchor='middle'>" across "</text>"
     print "<text x='14' y='175' text-anchor='middle' transform='rotate(-90 14 175)'>" up "</text>"
