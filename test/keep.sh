@@ -133,13 +133,14 @@ heard() {
     echo "skipped: SIG$1 (it is ignored here)"
     return 1
 }
-# stopped STATUS SIGNAL CONDITION SAYS OPTION...: a render gets the signal when the condition, a command, is met. It
+scene=$box
+# stopped STATUS SIGNAL CONDITION SAYS OPTION...: its render gets the signal when the condition, a command, is met. It
 # must end with the status, say that it is stopping and what it has reached, and leave no temporary file.
 stopped() {
     wanted=$1 signal=$2 condition=$3 says=$4
     shift 4
     heard "$signal" || return
-    "$program" render "${scene:-$box}" --quiet --time 100 "$@" 2>stderr.txt & # one that hears nothing ends all the same
+    "$program" render "$scene" --quiet --time 100 "$@" 2>stderr.txt & # one that hears nothing ends all the same
     wait_until $condition
     kill -s "$signal" $!
     wait $!

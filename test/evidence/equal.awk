@@ -51,7 +51,7 @@ END {
             cell("subspaces", "relmse", i) " | " cell("subspaces", "8x8", i) " |"
         q[i] = least(cell("subspaces", "rmse8", i))
         if (q[i] < q[best]) best = i
-        over = log(over_better(file, "rmse8", i))
+        if ((over = over_better(file, "rmse8", i)) > 0) over = log(over)
         better += over; losses += over > 0; rest += log(q[i])
         k = kind[scene[i]]; count[k]++; ours[k] += log(q[i]); betters[k] += over
     }
