@@ -245,11 +245,14 @@ void test_mis(struct test *t)
     const struct mis_counts power = {{1, 1}, {1, 1}, {1, 1}, .splat = 1024, .power = true};
     const struct mis_counts uneven = {{3, 1}, {6, 1.5}, {8, 0.7}, .splat = 300};
     const struct mis_counts both = {{3, 1}, {6, 1.5}, {8, 0.7}, .splat = 300, .power = true};
+    const struct mis_counts first = {{2, 0}, {3, 0}, {4, 0}, .splat = 300}, later = {{0, 2}, {0, 3}, {0, 4}, .splat = 300};
+    const struct mis_counts mixed = {{2, 0}, {0, 3}, {4, 0}, .splat = 300, .power = true};
     const struct {
         const char *name;
         const struct mis_counts *counts;
     } sets[] = {{"bdpt", &all}, {"pt", &pt}, {"lt", &lt}, {"power", &power}, {"uneven counts", &uneven},
-                {"uneven counts, power", &both}};
+                {"uneven counts, power", &both}, {"first hits alone", &first}, {"later hits alone", &later},
+                {"first or later hits, power", &mixed}};
     long values[4] = {0};
 
     for (size_t i = 0; i < 2 * sizeof VARIANTS / sizeof VARIANTS[0]; i++) {
@@ -263,7 +266,7 @@ void test_mis(struct test *t)
         if (!scene_from_text(t, text, &scene))
             return;
         struct tables all_known = learn_nothing(&scene);
-        for (size_t k = 0; k < 8 * (sizeof sets / sizeof sets[0]); k += media ? 5 : 1) {
+        for (size_t k = 0; k < 8 * (sizeof sets / sizeof sets[0]); k += media ? 7 : 1) {
             struct mis_counts counts = *sets[k / 8].counts;
             bool guide = k % 2 == 1, pairs = k / 2 % 2 == 1, emission = k / 4 % 2 == 1;
             struct tables known = all_known;

@@ -234,8 +234,8 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
      * s = 2, the count of s = 0 in y->mis differs, too. */
     double c_e = c_light(counts, &scene->lights, &light[s - 2], y, FIRST_HIT);
     double mis = y->mis, eye_side = 0;
-    if (s == 2 && mis > 0)
-        mis *= mis_raise(counts, counts->hit[FIRST_HIT]) / mis_raise(counts, counts->hit[LATER_HIT]);
+    if (s == 2 && !light_is_delta(&scene->lights.light[light[0].light]))
+        mis = mis_step(counts, counts->hit[FIRST_HIT], 0, 0, light[0].pdf_fwd, y->back);
     double light_side = mis_side(counts, density * vertex_cosine(y, w), y->pdf_fwd, c_e, at_y.pdf_rev, mis);
     pass_media(scene, counts, y, neg(w), distance, 0, &c, &light_side, &eye_side);
     c.weight = mis_weight(counts, counts->splat, light_side, eye_side); /* mis.h (7) */

@@ -13,9 +13,9 @@ void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *p
 {
     bool parallel = vertex_at_infinity(w->scene, prev); /* rays of a light at infinity do not spread */
     double spread = prev->kind == VERTEX_LENS ? camera_spread(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
-    double at_prev = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * spread; /* g */
+    v->back = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * spread;
     v->pdf_fwd = from->pdf * vertex_cosine(v, from->ray.d) * spread;
-    v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, at_prev);
+    v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, v->back);
 }
 
 /* The same with the factors of media on the edge. */
@@ -24,8 +24,9 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
 {
     walk_measure(w, v, prev, from, d2);
     if (w->scene->media.n > 0) {
+        v->back *= from->way->density[0];
         v->pdf_fwd *= from->way->density[1];
-        v->mis *= mis_raise(w->counts, from->way->density[0]); /* of g */
+        v->mis *= mis_raise(w->counts, from->way->density[0]);
         v->medium = from->way->medium;
     }
 }

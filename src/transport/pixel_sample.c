@@ -110,11 +110,10 @@ void pixel_sum_direct(struct pixel_sample *sample, const struct vertex *eye, int
 
 void pixel_sum_eye(struct pixel_sample *sample, const struct vertex *eye, int n)
 {
-    bool all = sample->counts->hit[LATER_HIT] > 0;
     for (int t = 2; t <= n; t++) {
-        if (t == 2 || all)
+        if (t == 2 || sample->counts->hit[eye[t - 2].eye_end] > 0)
             pixel_sum_hit(sample, eye, t);
-        if (all)
+        if (sample->counts->direct[eye[t - 1].eye_end] > 0)
             pixel_sum_direct(sample, eye, t);
     }
 }

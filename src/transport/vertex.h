@@ -13,7 +13,6 @@ enum vertex_kind {
     VERTEX_LENS,    /* z_0 */
     VERTEX_LIGHT,   /* y_0 */
     VERTEX_SURFACE, /* a scattering point, possibly on an area light */
-    /* without a normal: */
     VERTEX_MEDIUM,  /* a scattering point within a medium */
     VERTEX_ESCAPED  /* a direction: the end of an eye sub-path that left the scene, for infinite lights or a `lamp` */
 };
@@ -49,7 +48,7 @@ enum vertex_kind {
  * A see-through light is an area light without a material (scene.h). Walks may start on it, and pass it without a
  * vertex. The first such light that an eye walk passes on an edge is the `lamp` of the vertex at the edge's end. It is
  * the last vertex of a path of its own, and no vertex of the sub-path. Its kind is SURFACE. It has only the fields that
- * connect_hit needs.
+ * connect_hit needs. The parser refuses such lights in scenes with media, so its density has no factor of a medium.
  */
 struct vertex {
     enum vertex_kind kind;
@@ -64,6 +63,7 @@ struct vertex {
     double pdf_fwd, pdf_origin, pdf_rev;
     int material; /* of the surface, index into scene->material */
     int medium;   /* of the edge that ends here; LENS, LIGHT: of the place */
+    double back;  /* g of mis.h: turns a density per steradian here into one per area at the previous vertex */
     double mis;   /* mis_e of mis.h */
     double mis_c; /* c_e of mis.h, if this vertex is not left by a delta lobe */
     int eye_region, light_region;
@@ -96,7 +96,7 @@ static inline bool vertex_connectible(const struct vertex *v)
  * vertex' surface: |cos(w, ng)|; 1 without ng. */
 static inline double vertex_cosine(const struct vertex *v, vec3 w)
 {
-    return v->kind >= VERTEX_MEDIUM ? 1 : abs_dot(v->ng, w);
+    return length2(v->ng) > 0 ? abs_dot(v->ng, w) : 1;
 }
 
 /* vertex_side: the normal that decides the region of a surface point: ng, on the side where its walk came from. The
