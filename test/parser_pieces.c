@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mem.h"
 #include "base/rng.h"
 #include "helpers.h"
 #include "parser/lexer.h"
@@ -40,9 +41,13 @@ static bool lex_number(const char *text, double *out)
 {
     struct arena arena = {NULL, NULL};
     struct messages messages = {0};
-    struct source_file file = {"number", text, text + strlen(text), true};
-    struct lexer l = lexer_start(&file, &arena, &messages);
-    return lexer_number(&l, out) && lexer_peek(&l) == TOKEN_END;
+    char *copy = mem_copy_text(text);
+    struct source_file file = {"number", copy, copy + strlen(copy), true};
+    struct lexer l = {.arena = &arena, .messages = &messages};
+    lexer_enter(&l, &file);
+    bool ok = lexer_number(&l, out) && lexer_peek(&l) == TOKEN_END;
+    lexer_leave(&l);
+    return ok;
 }
 
 static void check_numbers(struct test *t)

@@ -278,7 +278,8 @@ static bool object_begin(struct parser *p)
     if (!parse_string(p, &name, "a name"))
         return false;
     if (p->current_object >= 0)
-        return directive_error(p, "objects do not nest; close the one before it with ObjectEnd");
+        source_warn(&p->messages, name.position, "objects do not nest: as in pbrt-v3, \"%.60s\" ends the one before it",
+                    name.text);
     p->object = mem_append(p->object, (size_t)p->objects.n, sizeof *p->object);
     memset(&p->object[p->objects.n], 0, sizeof *p->object);
     p->current_object = p->objects.n;
@@ -288,10 +289,8 @@ static bool object_begin(struct parser *p)
 
 static bool object_end(struct parser *p)
 {
-    if (!parse_close_block(p, BLOCK_OBJECT))
-        return false;
     p->current_object = -1;
-    return true;
+    return parse_close_block(p, BLOCK_OBJECT);
 }
 
 /* Instances are copies: a few lines could ask for more than any machine has. */
@@ -314,8 +313,10 @@ static uint64_t instance_bytes(const struct shape_list *object)
 static bool object_instance(struct parser *p)
 {
     struct token name;
-    if (p->current_object >= 0)
-        return directive_error(p, "objects do not nest; close the one before it with ObjectEnd");
+    if (p->current_object >= 0) {
+        source_warn(&p->messages, p->directive.position, "an ObjectInstance in an object is passed over, as in pbrt-v3");
+        return false;
+    }
     int i = parse_named(p, &name, &p->objects, "object", "this instance is left out");
     if (i < 0)
         return false;
