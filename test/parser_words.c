@@ -145,7 +145,6 @@ static void put_shapes(struct words *w, const struct scene *s)
         put(w, "group of material %d light %d flip %d N %d uv %d", g->material, g->first_light, g->flip, g->has_n,
             g->has_uv);
         put_texture(w, s, "alpha", g->alpha);
-        put_texture(w, s, "shadow", g->shadow_alpha);
         put(w, " media %d %d\n", g->medium[0], g->medium[1]);
     }
     for (int i = 0; i < geo->n_quadrics; i++) {

@@ -132,6 +132,18 @@ static int alpha(struct parser *p, const char *name)
     return hole ? parse_constant(p, rgb_black()) : texture;
 }
 
+/* pbrt-v3's holes for shadow rays alone cannot be: what light passes, the eye's paths must pass, too, or the strategies
+ * disagree. Exporters give the texture of "alpha", which says nothing new. */
+static void shadow_alpha(struct parser *p, struct shape_group *group, int texture)
+{
+    if (texture < 0 || texture == group->alpha)
+        return;
+    source_warn(&p->messages, place_of(&p->params, "shadowalpha"),
+                "a hole is one for all rays here: \"shadowalpha\" %s",
+                group->alpha < 0 ? "counts as \"alpha\"" : "is passed over, since \"alpha\" is another");
+    group->alpha = group->alpha < 0 ? texture : group->alpha;
+}
+
 static bool count_file(struct params *q, const struct mesh *m, struct error *err)
 {
     return m->file_size == 0 || scene_files_count(q->files, m->content, m->file_size, err);
@@ -154,7 +166,7 @@ static void mesh(struct parser *p, struct shape_item *item)
     free(fields);
     if (row->may_have_holes) {
         item->group.alpha = alpha(p, "alpha");
-        item->group.shadow_alpha = alpha(p, "shadowalpha");
+        shadow_alpha(p, &item->group, alpha(p, "shadowalpha"));
     }
 }
 
@@ -253,7 +265,7 @@ static bool shape(struct parser *p)
     if (!parse_typed(p) || !parse_type(p, types))
         return false;
     struct shape_item item = {.to_world = p->place.ctm, .reverse = p->state.reverse, .area = p->state.area};
-    item.group.alpha = item.group.shadow_alpha = item.group.first_light = -1;
+    item.group.alpha = item.group.first_light = -1;
     if (p->type.kind < N_QUADRICS)
         parse_fields(p, &item);
     else
