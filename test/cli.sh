@@ -318,6 +318,21 @@ makes light.png "$program" convert x.ppm -o y.PNG
 "$program" convert - -o - --quiet <light.pfm >through.pfm
 check cmp -s light.pfm through.pfm
 
+# An 8-bit image and the PFM that convert makes of it are, but for rounding, the same sky, by --linear, and the same
+# texture, without.
+printf 'P3 2 1 255 128 20 255 7 90 0 ' >map.ppm
+both() { # SKY TEXTURE
+    echo "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 Translate 0 0 3 Camera \"perspective\"
+        WorldBegin LightSource \"infinite\" \"string mapname\" \"$1\" Texture \"t\" \"spectrum\" \"imagemap\"
+        \"string filename\" \"$2\" Material \"matte\" \"texture Kd\" \"t\" Shape \"sphere\" WorldEnd" >both.pbrt
+}
+expect 0 '' "$program" convert map.ppm --linear -o sky.pfm
+expect 0 '' "$program" convert map.ppm -o map.pfm
+both map.ppm map.ppm
+expect 0 '' "$program" render both.pbrt --spp 2 --quiet -o both.ppm
+both sky.pfm map.pfm
+makes both.ppm "$program" render both.pbrt --spp 2 --quiet -o pfm.ppm
+
 # --exposure and --tonemap: of 8-bit pictures alone, the same in render and convert; without them nothing changes.
 makes light.pfm "$program" render "$box" --res 37x23 --spp 4 --quiet --exposure -2 --tonemap filmic -o dark.png \
     -o dark.pfm

@@ -132,8 +132,18 @@ bool image_keeps_place(const char *path)
 static float linear_value(const struct image *img, size_t i)
 {
     if (img->u8 != NULL)
-        return img->decode[img->u8[i]];
+        return img->linear ? (float)(img->u8[i] / 255.0) : img->decode[img->u8[i]];
     return img->linear ? img->f32[i] : (float)srgb_decode((double)img->f32[i]);
+}
+
+float *image_linear(const struct image *img)
+{
+    size_t pixels = (size_t)img->width * (size_t)img->height;
+    float *out = mem_alloc(pixels * 3, sizeof *out);
+    for (size_t i = 0; i < pixels; i++)
+        for (size_t c = 0; c < 3; c++)
+            out[3 * i + c] = linear_value(img, img->channels == 3 ? 3 * i + c : i);
+    return out;
 }
 
 float *image_read_linear(const char *path, int *width, int *height, struct image *about, struct error *err)
@@ -141,11 +151,7 @@ float *image_read_linear(const char *path, int *width, int *height, struct image
     struct image img;
     if (!image_read(path, &img, err))
         return NULL;
-    size_t pixels = (size_t)img.width * (size_t)img.height;
-    float *out = mem_alloc(pixels * 3, sizeof *out);
-    for (size_t i = 0; i < pixels; i++)
-        for (size_t c = 0; c < 3; c++)
-            out[3 * i + c] = linear_value(&img, img.channels == 3 ? 3 * i + c : i);
+    float *out = image_linear(&img);
     *width = img.width;
     *height = img.height;
     if (about != NULL) {
