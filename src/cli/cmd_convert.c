@@ -44,14 +44,7 @@ static bool next_weight(const char **text, bool last, double *out)
 static float *read_picture(const struct convert_options *o, int k, int *width, int *height, struct image *about,
                            struct error *err)
 {
-    if (!image_read(o->in.item[k], about, err))
-        return NULL;
-    about->linear |= o->linear;
-    float *pixels = image_linear(about);
-    *width = about->width;
-    *height = about->height;
-    image_free(about);
-    return pixels;
+    return (o->linear ? image_read_values : image_read_linear)(o->in.item[k], width, height, about, err);
 }
 
 /* Add picture k times a weight to the sum, which the first one begins. */
@@ -103,7 +96,7 @@ static int run(void *options)
     struct error err;
     struct outputs out;
     struct image about;
-    int width = 0, height = 0;
+    int width, height;
     if (!outputs_open(&o->out, &o->tone, false, &out, &err))
         return fail(&err);
     bool one = o->in.n == 1 && o->weights == NULL;
