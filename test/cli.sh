@@ -48,7 +48,8 @@ expect 1 '^asbdpt: strategy.pbrt:1:[0-9]+: lightsamplestrategy = "spacial" is un
 # Fog all around the camera.
 echo 'Integrator "volpath" MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "fog" Camera "perspective"
     WorldBegin LightSource "infinite" Shape "sphere" WorldEnd' >fog.pbrt
-expect 0 'warning: fog.pbrt: a medium without a bound ends on a sphere' "$program" render fog.pbrt --res 16x16 --spp 2 -o fog.pfm
+expect 0 'warning: fog.pbrt: a medium without a bound ends on a sphere' \
+    "$program" render fog.pbrt --res 16x16 --spp 2 -o fog.pfm
 # row: a medium without a bound, under infinite or distant lights
 # Without lights nothing is rendered, whatever is asked for: a million samples of a hundred thousand pixels, in no time.
 printf 'WorldBegin Shape "sphere" WorldEnd\n' >dark.pbrt

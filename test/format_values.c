@@ -1,9 +1,9 @@
 /* format_values.c: the lists of parameters of doc/scene-format.md, tried out: "float `radius` (1), `zmin`; no meaning:
  * `x`" says of a type that setting radius to 1 changes nothing, that another radius and zmin do, and x does not.
  *
- * The last cell of a row lists parameters, each between backticks, behind the word for their type. In parentheses behind
- * a name comes the default, also of the names before it that have the same type and none of their own: numbers, or
- * words between backticks, of which the last is another value. After a ; comes another number. Brackets have as many
+ * The last cell of a row lists parameters, each between backticks, behind the word for their type. In parentheses
+ * behind a name comes the default, also of the names before it that have the same type and none of their own: numbers,
+ * or words between backticks, of which the last is another value. After a ; comes another number. Brackets have as many
  * words as the parameter has numbers. A parenthesis that begins with another word is a remark. */
 #include <ctype.h>
 #include <stdio.h>
@@ -182,7 +182,8 @@ static char *outcome(struct test *t, const struct type_text *type, const char *n
     struct hearing *heard = mem_alloc(1, sizeof *heard);
     struct message_sink sink = {hear_message, heard};
     char *text = mem_alloc(4, LINE);
-    int n = snprintf(text, 4 * LINE, "%s\n%s %s %s\n%s\n", type->before, type->directive, needs, parameter, type->after);
+    int n = snprintf(text, 4 * LINE, "%s\n%s %s %s\n%s\n", type->before, type->directive, needs, parameter,
+                     type->after);
     snprintf(path, sizeof path, "%s/format.pbrt", test_tmp(t));
     write_bytes(path, text, (size_t)n);
     free(text);

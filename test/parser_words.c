@@ -178,8 +178,8 @@ static void put_lights(struct words *w, const struct scene *s)
         put3(w, "at", f->position.x, f->position.y, f->position.z);
         put3(w, "towards", f->direction.x, f->direction.y, f->direction.z);
         put3(w, "axis", axis.x, axis.y, axis.z);
-        put(w, " cosines %.4f %.4f two-sided %d prim %d picture %d", f->cos_total, f->cos_falloff, l->two_sided, l->prim,
-            f->env != NULL);
+        put(w, " cosines %.4f %.4f two-sided %d prim %d picture %d", f->cos_total, f->cos_falloff, l->two_sided,
+            l->prim, f->env != NULL);
         if (f->env != NULL)
             put3(w, "mean", f->env->mean.r, f->env->mean.g, f->env->mean.b);
         put(w, " medium %d hidden %d group %s\n", l->medium, l->hidden,

@@ -1,12 +1,12 @@
 /* test_format.c: every row of the tables of doc/scene-format.md and doc/pbrt-differences.md is true.
  *
- * Rows of types. The last cell of such a row lists parameters and the one before it types, each between backticks. Every
- * type that the parser knows must have a row, with its parameters and no others, and these are tried out
+ * Rows of types. The last cell of such a row lists parameters and the one before it types, each between backticks.
+ * Every type that the parser knows must have a row, with its parameters and no others, and these are tried out
  * (format_values.c).
  * All other rows. A scene must show what the row says: one of test/fixtures/scenes.txt, which the suite `parser` loads,
- * or of scenes/features, which the suite `features` renders; or test/cli.sh, if it is no scene's affair. A comment there,
- * "# row: ", names the row by its first cell that is not empty. If the row speaks of a warning, or of an error, a scene
- * must cause one.
+ * or of scenes/features, which the suite `features` renders; or test/cli.sh, if it is no scene's affair. A comment
+ * there, "# row: ", names the row by its first cell that is not empty. If the row speaks of a warning, or of an error,
+ * a scene must cause one.
  */
 #define _POSIX_C_SOURCE 200809L
 
@@ -213,7 +213,8 @@ static void check_all_types(struct test *t, struct page *page)
                                 "Material \"matte\" \"texture sigma\" \"t\" WorldEnd"};
     check_types(t, page, "Textures", TEXTURE_TYPES, texture);
     check_mappings(t, page, texture);
-    check_directives(t, page, "Lights", LIGHT_DIRECTIVES, (struct type_text){"", NULL, WORLD, "Shape \"sphere\" WorldEnd"});
+    struct type_text light = {"", NULL, WORLD, "Shape \"sphere\" WorldEnd"};
+    check_directives(t, page, "Lights", LIGHT_DIRECTIVES, light);
 }
 
 /* --- all other rows -------------------------------------------------------------------------------------- */
@@ -224,8 +225,8 @@ static void read_scene(struct test *t, struct page *const *page, const char *nam
     static const char ROW_IS[] = "\n# row: ";
     char *scene = mem_alloc(size + 2, 1), key[120];
     snprintf(scene, size + 2, "\n%.*s", (int)size, text);
-    bool warned = strstr(scene, "\n# warn: ") != NULL || strstr(scene, " 'warning: ") != NULL, expects = strstr(scene, "\n# expect: ") != NULL;
-    bool refused = expects && strstr(scene, "\n# expect: ok\n") == NULL;
+    bool warned = strstr(scene, "\n# warn: ") != NULL || strstr(scene, " 'warning: ") != NULL;
+    bool refused = strstr(scene, "\n# expect: ") != NULL && strstr(scene, "\n# expect: ok\n") == NULL;
     for (const char *line = scene; (line = strstr(line, ROW_IS)) != NULL; line++) {
         const char *from = line + strlen(ROW_IS);
         trimmed(key, sizeof key, from, strcspn(from, "\n"));

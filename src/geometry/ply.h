@@ -1,8 +1,8 @@
 /* ply.h: triangle meshes from PLY files (ascii, binary little and big endian; header lines end in LF, CR LF or CR).
  *
  * Vertex: x y z [nx ny nz] [u v | s t | texture_u texture_v | texture_s texture_t], any scalar type. Faces:
- * a list property vertex_indices (or vertex_index) of any integer types; polygons are cut into triangles (polygon.h), and
- * those of fewer than 3 corners left out; element tristrips: the same of strips of triangles, between which -1 stands.
+ * a list property vertex_indices (or vertex_index) of any integer types; polygons are cut into triangles (polygon.h),
+ * and those of fewer than 3 corners left out. Tristrips: such a list of strips of triangles, between which -1 stands.
  * Other properties and elements are read over. Normals and texture coordinates that
  * are not finite become 0.
  *

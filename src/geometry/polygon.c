@@ -35,7 +35,7 @@ static vec3 fan_normal(const float *P, const uint32_t *index, int n)
 bool polygon_fan_fits(const float *P, const uint32_t *index, int n)
 {
     vec3 normal = fan_normal(P, index, n);
-    double slack = 1e-6 * dot(normal, normal); /* corners on a line, but for rounding */
+    double slack = 1e-6 * dot(normal, normal); /* of corners on a line, by rounding */
     for (const uint32_t *t = index; t < index + 3 * (n - 2); t += 3)
         if (turn(normal, point(P, t[0]), point(P, t[1]), point(P, t[2])) < -slack)
             return false;

@@ -34,8 +34,8 @@ struct lexer {
 };
 
 /* lexer_enter: to the beginning of a file, whose text the lexer takes over; its end leads back to where the lexer is.
- * file, arena and messages must outlive the lexer; texts of tokens live as long as the arena. lexer_leave: pass over the
- * rest of the file. */
+ * file, arena and messages must outlive the lexer; texts of tokens live as long as the arena. lexer_leave: pass over
+ * the rest of the file. */
 void lexer_enter(struct lexer *l, struct source_file *file);
 void lexer_leave(struct lexer *l);
 

@@ -48,7 +48,7 @@ struct graphics_state {
 
 enum block_kind { BLOCK_ATTRIBUTE, BLOCK_TRANSFORM, BLOCK_OBJECT };
 
-/* An open block, and what its end brings back. */
+/* An open block, and what its end restores. */
 struct block {
     enum block_kind kind;
     struct source_position position;
@@ -193,7 +193,7 @@ bool parse_settle_media(struct parser *p);
 
 /* parse_state_reset: the transform as a file or its world begins. parse_name_system: name a coordinate system.
  * parse_open_block, parse_close_block: save the graphics state and restore what was saved last, with a warning if that
- * was another kind of block; false, with a warning, if nothing was. parse_close_all: warn of blocks that are still open. */
+ * was another kind of block; false, with a warning, if nothing was. parse_close_all: warn of blocks that are open. */
 void parse_state_reset(struct parser *p);
 void parse_name_system(struct parser *p, const char *name, struct transform t);
 bool parse_open_block(struct parser *p, enum block_kind kind);

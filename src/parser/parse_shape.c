@@ -326,7 +326,8 @@ static bool object_instance(struct parser *p)
 {
     struct token name;
     if (p->current_object >= 0) {
-        source_warn(&p->messages, p->directive.position, "an ObjectInstance in an object is passed over, as in pbrt-v3");
+        source_warn(&p->messages, p->directive.position,
+                    "an ObjectInstance in an object is passed over, as in pbrt-v3");
         return false;
     }
     int i = parse_named(p, &name, &p->objects, "object", "this instance is left out");

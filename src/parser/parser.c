@@ -107,8 +107,8 @@ static void run(struct parser *p)
 
 /* --- files -------------------------------------------------------------------------------------------- */
 
-/* Read a file, whose tokens are the next. Its name lives as long as the parser, for all places in it. Returns false with
- * a message in *err if it cannot be read. */
+/* Read a file, whose tokens come next. Its name lives as long as the parser, for all places in it. Returns false with a
+ * message in *err if it cannot be read. */
 static bool enter_file(struct parser *p, const char *path, struct error *err)
 {
     size_t size;
