@@ -23,7 +23,7 @@ static vec3 point(const float *P, uint32_t i)
 /* Twice the area of a triangle, seen along the normal, times the normal's length; above 0 where it turns left. */
 static double turn(vec3 normal, vec3 a, vec3 b, vec3 c) { return dot(normal, cross(sub(b, a), sub(c, a))); }
 
-/* The sum of the normals of the triangles of any cut is the polygon's [Newell's]. */
+/* The sum of the normals of the triangles of any cut is the polygon's. */
 static vec3 fan_normal(const float *P, const uint32_t *index, int n)
 {
     vec3 sum = vec(0, 0, 0);

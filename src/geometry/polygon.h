@@ -2,7 +2,7 @@
  *
  * A fan around the first corner fits all convex polygons and many others: it is pbrt-v3's cut of a quadrilateral. Where
  * it leaves the polygon or covers a part twice, ears are cut off one by one: an ear is a triangle of three corners in
- * a row, in which no other corner lies. Every simple polygon has two [Meisters 1975].
+ * a row, in which no other corner lies. Every simple polygon has two (Meisters 1975).
  * Tests: test_ply.c.
  */
 #ifndef ASBDPT_POLYGON_H
