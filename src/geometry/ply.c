@@ -398,19 +398,12 @@ static bool check_mesh(struct ply *r)
     return true;
 }
 
-/* Fans that do not fit their polygons make room for ears. */
 static bool cut_polygons(struct ply *r)
 {
-    double tests = 0;
-    for (const struct ply_polygon *p = r->polygon; p < r->polygon + r->n_polygons; p++) {
-        uint32_t *fan = r->mesh->index + p->first;
-        if (polygon_fan_fits(r->mesh->P, fan, p->n))
-            continue;
-        tests += 3.0 * p->n * p->n;
-        if (tests > PLY_TESTS_PER_BYTE * (double)r->size)
+    double room = PLY_TESTS_PER_BYTE * (double)r->size;
+    for (const struct ply_polygon *p = r->polygon; p < r->polygon + r->n_polygons; p++)
+        if (!polygon_cut(r->mesh->P, r->mesh->index + p->first, p->n, &room))
             return fail(r, "its faces that are not convex have too many corners; cut them into triangles", "");
-        polygon_cut_ears(r->mesh->P, fan, p->n);
-    }
     return true;
 }
 
@@ -453,4 +446,4 @@ static const struct field FIELDS[] = {{"filename", .kind = FIELD_FILE, .place = 
                                       {.name = "alpha"}, {.name = "shadowalpha"}, {.name = NULL}};
 
 const struct shape_row shape_plymesh = {.name = "plymesh", .fields = FIELDS, .size = sizeof(struct plymesh),
-                                        .may_shine = true, .may_have_holes = true, .mesh = mesh};
+                                        .may_shine = true, .mesh = mesh};

@@ -14,8 +14,8 @@
 #include "base/error.h"
 #include "geometry/shape.h"
 
-/* Elements of a file, of which few are of use; its bytes for a triangle, which takes some 1000 as a light; and what
- * polygon_cut_ears may do for each byte. */
+/* Elements of a file, of which few are of use; its bytes for a triangle, which takes some 1000 as a light; and the
+ * tests for each byte that cutting polygons may take. */
 enum { PLY_MAX_ELEMENTS = 64, PLY_BYTES_PER_TRIANGLE = 2, PLY_TESTS_PER_BYTE = 256 };
 
 /* ply_read: read a mesh. Returns false with a message "PATH: ..." (a line of the header, or a row of an element) on a

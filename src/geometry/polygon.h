@@ -11,12 +11,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* polygon_fan_fits: does this fan lie in its polygon, seen along the polygon's normal?
+/* polygon_cut: if this fan does not lie in its polygon, seen along the polygon's normal, put ears in its place. Of a
+ * polygon that crosses itself some triangles lie anywhere.
  *   P      [n_vertices*3] points
  *   index  [3*(n-2)] into P: the fan (0,1,2), (3,0,2), (4,0,3) ... of the corners 0 ... n-1; n >= 4
- * polygon_cut_ears: cut the polygon of such a fan by ears, into as many triangles, in its place. Takes 3 n^2 tests of a
- * corner against a triangle at most. Of one that crosses itself some triangles lie anywhere. */
-bool polygon_fan_fits(const float *P, const uint32_t *index, int n);
-void polygon_cut_ears(const float *P, uint32_t *index, int n);
+ *   room   in-out: how many tests of a corner against a triangle it may take; false if that is too few */
+bool polygon_cut(const float *P, uint32_t *index, int n, double *room);
 
 #endif

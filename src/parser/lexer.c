@@ -69,21 +69,19 @@ static bool is_separator(char c)
     return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\0' || c == '[' || c == ']' || c == '"' || c == '#';
 }
 
-/* Read [+-] digits [. digits] [e [+-] digits] at p; returns the end of the number, or NULL if there is none. strtod
- * knows other numbers, too, which have other letters. */
+/* Read a number at p; returns its end, p if there is none that is finite. As in pbrt-v3 it may be hexadecimal. */
 static const char *scan_number(const char *p, double *out)
 {
     char *end;
-    size_t n = strspn(p, "+-.0123456789eE");
     *out = strtod(p, &end);
-    return n > 0 && end == p + n ? end : NULL;
+    return isfinite(*out) ? end : p;
 }
 
 bool lexer_number(struct lexer *l, double *out)
 {
     skip_blanks(l);
     const char *end = scan_number(l->at, out);
-    if (end == NULL || !is_separator(*end) || !isfinite(*out))
+    if (end == l->at || !is_separator(*end))
         return false;
     l->at = end;
     return true;
@@ -91,16 +89,11 @@ bool lexer_number(struct lexer *l, double *out)
 
 static bool next_number(struct lexer *l, struct token *out)
 {
-    if (lexer_number(l, &out->number))
-        return true;
-    char *rest;
-    out->number = strtod(l->at, &rest);
-    bool usable = rest > l->at && isfinite(out->number);
-    const char *odd = usable ? rest : l->at, *end = odd;
+    const char *odd = scan_number(l->at, &out->number), *end = odd;
     while (!is_separator(*end))
         end++;
     int shown = end - odd < 40 ? (int)(end - odd) : 40;
-    if (!usable)
+    if (odd == l->at)
         return source_error(l->messages, out->position, "'%.*s' is not a number, or beyond 1.7e308; write it like 12, "
                             "-0.5 or 1.5e-3", shown, odd);
     if (end > odd)

@@ -164,7 +164,7 @@ static void mesh(struct parser *p, struct shape_item *item)
         params_fail(q, place_of(q, task.about), "%s", task.err.text);
     p->n_subdivided = MESH_MAX_SUBDIVIDED - task.room;
     free(fields);
-    if (row->may_have_holes) {
+    if (field_find(row->fields, "alpha") != NULL) {
         item->group.alpha = alpha(p, "alpha");
         shadow_alpha(p, &item->group, alpha(p, "shadowalpha"));
     }
