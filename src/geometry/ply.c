@@ -401,8 +401,8 @@ static bool check_mesh(struct ply *r)
 static bool cut_polygons(struct ply *r)
 {
     double room = PLY_TESTS_PER_BYTE * (double)r->size;
-    for (const struct ply_polygon *p = r->polygon; p < r->polygon + r->n_polygons; p++)
-        if (!polygon_cut(r->mesh->P, r->mesh->index + p->first, p->n, &room))
+    for (size_t i = 0; i < r->n_polygons; i++)
+        if (!polygon_cut(r->mesh->P, r->mesh->index + r->polygon[i].first, r->polygon[i].n, &room))
             return fail(r, "its faces that are not convex have too many corners; cut them into triangles", "");
     return true;
 }

@@ -44,9 +44,9 @@ static struct param *find(struct params *p, const char *name, unsigned types)
     }
     if (found != NULL || hidden)
         return found;
-    for (struct param *item = p->behind.item; item < p->behind.item + p->behind.n; item++)
-        if (strcmp(item->name, name) == 0 && (types & 1u << item->type) != 0)
-            found = item;
+    for (int i = 0; i < p->behind.n; i++)
+        if (strcmp(p->behind.item[i].name, name) == 0 && (types & 1u << p->behind.item[i].type) != 0)
+            found = &p->behind.item[i];
     return found;
 }
 
