@@ -45,6 +45,12 @@ expect 1 'nothing.pbrt' "$program" render nothing.pbrt
 printf 'Integrator "path" "string lightsamplestrategy" "spacial"\nWorldBegin\nWorldEnd\n' >strategy.pbrt
 expect 1 '^asbdpt: strategy.pbrt:1:[0-9]+: lightsamplestrategy = "spacial" is unknown: give "spatial"' \
     "$lab" info strategy.pbrt
+# Fog all around the camera.
+echo 'Integrator "volpath" MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "fog" Camera "perspective"
+    WorldBegin LightSource "infinite" Shape "sphere" WorldEnd' >fog.pbrt
+expect 0 'warning: fog.pbrt: a medium without a bound ends on a sphere' \
+    "$program" render fog.pbrt --res 16x16 --spp 2 -o fog.pfm
+# row: a medium without a bound, under infinite or distant lights
 # Without lights nothing is rendered, whatever is asked for: a million samples of a hundred thousand pixels, in no time.
 printf 'WorldBegin Shape "sphere" WorldEnd\n' >dark.pbrt
 printf 'WorldBegin WorldEnd\n' >empty.pbrt
@@ -317,6 +323,24 @@ makes light.pfm "$program" convert x.float.exr -o back.pfm
 makes light.png "$program" convert x.ppm -o y.PNG
 "$program" convert - -o - --quiet <light.pfm >through.pfm
 check cmp -s light.pfm through.pfm
+
+# An 8-bit image and the PFM that convert makes of it are, but for rounding, the same sky, by --linear, and the same
+# texture, without.
+printf 'P3 2 1 255 128 20 255 7 90 0 ' >map.ppm
+both() { # SKY TEXTURE
+    echo "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 Translate 0 0 3 Camera \"perspective\"
+        WorldBegin LightSource \"infinite\" \"string mapname\" \"$1\" Texture \"t\" \"spectrum\" \"imagemap\"
+        \"string filename\" \"$2\" Material \"matte\" \"texture Kd\" \"t\" Shape \"sphere\" WorldEnd" >both.pbrt
+}
+expect 0 '' "$program" convert map.ppm --linear -o sky.pfm
+expect 0 '' "$program" convert map.ppm -o map.pfm
+both map.ppm map.ppm
+expect 0 '' "$program" render both.pbrt --spp 2 --quiet -o both.ppm
+both sky.pfm map.pfm
+makes both.ppm "$program" render both.pbrt --spp 2 --quiet -o pfm.ppm
+prints '^rmse  *[0-9.]*e-0[89]$\|^rmse  *0$' "$lab" compare map.ppm map.pfm
+# row: `asbdpt convert`, `asbdpt-lab compare`
+# row: 8-bit images that `convert` reads
 
 # --exposure and --tonemap: of 8-bit pictures alone, the same in render and convert; without them nothing changes.
 makes light.pfm "$program" render "$box" --res 37x23 --spp 4 --quiet --exposure -2 --tonemap filmic -o dark.png \

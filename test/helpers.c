@@ -117,7 +117,7 @@ int check_spoilt(struct test *t, const char *what, reader *read, const uint8_t *
 
 struct shape_group group_of(int material, int first_light)
 {
-    struct shape_group g = {.material = material, .alpha = -1, .shadow_alpha = -1, .first_light = first_light};
+    struct shape_group g = {.material = material, .alpha = -1, .first_light = first_light};
     return g;
 }
 

@@ -26,6 +26,12 @@ void hear_message(void *context, bool is_error, const char *text);
 /* leave_out_directory: of a text, wherever the test's own directory is named in it. */
 void leave_out_directory(struct test *t, char *text);
 
+/* scene_in_words: a scene, as far as these tests look at it; to be given to free(). */
+char *scene_in_words(struct test *t, const struct scene *s);
+
+/* link_parts: let scenes in the test's own directory find their parts as they do in test/fixtures. */
+void link_parts(struct test *t);
+
 void check_contents(struct test *t, const char *name, const char *text, const struct scene *s);
 void check_parser_pieces(struct test *t);
 void check_parser_limits(struct test *t);

@@ -145,8 +145,7 @@ static void put_shapes(struct words *w, const struct scene *s)
         put(w, "group of material %d light %d flip %d N %d uv %d", g->material, g->first_light, g->flip, g->has_n,
             g->has_uv);
         put_texture(w, s, "alpha", g->alpha);
-        put_texture(w, s, "shadow", g->shadow_alpha);
-        put(w, " media %d %d\n", g->medium[0], g->medium[1]);
+        put(w, " media %d %d tangents %d\n", g->medium[0], g->medium[1], g->has_s);
     }
     for (int i = 0; i < geo->n_quadrics; i++) {
         const struct quadric *q = &geo->quadric[i];
@@ -179,13 +178,16 @@ static void put_lights(struct words *w, const struct scene *s)
         put3(w, "at", f->position.x, f->position.y, f->position.z);
         put3(w, "towards", f->direction.x, f->direction.y, f->direction.z);
         put3(w, "axis", axis.x, axis.y, axis.z);
-        put(w, " cosines %.4f %.4f two-sided %d prim %d picture %d medium %d\n", f->cos_total, f->cos_falloff,
-            l->two_sided, l->prim, f->env != NULL, l->medium);
+        put(w, " cosines %.4f %.4f two-sided %d prim %d picture %d", f->cos_total, f->cos_falloff, l->two_sided,
+            l->prim, f->env != NULL);
+        if (f->env != NULL)
+            put3(w, "mean", f->env->mean.r, f->env->mean.g, f->env->mean.b);
+        put(w, " medium %d hidden %d group %s\n", l->medium, l->hidden,
+            s->lights.group[l->group].name != NULL ? s->lights.group[l->group].name : "none");
     }
 }
 
-/* "# has: ..." in a scene's comments are parts of its words, in their order. */
-void check_contents(struct test *t, const char *name, const char *text, const struct scene *s)
+char *scene_in_words(struct test *t, const struct scene *s)
 {
     struct words *w = mem_alloc(1, sizeof *w);
     put_options(w, s);
@@ -196,7 +198,16 @@ void check_contents(struct test *t, const char *name, const char *text, const st
     put_shapes(w, s);
     put_lights(w, s);
     leave_out_directory(t, w->text);
-    const char *from = w->text;
+    char *text = mem_copy_text(w->text);
+    free(w);
+    return text;
+}
+
+/* "# has: ..." in a scene's comments are parts of its words, in their order. */
+void check_contents(struct test *t, const char *name, const char *text, const struct scene *s)
+{
+    char *words = scene_in_words(t, s);
+    const char *from = words;
     for (const char *p = strstr(text, "# has: "); p != NULL; p = strstr(p + 1, "# has: ")) {
         char want[TEXT];
         snprintf(want, sizeof want, "%.*s", (int)strcspn(p + 7, "\n"), p + 7);
@@ -204,5 +215,5 @@ void check_contents(struct test *t, const char *name, const char *text, const st
         if (CHECK(t, found != NULL, "%s: no \"%s\" in\n%s", name, want, from))
             from = found + strlen(want);
     }
-    free(w);
+    free(words);
 }

@@ -95,6 +95,41 @@ static void check_fixture(struct test *t, const struct image *picture, const cha
     free(data);
 }
 
+/* Where the value of an attribute begins. */
+static size_t value_of(const uint8_t *data, size_t n, const char *name)
+{
+    size_t length = strlen(name) + 1;
+    for (size_t i = 8; i + length < n; i++)
+        if (memcmp(data + i, name, length) == 0)
+            return i + length + strlen((const char *)data + i + length) + 1 + 4;
+    return 0;
+}
+
+/* Channels b, g, r are colours, unless there is one of the same name in upper case; y is none. */
+static void check_lower_case(struct test *t, const struct image *picture)
+{
+    static const struct {
+        const char *names;    /* in place of B, G, R */
+        int red, green, blue; /* which of these they are; -1: 0 */
+    } CASES[] = {{"bgr", 2, 1, 0}, {"gGr", 2, 1, -1}, {"Ggr", 2, 0, -1}, {"xyr", 2, -1, -1}, {"xyz", -1, -1, -1}};
+    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
+        size_t n = 0, wrong = 0;
+        uint8_t *data = load(t, "none.exr", &n);
+        const int from[3] = {CASES[i].red, CASES[i].green, CASES[i].blue};
+        for (size_t c = 0; c < 3; c++)
+            data[value_of(data, n, "channels") + 18 * c] = (uint8_t)CASES[i].names[c];
+        struct image img = {0};
+        struct error err = {.text = ""};
+        bool ok = exr_read(data, n, &img, &err);
+        CHECK(t, ok == (from[0] >= 0), "channels %s: %s", CASES[i].names, err.text);
+        for (size_t k = 0; ok && k < image_bytes(&img) / sizeof *img.f32; k++)
+            wrong += img.f32[k] != (from[k % 3] < 0 ? 0 : picture->f32[k - k % 3 + 2 - (size_t)from[k % 3]]);
+        CHECK(t, wrong == 0, "channels %s: %d samples are wrong", CASES[i].names, (int)wrong);
+        image_free(&img);
+        free(data);
+    }
+}
+
 static void test_fixtures(struct test *t)
 {
     static const struct {
@@ -113,20 +148,11 @@ static void test_fixtures(struct test *t)
         return;
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++)
         check_fixture(t, &picture, CASES[i].name, CASES[i].content);
+    check_lower_case(t, &picture);
     image_free(&picture);
 }
 
 /* --- OpenEXR files that are refused -------------------------------------------------------------------- */
-
-/* Where the value of an attribute begins. */
-static size_t value_of(const uint8_t *data, size_t n, const char *name)
-{
-    size_t length = strlen(name) + 1;
-    for (size_t i = 8; i + length < n; i++)
-        if (memcmp(data + i, name, length) == 0)
-            return i + length + strlen((const char *)data + i + length) + 1 + 4;
-    return 0;
-}
 
 static void test_refused(struct test *t)
 {

@@ -152,7 +152,7 @@ static const struct repetition REPETITIONS[] = {
     {"open blocks", "WorldBegin", "AttributeBegin", "WorldEnd", 300000, 0, 0},
     {"nested objects", "WorldBegin ObjectBegin \"o0\" Shape \"sphere\"",
      "ObjectEnd ObjectBegin \"o\" ObjectInstance \"o0\" ObjectInstance \"o\"",
-     "ObjectEnd ObjectInstance \"o\" WorldEnd", 10000, 1, 0},
+     "ObjectEnd ObjectInstance \"o\" WorldEnd", 10000, 0, 0},
     {"instances of nothing", "WorldBegin ObjectBegin \"o\" ObjectEnd", "ObjectInstance \"o\"", "WorldEnd", 100000,
      0, 0},
     {"unknown directives", "WorldBegin", "Shpae%d", "WorldEnd", 100000, 1, 0},

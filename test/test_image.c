@@ -250,13 +250,16 @@ static void test_tga(struct test *t)
 
 /* --- PFM and PPM ------------------------------------------------------------------------------------- */
 
-static void check_pfm(struct test *t, int channels, const char *scale, double factor)
+/* Blanks that may end a header, of which data are not a part. */
+static const char *const HEADER_ENDS[] = {"\n", "\r\n", "\r", " "};
+
+static void check_pfm(struct test *t, int channels, const char *scale, double factor, const char *end)
 {
     struct small_file file = {.n = 0};
     struct image img;
     put_text(&file, channels == 3 ? "PF\n2 3\n" : "Pf 2\t3\r\n");
     put_text(&file, scale);
-    put_text(&file, "\n");
+    put_text(&file, end);
     for (int i = 0; i < 6 * channels; i++, file.n += 4)
         bytes_of_bits(bits_of_float((float)(i - 3)), file.data + file.n, 4, factor > 0);
     if (!read_shape(t, "PFM", pfm_read, &file, 2, 3, channels, true, &img))
@@ -272,11 +275,13 @@ static void check_pfm(struct test *t, int channels, const char *scale, double fa
 
 static void test_pfm(struct test *t)
 {
-    for (int channels = 1; channels <= 3; channels += 2) {
-        check_pfm(t, channels, "-1.000000", -1);
-        check_pfm(t, channels, "1", 1);
-        check_pfm(t, channels, "-0.5", -0.5);
-        check_pfm(t, channels, "2e0", 2);
+    for (int i = 0; i < 8; i++) {
+        int channels = 1 + i % 2 * 2;
+        const char *end = HEADER_ENDS[i / 2];
+        check_pfm(t, channels, "-1.000000", -1, end);
+        check_pfm(t, channels, "1", 1, end);
+        check_pfm(t, channels, "-0.5", -0.5, end);
+        check_pfm(t, channels, "2e0", 2, end);
     }
     static const struct refusal CASES[] = {
         {"PX\n2 2\n-1\n", "not a PFM"},
@@ -294,30 +299,32 @@ static void test_pfm(struct test *t)
     check_texts_refused(t, pfm_read, CASES, sizeof CASES / sizeof CASES[0]);
 }
 
-/* A 2 x 2 picture with samples 0, 1, 2, ... of maxval `most`. */
-static void check_ppm(struct test *t, int kind, unsigned most)
+/* A 2 x 2 picture with samples 10, 1, 2, ... of maxval `most`: a byte of 10 is LF. */
+static void check_ppm(struct test *t, int kind, unsigned most, const char *end)
 {
     struct small_file file = {.n = 0};
     char header[64];
     int channels = kind == 3 || kind == 6 ? 3 : 1;
-    snprintf(header, sizeof header, "P%d# comment\n 2 #\n2\n# 7 7\n%u\n", kind, most);
+    snprintf(header, sizeof header, "P%d# comment\n 2 #\n2\n# 7 7\n%u%s", kind, most, end);
     put_text(&file, header);
     for (unsigned i = 0; i < 4u * (unsigned)channels; i++) {
         char number[32];
-        snprintf(number, sizeof number, "%u %s", i, i == 1 ? "# in between\n" : "");
+        unsigned sample = i == 0 && end[0] != '\r' ? 10 : i; /* CR and LF would be one blank */
+        snprintf(number, sizeof number, "%u %s", sample, i == 1 ? "# in between\n" : "");
         if (kind <= 3)
             put_text(&file, number);
         if (kind > 3 && most > 255)
             put_byte(&file, 0);
         if (kind > 3)
-            put_byte(&file, i);
+            put_byte(&file, sample);
     }
     struct image img;
     if (!read_shape(t, "PPM", ppm_read, &file, 2, 2, channels, most > 255, &img))
         return;
     for (int i = 0; i < 4 * channels; i++) {
         double value = img.u8 != NULL ? img.u8[i] / 255.0 : img.f32[i], bound = img.u8 != NULL ? 0.5 / 255 : 1e-7;
-        CHECK(t, fabs(value - (double)i / most) <= bound + 1e-9, "P%d, %u: sample %d is %g", kind, most, i, value);
+        int sample = i == 0 && end[0] != '\r' ? 10 : i;
+        CHECK(t, fabs(value - (double)sample / most) <= bound + 1e-9, "P%d, %u: sample %d is %g", kind, most, i, value);
     }
     image_free(&img);
     if (kind <= 3) /* a blank, and then a digit, may be missing at the end of a text: 10 is still a number */
@@ -327,11 +334,12 @@ static void check_ppm(struct test *t, int kind, unsigned most)
 
 static void test_ppm(struct test *t)
 {
-    for (int kind = 2; kind <= 6; kind += kind == 3 ? 2 : 1) {
-        check_ppm(t, kind, 11);
-        check_ppm(t, kind, 255);
-        check_ppm(t, kind, 256);
-        check_ppm(t, kind, 65535);
+    for (int i = 0; i < 16; i++) {
+        static const int KINDS[] = {2, 3, 5, 6};
+        check_ppm(t, KINDS[i % 4], 11, HEADER_ENDS[i / 4]);
+        check_ppm(t, KINDS[i % 4], 255, HEADER_ENDS[i / 4]);
+        check_ppm(t, KINDS[i % 4], 256, HEADER_ENDS[i / 4]);
+        check_ppm(t, KINDS[i % 4], 65535, HEADER_ENDS[i / 4]);
     }
     static const struct refusal CASES[] = {
         {"P4\n1 1\n1\n0", "not a PPM"},

@@ -7,9 +7,12 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/bits.h"
+#include "base/mem.h"
+#include "base/rng.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -34,7 +37,8 @@ struct variant {
     const char *real, *count, *index; /* types */
     const char *uv[2];
     const char *list_name;
-    bool faces_first, extras, crlf;
+    bool faces_first, extras;
+    const char *end; /* of lines */
 };
 
 static void put_number(struct text *f, const struct variant *v, const char *type, double x)
@@ -119,7 +123,7 @@ static void put_elements(struct text *f, const struct variant *v, bool header, c
 static struct text file_of(const struct variant *v)
 {
     static const double camera[] = {90, 2, 65, -66}, edges[] = {1, 2};
-    const char *end = v->crlf ? "\r\n" : "\n";
+    const char *end = v->end;
     struct text f = {.n = 0};
     put(&f, "ply%sformat %s 1.0%scomment made for a test%s", end,
         v->encoding == 'a'   ? "ascii"
@@ -127,9 +131,11 @@ static struct text file_of(const struct variant *v)
                              : "binary_big_endian",
         end, end);
     if (v->extras)
-        put(&f, "element camera 1\nproperty double fov\nproperty list int char name\nobj_info x\n");
+        put(&f, "element camera 1%sproperty double fov%sproperty list int char name%sobj_info x%s", end, end, end, end);
     put_elements(&f, v, true, end);
-    put(&f, "%send_header%s", v->extras ? "element edge 2\nproperty int a\n" : "", end);
+    if (v->extras)
+        put(&f, "element edge 2%sproperty int a%s", end, end);
+    put(&f, "end_header%s", end);
     if (v->extras) {
         put_number(&f, v, "double", camera[0]);
         put_number(&f, v, "int", camera[1]);
@@ -169,16 +175,19 @@ static bool same_mesh(const struct mesh *m)
 
 static void check_variants(struct test *t)
 {
-    static const struct variant variants[] = {
-        {'a', "float", "uchar", "int", {"u", "v"}, "vertex_indices", false, false, false},
-        {'a', "double", "int", "uint", {"s", "t"}, "vertex_index", true, true, false},
-        {'a', "float32", "uint8", "int32", {"texture_u", "texture_v"}, "vertex_indices", false, false, true},
-        {'l', "float", "uchar", "int", {"u", "v"}, "vertex_indices", false, false, false},
-        {'l', "double", "char", "ushort", {"s", "t"}, "vertex_indices", true, true, false},
-        {'l', "float64", "uint16", "int8", {"texture_s", "texture_t"}, "vertex_index", false, true, true},
-        {'b', "float32", "int16", "uint16", {"texture_u", "texture_v"}, "vertex_indices", false, false, true},
-        {'b', "float", "uint", "uchar", {"u", "v"}, "vertex_indices", true, true, false},
-        {'b', "double", "int32", "short", {"u", "v"}, "vertex_indices", false, false, false},
+    static const char LF[] = "\n", CRLF[] = "\r\n", CR[] = "\r";
+    const struct variant variants[] = {
+        {'a', "float", "uchar", "int", {"u", "v"}, "vertex_indices", false, false, LF},
+        {'a', "double", "int", "uint", {"s", "t"}, "vertex_index", true, true, LF},
+        {'a', "float32", "uint8", "int32", {"texture_u", "texture_v"}, "vertex_indices", false, false, CRLF},
+        {'l', "float", "uchar", "int", {"u", "v"}, "vertex_indices", false, false, LF},
+        {'l', "double", "char", "ushort", {"s", "t"}, "vertex_indices", true, true, LF},
+        {'l', "float64", "uint16", "int8", {"texture_s", "texture_t"}, "vertex_index", false, true, CRLF},
+        {'b', "float32", "int16", "uint16", {"texture_u", "texture_v"}, "vertex_indices", false, false, CRLF},
+        {'b', "float", "uint", "uchar", {"u", "v"}, "vertex_indices", true, true, LF},
+        {'b', "double", "int32", "short", {"u", "v"}, "vertex_indices", false, false, LF},
+        {'a', "float", "uchar", "int", {"s", "t"}, "vertex_indices", false, true, CR},
+        {'l', "float", "uchar", "int", {"s", "t"}, "vertex_indices", true, false, CR},
     };
     for (size_t i = 0; i < sizeof variants / sizeof variants[0]; i++) {
         struct text f = file_of(&variants[i]);
@@ -272,6 +281,149 @@ static void check_odd(struct test *t)
     mesh_free(&m);
 }
 
+/* --- polygons ------------------------------------------------------------------------------------------- */
+
+enum { MOST_CORNERS = 60, POINTS = 200 };
+
+/* A polygon in a plane, and which of its points is which corner. */
+struct polygon {
+    double point[MOST_CORNERS][2];
+    int corner[MOST_CORNERS], n, n_points;
+};
+
+static void put_point(struct polygon *p, double x, double y)
+{
+    p->point[p->n_points][0] = x;
+    p->point[p->n_points][1] = y;
+    p->corner[p->n++] = p->n_points++;
+}
+
+/* A star, a comb, a spiral, or a square whose hole a bridge joins to the outside. */
+static struct polygon random_polygon(struct rng *r, int kind)
+{
+    struct polygon p = {.n = 0};
+    int n = 4 + (int)(rng_uniform(r) * 24);
+    for (int i = 0; i < n && kind < 3; i++) {
+        double angle = 2 * PI * i / n, radius = 0.2 + 0.8 * rng_uniform(r);
+        if (kind == 0)
+            put_point(&p, radius * cos(angle), radius * sin(angle));
+        else if (kind == 1)
+            put_point(&p, i, i % 2 == 0 ? rng_uniform(r) : 5 + rng_uniform(r));
+        else
+            put_point(&p, (1 + i) * cos(0.7 * i), (1 + i) * sin(0.7 * i));
+    }
+    for (int i = n - 1; i >= 0 && kind == 2; i--)
+        put_point(&p, (1.6 + i) * cos(0.7 * i), (1.6 + i) * sin(0.7 * i));
+    if (kind == 1) { /* the comb's back */
+        put_point(&p, n, 8);
+        put_point(&p, -1, 8);
+    }
+    if (kind == 3) {
+        static const double hole[8][2] = {{0, 0}, {9, 0}, {9, 9}, {0, 9}, {3, 3}, {3, 6}, {6, 6}, {6, 3}};
+        static const int corners[10] = {0, 1, 2, 3, 0, 4, 5, 6, 7, 4};
+        for (int i = 0; i < 8; i++)
+            put_point(&p, hole[i][0], hole[i][1]);
+        memcpy(p.corner, corners, sizeof corners);
+        p.n = 10;
+    }
+    int first = (int)(rng_uniform(r) * p.n), step = rng_uniform(r) < 0.5 ? 1 : p.n - 1;
+    struct polygon turned = p;
+    for (int i = 0; i < p.n; i++)
+        turned.corner[i] = p.corner[(first + i * step) % p.n];
+    return turned;
+}
+
+/* Which side of the line from a to b is c on? */
+static double side(const double *a, const double *b, const double *c)
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/* How often do these corners go round a point? */
+static int winding(const double (*point)[2], const int *corner, int n, const double *at)
+{
+    int turns = 0;
+    for (int i = 0; i < n; i++) {
+        const double *a = point[corner[i]], *b = point[corner[(i + 1) % n]];
+        bool up = a[1] <= at[1];
+        if (up != (b[1] <= at[1]) && (side(a, b, at) > 0) == up)
+            turns += up ? 1 : -1;
+    }
+    return turns;
+}
+
+/* The triangles of a polygon, which lies anywhere in space, go round all points as often as the polygon does. */
+static void check_polygon(struct test *t, struct rng *r, int kind)
+{
+    struct polygon p = random_polygon(r, kind);
+    struct transform place = random_affine(r);
+    struct text f = {.n = 0};
+    struct mesh m;
+    struct error err;
+    put(&f, "ply\nformat ascii 1.0\nelement vertex %d\n" XYZ FACE, p.n_points);
+    for (int i = 0; i < p.n_points; i++) {
+        vec3 at = transform_point(&place, vec(p.point[i][0], p.point[i][1], 1));
+        put(&f, "%.9g %.9g %.9g\n", at.x, at.y, at.z);
+    }
+    put(&f, "%d", p.n);
+    for (int i = 0; i < p.n; i++)
+        put(&f, " %d", p.corner[i]);
+    bool ok = read_bytes(t, f.data, f.n, &m, &err);
+    CHECK(t, ok && m.n_triangles == p.n - 2, "polygon of kind %d: %s", kind, err.text);
+    double lo[2] = {HUGE_VAL, HUGE_VAL}, hi[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < 2 * p.n_points; i++) {
+        lo[i % 2] = fmin(lo[i % 2], p.point[i / 2][i % 2]);
+        hi[i % 2] = fmax(hi[i % 2], p.point[i / 2][i % 2]);
+    }
+    int wrong = 0;
+    for (int i = 0; ok && i < POINTS; i++) {
+        double x = rng_uniform(r), at[2] = {lo[0] + x * (hi[0] - lo[0]), lo[1] + rng_uniform(r) * (hi[1] - lo[1])};
+        int sum = 0;
+        bool over = false; /* parts of the same sign alone */
+        for (int k = 0; k < m.n_triangles; k++) {
+            const int corner[3] = {(int)m.index[3 * k], (int)m.index[3 * k + 1], (int)m.index[3 * k + 2]};
+            int turns = winding((const double(*)[2])p.point, corner, 3, at);
+            over |= turns * sum != 0;
+            sum += turns;
+        }
+        wrong += over || sum != winding((const double(*)[2])p.point, p.corner, p.n, at);
+    }
+    CHECK(t, wrong == 0, "polygon of kind %d and %d corners: %d of %d points are wrong", kind, p.n, wrong, (int)POINTS);
+    mesh_free(&m);
+}
+
+/* Strips of triangles, which turn the same way. */
+static void check_strips(struct test *t)
+{
+    static const char text[] = "ply\nformat ascii 1.0\nelement vertex 6\n" XYZ
+                               "element tristrips 2\nproperty list int int vertex_indices\nend_header\n"
+                               "0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 1 2 0\n9 0 1 2 3 4 -1 3 5 4\n2 0 1\n";
+    static const uint32_t want[12] = {0, 1, 2, 2, 1, 3, 2, 3, 4, 3, 5, 4};
+    struct mesh m;
+    struct error err;
+    bool ok = read_bytes(t, text, strlen(text), &m, &err);
+    CHECK(t, ok && m.n_triangles == 4 && memcmp(m.index, want, sizeof want) == 0, "strips: %s", err.text);
+    mesh_free(&m);
+}
+
+/* A face whose corners go round five points, or are all but four in one place, costs the square of their number. */
+static void check_many_corners(struct test *t, bool round)
+{
+    enum { CORNERS = 100000 };
+    char *text = mem_alloc(1, 400 + 2 * CORNERS);
+    size_t n = (size_t)sprintf(text, "ply\nformat ascii 1.0\nelement vertex 5\n" XYZ
+                               "element face 1\nproperty list int uchar vertex_indices\nend_header\n"
+                               "0 0 0 4 0 0 4 4 0 3 1 0 0 4 0\n%d", CORNERS);
+    for (int i = 0; i < CORNERS; i++)
+        n += (size_t)sprintf(text + n, " %d", round ? i % 5 : i < CORNERS - 4 ? 0 : i - CORNERS + 5);
+    struct mesh m;
+    struct error err;
+    CHECK(t, !read_bytes(t, text, n, &m, &err) && strstr(err.text, "not convex have too many corners") != NULL,
+          "a face of many corners: %s", err.text);
+    free(text);
+    mesh_free(&m);
+}
+
 /* A number of any length is one number, or the file is refused: never two. */
 static void check_long_numbers(struct test *t)
 {
@@ -314,4 +466,10 @@ void test_ply(struct test *t)
     check_odd(t);
     check_elements(t);
     check_long_numbers(t);
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 0, 0);
+    for (int i = 0; i < 200; i++)
+        check_polygon(t, &r, i % 4);
+    check_strips(t);
+    check_many_corners(t, true);
+    check_many_corners(t, false);
 }

@@ -119,8 +119,7 @@ static void test_lamps(struct test *t)
     }
 }
 
-/* Alpha 0 is a hole, to the eye and to light; shadow alpha 0 lets light through only; any other alpha is solid, as in
- * pbrt. */
+/* Alpha 0 is a hole, to the eye and to light, and so is shadowalpha 0; any other alpha is solid, as in pbrt. */
 static void test_holes(struct test *t)
 {
     static const char text[] =
@@ -135,7 +134,7 @@ static void test_holes(struct test *t)
         const char *value, *z, *name;
         bool lit;
     } cases[] = {{"0", "-1", "alpha", true},  {"0.5", "-1", "alpha", false}, {"1", "-1", "alpha", false},
-                 {"0", "-1", "shadowalpha", false}, {"1", "-1", "shadowalpha", false}};
+                 {"0", "-1", "shadowalpha", true}, {"1", "-1", "shadowalpha", false}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct scene scene;
         const char *z = cases[i].z;

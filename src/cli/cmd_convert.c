@@ -14,7 +14,7 @@ struct convert_options {
     struct texts in, out;
     const char *weights; /* numbers with commas between them, or NULL: all 1 */
     struct tone_options tone;
-    bool quiet;
+    bool linear, quiet;
 };
 
 #define AT(member) offsetof(struct convert_options, member)
@@ -24,6 +24,8 @@ static const struct option OPTIONS[] = {
     {"--weights", "LIST", OPTION_TEXT, AT(weights), .help = "factor of each image, as 1,0.5,2 (default: 1)"},
     {"-o", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "--outfile", .written = true,
      .help = "an image to write: linear .pfm or .exr, sRGB .png or .ppm; repeatable"},
+    {"--linear", NULL, OPTION_ON, AT(linear),
+     .help = "take the values of .png, .tga, .ppm and .pgm as light, as \"mapname\" does (default: they are sRGB)"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not print what was written"}, {.name = NULL}};
@@ -38,13 +40,20 @@ static bool next_weight(const char **text, bool last, double *out)
     return ok;
 }
 
-/* Add a picture times a weight to the sum, which the first one begins. */
-static bool add_picture(const char *path, double weight, double **sum, int *width, int *height, struct image *about,
-                        struct error *err)
+/* Picture number k; to be given to free(). NULL with a message. */
+static float *read_picture(const struct convert_options *o, int k, int *width, int *height, struct image *about,
+                           struct error *err)
+{
+    return (o->linear ? image_read_values : image_read_linear)(o->in.item[k], width, height, about, err);
+}
+
+/* Add picture k times a weight to the sum, which the first one begins. */
+static bool add_picture(const struct convert_options *o, int k, double weight, double **sum, int *width, int *height,
+                        struct image *about, struct error *err)
 {
     int w, h;
     struct image this;
-    float *pixels = image_read_linear(path, &w, &h, &this, err);
+    float *pixels = read_picture(o, k, &w, &h, &this, err);
     if (pixels == NULL)
         return false;
     *about = *sum == NULL ? this : *about;
@@ -56,7 +65,7 @@ static bool add_picture(const char *path, double weight, double **sum, int *widt
         (*sum)[i] += weight * (double)pixels[i];
     free(pixels);
     if (!fits)
-        return error_set(err, "%s is %dx%d, the images before it %dx%d", path, w, h, *width, *height);
+        return error_set(err, "%s is %dx%d, the images before it %dx%d", o->in.item[k], w, h, *width, *height);
     *width = w;
     *height = h;
     return true;
@@ -72,7 +81,7 @@ static float *add_up(const struct convert_options *o, int *width, int *height, s
         ok = (text == NULL || next_weight(&text, i + 1 == o->in.n, &weight) ||
               error_usage(err, "--weights %s: expected a number for each image (%d), with commas between them",
                           o->weights, o->in.n)) &&
-             add_picture(o->in.item[i], weight, &sum, width, height, about, err);
+             add_picture(o, i, weight, &sum, width, height, about, err);
     size_t n = ok ? 3 * (size_t)*width * (size_t)*height : 0;
     float *out = ok ? mem_alloc(n, sizeof *out) : NULL;
     for (size_t i = 0; i < n; i++)
@@ -91,7 +100,7 @@ static int run(void *options)
     if (!outputs_open(&o->out, &o->tone, false, &out, &err))
         return fail(&err);
     bool one = o->in.n == 1 && o->weights == NULL;
-    float *pixels = one ? image_read_linear(o->in.item[0], &width, &height, &about, &err)
+    float *pixels = one ? read_picture(o, 0, &width, &height, &about, &err)
                         : add_up(o, &width, &height, &about, &err);
     bool ok = pixels != NULL;
     if (ok) {

@@ -180,7 +180,7 @@ static void fill_block(struct kd_block *b, const struct geometry *geo, const int
         b->prim[lane] = lane < n ? (uint32_t)prim[lane] : KD_NONE;
         if (triangle) {
             const struct shape_group *group = shape_group_of(geo, prim[lane]);
-            if (geo->opaque != NULL && (group->alpha >= 0 || group->shadow_alpha >= 0))
+            if (geo->opaque != NULL && group->alpha >= 0)
                 b->prim[lane] |= KD_ALPHA;
             shape_vertices(geo, prim[lane], v);
         }

@@ -89,7 +89,7 @@ static inline bool block_near(const struct kd_block *b, const struct block_ray *
 }
 
 static bool lane_hit(const struct kd_block *b, int lane, const struct geometry *geo, const struct block_ray *r,
-                     double tmax, bool shadow, struct hit *hit)
+                     double tmax, struct hit *hit)
 {
     float v[9];
     struct hit h;
@@ -98,7 +98,7 @@ static bool lane_hit(const struct kd_block *b, int lane, const struct geometry *
     if (!triangle_hit(&r->exact, v, tmax, &h))
         return false;
     h.prim = (int)(b->prim[lane] & ~KD_ALPHA);
-    if ((b->prim[lane] & KD_ALPHA) && !geo->opaque(geo->opaque_context, geo, &h, shadow))
+    if ((b->prim[lane] & KD_ALPHA) && !geo->opaque(geo->opaque_context, geo, &h))
         return false;
     *hit = h;
     return true;
@@ -120,13 +120,13 @@ static bool quadrics_hit(const struct kd_block *b, const struct geometry *geo, c
 
 /* The first hit within (ray->tmin, tmax) among the near lanes, honouring alpha; false, with *hit untouched, if none. */
 static bool block_hit(const struct kd_block *b, const uint32_t near[KD_LANES], const struct geometry *geo,
-                      const struct block_ray *r, double tmax, bool shadow, struct hit *hit)
+                      const struct block_ray *r, double tmax, struct hit *hit)
 {
     bool found = false;
     if ((b->prim[0] & ~KD_ALPHA) >= FIRST_QUADRIC)
         return quadrics_hit(b, geo, r->exact.ray, tmax, hit);
     for (int i = 0; i < KD_LANES; i++)
-        if (near[i] && lane_hit(b, i, geo, r, tmax, shadow, hit)) {
+        if (near[i] && lane_hit(b, i, geo, r, tmax, hit)) {
             tmax = hit->t;
             found = true;
         }
@@ -248,7 +248,7 @@ static inline bool traverse(const struct kdtree *kd, const struct geometry *geo,
         const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
         for (; block < end; block++)
             if (block_near(block, &w.ray, near) &&
-                block_hit(block, near, geo, &w.ray, nearest, shadow, hit)) {
+                block_hit(block, near, geo, &w.ray, nearest, hit)) {
                 if (shadow)
                     return true;
                 nearest = hit->t;
@@ -278,7 +278,7 @@ static void add_hits(const struct kd_block *b, const struct geometry *geo, const
     for (int i = 0; i < KD_LANES && b->prim[i] != KD_NONE; i++) {
         int prim = (int)(b->prim[i] & ~KD_ALPHA);
         for (struct ray rest = *ray; shape_intersect(geo, prim, &rest, &hit); rest.tmin = hit.t) {
-            bool there = !(b->prim[i] & KD_ALPHA) || geo->opaque(geo->opaque_context, geo, &hit, false);
+            bool there = !(b->prim[i] & KD_ALPHA) || geo->opaque(geo->opaque_context, geo, &hit);
             if (there && hit.t >= all->first && hit.t <= all->last) {
                 all->hit = mem_append(all->hit, all->n, sizeof *all->hit);
                 all->hit[all->n++] = hit;

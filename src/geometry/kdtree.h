@@ -39,7 +39,7 @@ void kd_free(struct kdtree *kd);
 bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit);
 int kd_all(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit **hits);
 
-/* kd_occluded: is anything (for shadow rays: shadow_alpha counts) hit in (tmin, tmax)? Thread-safe. */
+/* kd_occluded: is anything hit in (tmin, tmax)? Thread-safe. */
 bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray);
 
 #endif

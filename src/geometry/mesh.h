@@ -26,7 +26,6 @@ struct shape_row {
     const struct field *fields; /* ended by one without a name */
     size_t size;                /* of the struct to be filled */
     bool may_shine;             /* can it be an area light? */
-    bool may_have_holes;        /* has it "alpha" and "shadowalpha", FIELD_OTHERs? */
     /* Fill *out, which is empty, from the fields. False with a message. What it leaves empty is left out. */
     bool (*mesh)(const void *fields, struct mesh_task *task, struct mesh *out);
 };

@@ -12,12 +12,13 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "geometry/mesh.h"
+#include "geometry/polygon.h"
 
 enum encoding { NO_ENCODING, ENCODING_ASCII, ENCODING_LITTLE, ENCODING_BIG };
 enum scalar { INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64, N_SCALARS };
 
 /* What a property means to us; NO_ROLE: nothing. */
-enum role { X, Y, Z, NX, NY, NZ, U, V, NO_ROLE, POLYGON };
+enum role { X, Y, Z, NX, NY, NZ, U, V, NO_ROLE, POLYGON, STRIP };
 
 struct ply_property {
     enum scalar type, count_type; /* count_type: of lists only */
@@ -29,7 +30,13 @@ struct ply_element {
     char name[64];
     int count;
     int first, n; /* its properties */
-    bool has[POLYGON + 1]; /* which roles these have */
+    bool has[STRIP + 1]; /* which roles these have */
+};
+
+/* A face of more than three corners, and its first triangle's place in the indices. */
+struct ply_polygon {
+    size_t first;
+    int n;
 };
 
 struct ply {
@@ -43,7 +50,9 @@ struct ply {
     struct ply_property *property;                /* [n_properties] */
     size_t n_elements, n_properties;
     struct mesh *mesh;
-    size_t n_indices;
+    struct ply_polygon *polygon; /* [n_polygons] */
+    size_t n_indices, n_polygons;
+    char line_end;               /* of the header: CR where no LF follows the first one, else LF */
     struct error *err;
 };
 
@@ -66,7 +75,7 @@ enum { LINE_SIZE = 512, MAX_WORDS = 5, WORD_SIZE = 64 };
 /* The next line, or what fits of it, without spaces at its end; false at the end of the file. */
 static bool next_line(struct ply *r, char line[LINE_SIZE])
 {
-    const uint8_t *start = r->data + r->pos, *end = memchr(start, '\n', r->size - r->pos);
+    const uint8_t *start = r->data + r->pos, *end = memchr(start, r->line_end, r->size - r->pos);
     if (end == NULL)
         return false;
     size_t length = (size_t)(end - start), kept = length < LINE_SIZE ? length : LINE_SIZE - 1;
@@ -104,8 +113,10 @@ static enum role role_of(const char *element, const struct ply_property *p, cons
     static const char *const lists[] = {"vertex_indices", "vertex_index"};
     static const char *const numbers[] = {"x", "y", "z", "nx", "ny", "nz", "u", "v", "s", "t", "texture_u", "texture_v",
                                           "texture_s", "texture_t"};
+    if (p->is_list && p->type < FLOAT32 && index_of(name, lists, 2) >= 0)
+        return strcmp(element, "face") == 0 ? POLYGON : strcmp(element, "tristrips") == 0 ? STRIP : NO_ROLE;
     if (p->is_list)
-        return strcmp(element, "face") == 0 && p->type < FLOAT32 && index_of(name, lists, 2) >= 0 ? POLYGON : NO_ROLE;
+        return NO_ROLE;
     int i = strcmp(element, "vertex") == 0 ? index_of(name, numbers, 14) : -1;
     return i < 0 ? NO_ROLE : i < U ? (enum role)i : i % 2 == 0 ? U : V;
 }
@@ -162,6 +173,8 @@ static bool header_line(struct ply *r, const char *line)
 static bool read_header(struct ply *r)
 {
     char line[LINE_SIZE];
+    const uint8_t *cr = memchr(r->data, '\r', r->size);
+    r->line_end = cr != NULL && cr[1] != '\n' && memchr(r->data, '\n', (size_t)(cr - r->data)) == NULL ? '\r' : '\n';
     r->part = "line";
     bool read = next_line(r, line);
     if (!read || strcmp(line, "ply") != 0)
@@ -257,30 +270,46 @@ static void add_triangle(struct ply *r, uint32_t a, uint32_t b, uint32_t c)
     }
 }
 
-/* A list; a polygon's is cut into a fan around its first corner: (0,1,2), (3,0,2) ..., as pbrt-v3 cuts quads. */
+/* A corner behind n others of its face or strip. A face becomes a fan around its first corner, (0,1,2), (3,0,2) ..., as
+ * pbrt-v3 cuts quadrilaterals; a strip turns at every corner. */
+static void add_corner(struct ply *r, const struct ply_property *p, int n, uint32_t *first, uint32_t *last,
+                       uint32_t corner)
+{
+    bool strip = p->role == STRIP;
+    if (n > 2 && !strip)
+        add_triangle(r, corner, *first, *last);
+    else if (n > 2 && n % 2 != 0)
+        add_triangle(r, *last, *first, corner);
+    else if (n >= 2)
+        add_triangle(r, *first, *last, corner);
+    *first = n == 0 ? corner : strip ? *last : *first;
+    *last = corner;
+}
+
+/* A list. In a strip's, -1 begins another. */
 static bool read_list(struct ply *r, const struct ply_property *p)
 {
     double count, value;
-    uint32_t first = 0, previous = 0;
+    uint32_t first = 0, last = 0;
+    int n = 0;
     if (!next_number(r, p->count_type, &count))
         return false;
     if (!(count >= 0 && count <= FIRST_QUADRIC) || count != floor(count))
         return fail(r, "not a list length", "");
     r->mesh->n_thin += p->role == POLYGON && count < 3;
-    for (double k = 0; k < count; k++) {
+    if (p->role == POLYGON && count > 3) {
+        r->polygon = mem_append(r->polygon, r->n_polygons, sizeof *r->polygon);
+        r->polygon[r->n_polygons++] = (struct ply_polygon){r->n_indices, (int)count};
+    }
+    for (double k = 0; k < count; k++, n++) {
         if (!next_number(r, p->type, &value))
             return false;
-        if (p->role != POLYGON)
-            continue;
-        if (!(value >= 0 && value < FIRST_QUADRIC) || value != floor(value))
+        if (p->role == STRIP && value == -1)
+            n = -1;
+        else if (p->role != NO_ROLE && (!(value >= 0 && value < FIRST_QUADRIC) || value != floor(value)))
             return fail(r, "not a vertex index", "");
-        uint32_t index = (uint32_t)value;
-        if (k == 2)
-            add_triangle(r, first, previous, index);
-        else if (k > 2)
-            add_triangle(r, index, first, previous);
-        first = k == 0 ? index : first;
-        previous = index;
+        else if (p->role != NO_ROLE)
+            add_corner(r, p, n, &first, &last, (uint32_t)value);
     }
     return true;
 }
@@ -369,16 +398,26 @@ static bool check_mesh(struct ply *r)
     return true;
 }
 
+static bool cut_polygons(struct ply *r)
+{
+    double room = PLY_TESTS_PER_BYTE * (double)r->size;
+    for (size_t i = 0; i < r->n_polygons; i++)
+        if (!polygon_cut(r->mesh->P, r->mesh->index + r->polygon[i].first, r->polygon[i].n, &room))
+            return fail(r, "its faces that are not convex have too many corners; cut them into triangles", "");
+    return true;
+}
+
 bool ply_read(const char *path, struct mesh *out, struct error *err)
 {
     struct ply r = {.path = path, .mesh = out, .err = err};
     memset(out, 0, sizeof *out);
     bool ok = file_read(path, &r.data, &r.size, err) && read_header(&r) && check_counts(&r) && read_body(&r) &&
-              check_mesh(&r);
+              check_mesh(&r) && cut_polygons(&r);
     out->content = hash_content(r.data, r.size);
     out->file_size = r.size;
     free(r.data);
     free(r.property);
+    free(r.polygon);
     if (!ok)
         mesh_free(out);
     return ok;
@@ -407,4 +446,4 @@ static const struct field FIELDS[] = {{"filename", .kind = FIELD_FILE, .place = 
                                       {.name = "alpha"}, {.name = "shadowalpha"}, {.name = NULL}};
 
 const struct shape_row shape_plymesh = {.name = "plymesh", .fields = FIELDS, .size = sizeof(struct plymesh),
-                                        .may_shine = true, .may_have_holes = true, .mesh = mesh};
+                                        .may_shine = true, .mesh = mesh};

@@ -270,7 +270,7 @@ bool shape_sample(const struct geometry *geo, int prim, double u1, double u2, st
     load_triangle(geo, group, prim, &tri);
     warp_triangle(u1, u2, &hit.b1, &hit.b2);
     *pdf_a = 2 / triangle_place(&tri, hit.b1, hit.b2, out);
-    return group->alpha < 0 || geo->opaque == NULL || geo->opaque(geo->opaque_context, geo, &hit, false);
+    return group->alpha < 0 || geo->opaque == NULL || geo->opaque(geo->opaque_context, geo, &hit);
 }
 
 double shape_pdf_a(const struct geometry *geo, int prim, const struct surface *at)

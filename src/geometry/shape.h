@@ -24,8 +24,7 @@ enum { FIRST_QUADRIC = 1 << 30 };
 /* What the primitives of one Shape directive have in common. */
 struct shape_group {
     int material;     /* index into scene->materials; -1: none, rays pass through */
-    int alpha;        /* float texture, -1 if none: a hole where it is 0 (for all rays) */
-    int shadow_alpha; /* the same for shadow rays only */
+    int alpha;        /* float texture, -1 if none: a hole where it is 0 */
     int first_light;  /* area light of primitive first_prim, the others follow; -1 if none */
     int first_prim;   /* first primitive of the group */
     int medium[2];    /* against its normal, and along it (scene/medium.h); if they differ it bounds them */
@@ -51,9 +50,9 @@ struct geometry {
     int n_vertices, n_triangles, n_quadrics, n_groups;
     size_t vertex_capacity, tangent_capacity, triangle_capacity;
 
-    /* Alpha textures: asked at a hit of a group with alpha or shadow_alpha >= 0. Returns true where the
-     * surface is there. Set by scene.c; NULL means everything is opaque. */
-    bool (*opaque)(const void *context, const struct geometry *geo, const struct hit *hit, bool shadow);
+    /* Alpha textures: asked at a hit of a group with alpha >= 0. Returns true where the surface is there. Set by
+     * scene.c; NULL means everything is opaque. */
+    bool (*opaque)(const void *context, const struct geometry *geo, const struct hit *hit);
     const void *opaque_context;
 };
 

@@ -88,4 +88,4 @@ static const struct field FIELDS[] = {
     {.name = NULL}};
 
 const struct shape_row shape_trianglemesh = {.name = "trianglemesh", .fields = FIELDS,
-    .size = sizeof(struct trianglemesh), .may_shine = true, .may_have_holes = true, .mesh = mesh};
+    .size = sizeof(struct trianglemesh), .may_shine = true, .mesh = mesh};

@@ -154,15 +154,19 @@ static bool unpack(const struct exr *e, const uint8_t *in, size_t n, size_t rows
 
 enum { RED, GREEN, BLUE, GREY, COLOURS }; /* channels "R", "G", "B", "Y" */
 
-/* Find the colours: COLOURS of them; NULL where there is none. */
+/* Find the colours: COLOURS of them; NULL where there is none. Some programs write "r", "g", "b". A "y" is no grey: it
+ * comes with "x" and "z". */
 static bool find_colours(const struct exr *e, const struct exr_channel **colour)
 {
     bool any = false;
     for (int c = 0; c < COLOURS; c++) {
         colour[c] = NULL;
-        for (size_t i = 0; i < e->n_channels; i++)
-            if (e->channel[i].name[0] == "RGBY"[c] && e->channel[i].name[1] == '\0')
+        for (size_t i = 0; i < e->n_channels; i++) {
+            const char *name = e->channel[i].name;
+            bool fits = name[0] == "RGBY"[c] || (c < GREY && colour[c] == NULL && name[0] == "rgb"[c]);
+            if (fits && name[1] == '\0')
                 colour[c] = &e->channel[i];
+        }
         any = any || colour[c] != NULL;
     }
     return any || error_set(e->err, "the file has no channels R, G, B or Y, but e.g. \"%s\"; save one layer of it",

@@ -43,10 +43,10 @@ void png_write(FILE *f, const struct raster *r);
 bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 
 /* OpenEXR files [OpenEXR]. Read: one part in rows, channels of halfs, floats and integers, uncompressed or by ZIPS, ZIP
- * or PIZ; as pbrt-v3 does, the data window as the picture, of the channels R, G, B (one that is missing is 0), or Y
- * alone as grey. Other compressions, several parts, tiles, deep pictures and subsampled channels are refused.
- * Written: R, G, B and all other channels as halfs, where what is finite and beyond 65504 becomes that, or as floats,
- * exactly; ZIP; as pbrt-v3 does, the picture as the data window and the whole as the display window. */
+ * or PIZ; as pbrt-v3 does, the data window as the picture, of the channels R, G, B (also r, g, b; a missing one
+ * is 0), or Y alone as grey. Other compressions, several parts, tiles, deep pictures and subsampled channels are
+ * refused. Written: R, G, B and all other channels as halfs, where what is finite and beyond 65504 becomes that, or as
+ * floats, exactly; ZIP; as pbrt-v3 does, the picture as the data window and the whole as the display window. */
 bool exr_matches(const uint8_t *data, size_t size);
 bool exr_read(const uint8_t *data, size_t size, struct image *out, struct error *err);
 void exr_write_half(FILE *f, const struct raster *r);

@@ -129,14 +129,15 @@ bool image_keeps_place(const char *path)
     return format != NULL && format->keeps_place;
 }
 
-static float linear_value(const struct image *img, size_t i)
+static float light(const struct image *img, size_t i, bool decode)
 {
     if (img->u8 != NULL)
-        return img->decode[img->u8[i]];
-    return img->linear ? img->f32[i] : (float)srgb_decode((double)img->f32[i]);
+        return decode ? img->decode[img->u8[i]] : (float)(img->u8[i] / 255.0);
+    return decode ? (float)srgb_decode((double)img->f32[i]) : img->f32[i];
 }
 
-float *image_read_linear(const char *path, int *width, int *height, struct image *about, struct error *err)
+static float *read_floats(const char *path, bool decode, int *width, int *height, struct image *about,
+                          struct error *err)
 {
     struct image img;
     if (!image_read(path, &img, err))
@@ -145,7 +146,7 @@ float *image_read_linear(const char *path, int *width, int *height, struct image
     float *out = mem_alloc(pixels * 3, sizeof *out);
     for (size_t i = 0; i < pixels; i++)
         for (size_t c = 0; c < 3; c++)
-            out[3 * i + c] = linear_value(&img, img.channels == 3 ? 3 * i + c : i);
+            out[3 * i + c] = light(&img, img.channels == 3 ? 3 * i + c : i, decode && !img.linear);
     *width = img.width;
     *height = img.height;
     if (about != NULL) {
@@ -155,4 +156,14 @@ float *image_read_linear(const char *path, int *width, int *height, struct image
     }
     image_free(&img);
     return out;
+}
+
+float *image_read_linear(const char *path, int *width, int *height, struct image *about, struct error *err)
+{
+    return read_floats(path, true, width, height, about, err);
+}
+
+float *image_read_values(const char *path, int *width, int *height, struct image *about, struct error *err)
+{
+    return read_floats(path, false, width, height, about, err);
 }

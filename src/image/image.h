@@ -18,10 +18,11 @@
  * Returns false with a message "PATH: what is wrong" on a missing, truncated, absurdly large or unknown file. */
 bool image_read(const char *path, struct image *out, struct error *err);
 
-/* image_read_linear: any picture as linear RGB floats [height*width*3], top row first, to be freed. 8-bit files are
- * decoded from sRGB. NULL with a message.
+/* image_read_linear: any picture as linear RGB floats [height*width*3], top row first, to be freed; what is not linear
+ * is decoded from sRGB. NULL with a message. image_read_values: the same without decoding: sRGB values are from 0 to 1.
  *   about  becomes what image_read says of the file, without its pixels; may be NULL */
 float *image_read_linear(const char *path, int *width, int *height, struct image *about, struct error *err);
+float *image_read_values(const char *path, int *width, int *height, struct image *about, struct error *err);
 
 /* image_mend: make samples that are NaN or infinite 0, and negative ones too if asked; `replaced` counts them. */
 void image_mend(struct image *img, bool negative_too);

@@ -38,6 +38,15 @@ static bool next_number(struct netpbm *r, unsigned long *value)
     return r->at > start;
 }
 
+/* Read over the one blank that ends a header, for which CR LF counts; false if there is none. */
+static bool end_header(struct netpbm *r)
+{
+    const uint8_t *p = r->data + r->at;
+    size_t left = r->size - r->at;
+    r->at += left > 1 && p[0] == '\r' && p[1] == '\n' ? 2 : 1;
+    return left > 0 && isspace(p[0]);
+}
+
 /* --- PFM ---------------------------------------------------------------------------------------------- */
 
 bool pfm_matches(const uint8_t *data, size_t size)
@@ -45,14 +54,14 @@ bool pfm_matches(const uint8_t *data, size_t size)
     return size >= 3 && data[0] == 'P' && (data[1] == 'F' || data[1] == 'f') && isspace(data[2]);
 }
 
-/* The next word and the one blank after it. Returns false if it is missing or does not fit. */
-static bool next_word(struct netpbm *r, char *word, size_t room)
+/* The last word of a header. Returns false if it is missing or does not fit. */
+static bool last_word(struct netpbm *r, char *word, size_t room)
 {
     size_t n = 0;
     for (skip(r); r->at < r->size && !isspace(r->data[r->at]) && n + 1 < room; r->at++)
         word[n++] = (char)r->data[r->at];
     word[n] = '\0';
-    return n > 0 && r->at < r->size && isspace(r->data[r->at++]);
+    return n > 0 && end_header(r);
 }
 
 bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
@@ -62,7 +71,7 @@ bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error 
     struct netpbm r = {data, size, 2};
     unsigned long width, height;
     char word[64], *end;
-    if (!next_number(&r, &width) || !next_number(&r, &height) || !next_word(&r, word, sizeof word))
+    if (!next_number(&r, &width) || !next_number(&r, &height) || !last_word(&r, word, sizeof word))
         return error_set(err, "the PFM header (PF, width height, scale) is incomplete");
     double scale = strtod(word, &end);
     if (*end != '\0' || !(fabs(scale) > 0 && fabs(scale) <= FLT_MAX))
@@ -138,10 +147,8 @@ bool ppm_read(const uint8_t *data, size_t size, struct image *out, struct error 
         return error_set(err, "not a PPM file: it does not begin with P2, P3, P5 or P6");
     struct netpbm r = {data, size, 2};
     unsigned long width, height, most;
-    if (!next_number(&r, &width) || !next_number(&r, &height) || !next_number(&r, &most) || r.at >= size ||
-        !isspace(data[r.at]))
+    if (!next_number(&r, &width) || !next_number(&r, &height) || !next_number(&r, &most) || !end_header(&r))
         return error_set(err, "the PPM header (width, height, largest value) is incomplete");
-    r.at++;
     if (!picture_size_ok(width, height, err))
         return false;
     if (most == 0 || most > 65535)

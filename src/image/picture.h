@@ -42,7 +42,7 @@ struct image {
     int channels;      /* 1 grey or 3 RGB */
     uint8_t *u8;       /* [height*width*channels], as stored in the file (usually sRGB encoded); owned */
     float *f32;        /* [height*width*channels]; light as stored; 16-bit files as value/65535; owned */
-    bool linear;       /* true for PFM, OpenEXR: values are linear light already */
+    bool linear;       /* values are light already, as in PFM and OpenEXR; else sRGB */
     struct placement place;
     long replaced;     /* samples that image_mend found and made 0 */
     uint64_t content;  /* hash_content of the file */

@@ -213,7 +213,7 @@ static bool repeat_bytes(struct inflater *z, size_t length, size_t distance)
         return false;
     uint8_t *to = z->out + z->done;
     for (size_t i = 0; i < length; i++)
-        to[i] = to[i - distance];
+        to[i] = z->out[z->done - distance + i];
     z->done += length;
     return true;
 }

@@ -7,9 +7,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct lexer lexer_start(const struct source_file *file, struct arena *arena, struct messages *messages)
+void lexer_enter(struct lexer *l, struct source_file *file)
 {
-    return (struct lexer){file, file->text, file->text, 1, arena, messages};
+    struct lexer *outer = NULL;
+    if (l->file != NULL) {
+        outer = arena_alloc(l->arena, sizeof *outer);
+        *outer = *l;
+    }
+    int depth = outer != NULL ? outer->depth + 1 : 0;
+    *l = (struct lexer){file, file->text, file->text, 1, depth, outer, l->arena, l->messages};
+}
+
+void lexer_leave(struct lexer *l)
+{
+    free(l->file->text);
+    if (l->outer != NULL)
+        *l = *l->outer;
+    else
+        l->file = NULL;
 }
 
 static struct source_position position_of(const struct lexer *l, const char *at)
@@ -17,22 +32,32 @@ static struct source_position position_of(const struct lexer *l, const char *at)
     return (struct source_position){l->file, l->line, (int)(at - l->line_start) + 1};
 }
 
+/* CR LF ends a line once. */
+static bool ends_line(const char *p) { return *p == '\n' || (*p == '\r' && p[1] != '\n'); }
+
+static void skip_line(struct lexer *l)
+{
+    while (!ends_line(l->at) && l->at < l->file->end)
+        l->at++;
+}
+
 /* To the first character of the next token. Every file text ends in a zero byte, which stops all loops. */
 static void skip_blanks(struct lexer *l)
 {
-    const char *p = l->at;
-    for (;; p++) {
-        if (*p == '\n') {
+    for (;;) {
+        if (ends_line(l->at)) {
             l->line++;
-            l->line_start = p + 1;
-        } else if (*p == '#') {
-            while (p[1] != '\n' && p[1] != '\r' && p + 1 < l->file->end)
-                p++;
-        } else if (*p != ' ' && *p != '\t' && *p != '\r') {
-            break;
+            l->line_start = ++l->at;
+        } else if (*l->at == ' ' || *l->at == '\t' || *l->at == '\r') {
+            l->at++;
+        } else if (*l->at == '#') {
+            skip_line(l);
+        } else if (*l->at == '\0' && l->at == l->file->end && l->outer != NULL) {
+            lexer_leave(l);
+        } else {
+            return;
         }
     }
-    l->at = p;
 }
 
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -44,21 +69,19 @@ static bool is_separator(char c)
     return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\0' || c == '[' || c == ']' || c == '"' || c == '#';
 }
 
-/* Read [+-] digits [. digits] [e [+-] digits] at p; returns the end of the number, or NULL if there is none. strtod
- * knows other numbers, too, which have other letters. */
+/* Read a number at p; returns its end, p if there is none that is finite. As in pbrt-v3 it may be hexadecimal. */
 static const char *scan_number(const char *p, double *out)
 {
     char *end;
-    size_t n = strspn(p, "+-.0123456789eE");
     *out = strtod(p, &end);
-    return n > 0 && end == p + n ? end : NULL;
+    return isfinite(*out) ? end : p;
 }
 
 bool lexer_number(struct lexer *l, double *out)
 {
     skip_blanks(l);
     const char *end = scan_number(l->at, out);
-    if (end == NULL || !is_separator(*end) || !isfinite(*out))
+    if (end == l->at || !is_separator(*end))
         return false;
     l->at = end;
     return true;
@@ -66,14 +89,18 @@ bool lexer_number(struct lexer *l, double *out)
 
 static bool next_number(struct lexer *l, struct token *out)
 {
-    if (lexer_number(l, &out->number))
-        return true;
-    const char *end = l->at;
+    const char *odd = scan_number(l->at, &out->number), *end = odd;
     while (!is_separator(*end))
         end++;
-    int shown = end - l->at < 40 ? (int)(end - l->at) : 40;
-    return source_error(l->messages, out->position,
-                        "'%.*s' is not a number, or beyond 1.7e308; write it like 12, -0.5 or 1.5e-3", shown, l->at);
+    int shown = end - odd < 40 ? (int)(end - odd) : 40;
+    if (odd == l->at)
+        return source_error(l->messages, out->position, "'%.*s' is not a number, or beyond 1.7e308; write it like 12, "
+                            "-0.5 or 1.5e-3", shown, odd);
+    if (end > odd)
+        source_warn(l->messages, position_of(l, odd), "'%.*s' directly after a number is passed over, as in pbrt-v3; "
+                    "separate numbers by blanks", shown, odd);
+    l->at = end;
+    return true;
 }
 
 static char *copy(struct lexer *l, const char *begin, const char *end)
@@ -88,7 +115,7 @@ static char *copy(struct lexer *l, const char *begin, const char *end)
 static bool next_string(struct lexer *l, struct token *out)
 {
     const char *end = l->at + 1;
-    while (*end != '"' && *end != '\n' && *end != '\0')
+    while (*end != '"' && !ends_line(end) && *end != '\0')
         end++;
     if (*end != '"')
         return source_error(l->messages, out->position, "this string does not end on its line; close it with \"");
@@ -146,8 +173,7 @@ bool lexer_next(struct lexer *l, struct token *out)
     out->position = position_of(l, l->at);
     if (next_token(l, out))
         return true;
-    while (*l->at != '\n' && l->at < l->file->end)
-        l->at++;
+    skip_line(l);
     return false;
 }
 

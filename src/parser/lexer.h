@@ -1,7 +1,8 @@
-/* lexer.h: a scene file as a row of tokens: words, quoted strings, numbers and brackets.
+/* lexer.h: a scene as a row of tokens: words, quoted strings, numbers and brackets.
  *
  * Blanks and comments (from # to the end of the line) separate tokens; brackets and quotes may touch their
- * neighbours.
+ * neighbours. Lines end in LF, CR LF or CR. An included file is a part of the row: behind its last token comes the next
+ * one of the file that includes it, as in pbrt-v3.
  * Tests: test_parser.c. */
 #ifndef ASBDPT_LEXER_H
 #define ASBDPT_LEXER_H
@@ -20,28 +21,32 @@ struct token {
     struct source_position position; /* of its first character */
 };
 
-/* A position in a file. Copy it to look ahead. */
+/* A position in a file. */
 struct lexer {
-    const struct source_file *file;
-    const char *at;         /* next character */
-    const char *line_start; /* of the line `at` is in */
+    struct source_file *file; /* NULL: none is entered */
+    const char *at;           /* next character */
+    const char *line_start;   /* of the line `at` is in */
     int line;
-    struct arena *arena;        /* where texts of tokens live */
+    int depth;           /* files that this one is included in */
+    struct lexer *outer; /* the position behind the Include; NULL at depth 0 */
+    struct arena *arena; /* where texts of tokens live */
     struct messages *messages;
 };
 
-/* lexer_start: at the beginning of a file. All three must outlive the lexer and its copies; the texts of tokens live as
- * long as the arena. */
-struct lexer lexer_start(const struct source_file *file, struct arena *arena, struct messages *messages);
+/* lexer_enter: to the beginning of a file, whose text the lexer takes over; its end leads back to where the lexer is.
+ * file, arena and messages must outlive the lexer; texts of tokens live as long as the arena. lexer_leave: pass over
+ * the rest of the file. */
+void lexer_enter(struct lexer *l, struct source_file *file);
+void lexer_leave(struct lexer *l);
 
-/* lexer_next: take one token. False with a message on an unterminated string, an unknown character, or a
- * malformed or too large number; the rest of the line is then passed over. At the end of the file: TOKEN_END, again and
+/* lexer_next: take one token. False with a message on an unterminated string, an unknown character, or what is no
+ * number, or too large; the rest of the line is then passed over. At the end of the main file: TOKEN_END, again and
  * again. lexer_peek: the kind of the next token, judged by its first character, without taking it. */
 bool lexer_next(struct lexer *l, struct token *out);
 enum token_kind lexer_peek(struct lexer *l);
 
-/* lexer_number: a fast path for long lists: take a number and return true, or take nothing, also where it is
- * malformed. */
+/* lexer_number: a fast path for long lists: take a number and return true, or take nothing, also where something
+ * follows it directly. */
 bool lexer_number(struct lexer *l, double *out);
 
 /* lexer_resume: after an error, pass over what is no directive: those are words that begin with a capital letter. */

@@ -44,9 +44,9 @@ static struct param *find(struct params *p, const char *name, unsigned types)
     }
     if (found != NULL || hidden)
         return found;
-    for (struct param *item = p->behind.item; item < p->behind.item + p->behind.n; item++)
-        if (strcmp(item->name, name) == 0 && (types & 1u << item->type) != 0)
-            found = item;
+    for (int i = 0; i < p->behind.n; i++)
+        if (strcmp(p->behind.item[i].name, name) == 0 && (types & 1u << p->behind.item[i].type) != 0)
+            found = &p->behind.item[i];
     return found;
 }
 
@@ -183,12 +183,14 @@ char *params_file(struct params *p, const char *name, struct source_position *at
     return path;
 }
 
-/* The colour of wavelength and value pairs: numbers, with comments from # to the end of the line. */
-static rgb rgb_from_pairs(struct params *p, const struct source_file *file)
+/* The colour of wavelength and value pairs: numbers, between blanks or commas, with comments from # to the end of the
+ * line. */
+static rgb rgb_from_pairs(struct params *p, struct source_file *file)
 {
     rgb colour = rgb_black();
     struct arena arena = {NULL, NULL};
-    struct lexer l = lexer_start(file, &arena, p->messages);
+    struct lexer l = {.arena = &arena, .messages = p->messages};
+    lexer_enter(&l, file);
     double *number = NULL;
     size_t n = 0;
     struct token t = {0};
@@ -204,6 +206,7 @@ static rgb rgb_from_pairs(struct params *p, const struct source_file *file)
                     "a spectrum file holds pairs of numbers, wavelength in nm and value, and nothing else");
     else
         colour = spectrum_from_samples((double(*)[2])number, (int)(n / 2));
+    lexer_leave(&l);
     free(number);
     arena_free(&arena);
     return colour;
@@ -218,12 +221,13 @@ static rgb rgb_from_file(struct params *p, const struct param *item)
     char *path = scene_files_path(p->files, item->text[0], &inner);
     char *text = path != NULL ? scene_files_read(p->files, path, &size, &inner) : NULL;
     if (text != NULL) {
-        const struct source_file file = {path, text, text + size, false};
+        struct source_file file = {path, text, text + size, false};
+        for (char *c = strchr(text, ','); c != NULL; c = strchr(c, ','))
+            *c = ' ';
         colour = rgb_from_pairs(p, &file);
     } else {
         params_fail(p, item->position, "%s", inner.text);
     }
-    free(text);
     free(path);
     return colour;
 }

@@ -34,6 +34,7 @@ struct material_source {
 /* What every block saves. */
 struct transform_state {
     struct transform ctm; /* object to world, before WorldBegin world to camera; of use where parse_placed says so */
+    struct token made_by; /* the last directive to change a usable ctm: if it is of no use, the culprit */
     bool start_active;    /* ActiveTransform: transforms act on the start of the shutter interval */
 };
 
@@ -47,11 +48,16 @@ struct graphics_state {
 
 enum block_kind { BLOCK_ATTRIBUTE, BLOCK_TRANSFORM, BLOCK_OBJECT };
 
-/* An open block. */
+/* An open block, and what its end restores. */
 struct block {
     enum block_kind kind;
     struct source_position position;
     struct transform_state place;
+};
+
+/* The same of those blocks that are not transforms' alone. Like pbrt-v3's two stacks, both know no kinds: an end closes
+ * the innermost block. */
+struct saved_state {
     struct graphics_state state;
     int n_float_textures, n_spectrum_textures, n_materials; /* named so far */
 };
@@ -92,21 +98,21 @@ struct parser {
     const char *integrator; /* that the user has named, or NULL */
     struct messages messages;
     struct arena arena; /* texts of tokens, source files */
-    struct lexer lexer;
+    struct lexer lexer; /* of the files being read */
     struct params params;
     enum phase phase;
     struct token directive;         /* the one being carried out */
     struct object_type type;        /* what its params.type stands for */
 
-    struct source_file *source[MAX_INCLUDE_DEPTH]; /* [n_sources] files being read, main file first */
-    int n_sources, n_includes;
+    int n_includes;
     struct scene_files named; /* what may be read, and how often */
     struct symbols images, tables, maps; /* paths -> textures.image[], .table[], lights.map[] of scene */
 
     struct transform_state place;
     struct graphics_state state;
-    struct block *block; /* [n_blocks], innermost last, owned */
-    int n_blocks;
+    struct block *block;       /* [n_blocks], innermost last, owned */
+    struct saved_state *saved; /* [n_saved] */
+    int n_blocks, n_saved;
 
     struct symbols float_textures, spectrum_textures, materials; /* scoped; materials -> material[] */
     struct material_source *material;                            /* [n_materials], owned */
@@ -153,7 +159,8 @@ bool parse_typed(struct parser *p);
 int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
                 const char *instead);
 
-/* parse_placed: can anything stand where the current transform puts it? False with a message if not. */
+/* parse_placed: can anything stand where the current transform puts it? False if not, with a message, which is the last
+ * about this transform. */
 bool parse_placed(struct parser *p);
 
 /* parse_constant: a constant texture. parse_named_texture: that of "texture NAME"; -1 without such a parameter or, with
@@ -185,8 +192,8 @@ int parse_medium(struct parser *p, int side);
 bool parse_settle_media(struct parser *p);
 
 /* parse_state_reset: the transform as a file or its world begins. parse_name_system: name a coordinate system.
- * parse_open_block, parse_close_block: save the graphics state and restore it; false, with a warning, if nothing was
- * saved. parse_close_all: warn of blocks that are still open. */
+ * parse_open_block, parse_close_block: save the graphics state and restore what was saved last, with a warning if that
+ * was another kind of block; false, with a warning, if nothing was. parse_close_all: warn of blocks that are open. */
 void parse_state_reset(struct parser *p);
 void parse_name_system(struct parser *p, const char *name, struct transform t);
 bool parse_open_block(struct parser *p, enum block_kind kind);

@@ -132,6 +132,18 @@ static int alpha(struct parser *p, const char *name)
     return hole ? parse_constant(p, rgb_black()) : texture;
 }
 
+/* pbrt-v3's holes for shadow rays alone cannot be: what light passes, the eye's paths must pass, too, or the strategies
+ * disagree. Exporters give the texture of "alpha", which says nothing new. */
+static void shadow_alpha(struct parser *p, struct shape_group *group, int texture)
+{
+    if (texture < 0 || texture == group->alpha)
+        return;
+    source_warn(&p->messages, place_of(&p->params, "shadowalpha"),
+                "a hole is one for all rays here: \"shadowalpha\" %s",
+                group->alpha < 0 ? "counts as \"alpha\"" : "is passed over, since \"alpha\" is another");
+    group->alpha = group->alpha < 0 ? texture : group->alpha;
+}
+
 static bool count_file(struct params *q, const struct mesh *m, struct error *err)
 {
     return m->file_size == 0 || scene_files_count(q->files, m->content, m->file_size, err);
@@ -152,9 +164,9 @@ static void mesh(struct parser *p, struct shape_item *item)
         params_fail(q, place_of(q, task.about), "%s", task.err.text);
     p->n_subdivided = MESH_MAX_SUBDIVIDED - task.room;
     free(fields);
-    if (row->may_have_holes) {
+    if (field_find(row->fields, "alpha") != NULL) {
         item->group.alpha = alpha(p, "alpha");
-        item->group.shadow_alpha = alpha(p, "shadowalpha");
+        shadow_alpha(p, &item->group, alpha(p, "shadowalpha"));
     }
 }
 
@@ -253,7 +265,7 @@ static bool shape(struct parser *p)
     if (!parse_typed(p) || !parse_type(p, types))
         return false;
     struct shape_item item = {.to_world = p->place.ctm, .reverse = p->state.reverse, .area = p->state.area};
-    item.group.alpha = item.group.shadow_alpha = item.group.first_light = -1;
+    item.group.alpha = item.group.first_light = -1;
     if (p->type.kind < N_QUADRICS)
         parse_fields(p, &item);
     else
@@ -278,7 +290,8 @@ static bool object_begin(struct parser *p)
     if (!parse_string(p, &name, "a name"))
         return false;
     if (p->current_object >= 0)
-        return directive_error(p, "objects do not nest; close the one before it with ObjectEnd");
+        source_warn(&p->messages, name.position, "objects do not nest: as in pbrt-v3, \"%.60s\" ends the one before it",
+                    name.text);
     p->object = mem_append(p->object, (size_t)p->objects.n, sizeof *p->object);
     memset(&p->object[p->objects.n], 0, sizeof *p->object);
     p->current_object = p->objects.n;
@@ -288,10 +301,8 @@ static bool object_begin(struct parser *p)
 
 static bool object_end(struct parser *p)
 {
-    if (!parse_close_block(p, BLOCK_OBJECT))
-        return false;
     p->current_object = -1;
-    return true;
+    return parse_close_block(p, BLOCK_OBJECT);
 }
 
 /* Instances are copies: a few lines could ask for more than any machine has. */
@@ -314,8 +325,11 @@ static uint64_t instance_bytes(const struct shape_list *object)
 static bool object_instance(struct parser *p)
 {
     struct token name;
-    if (p->current_object >= 0)
-        return directive_error(p, "objects do not nest; close the one before it with ObjectEnd");
+    if (p->current_object >= 0) {
+        source_warn(&p->messages, p->directive.position,
+                    "an ObjectInstance in an object is passed over, as in pbrt-v3");
+        return false;
+    }
     int i = parse_named(p, &name, &p->objects, "object", "this instance is left out");
     if (i < 0)
         return false;

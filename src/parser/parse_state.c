@@ -33,8 +33,11 @@ static const struct transform SINGULAR = {{{0}}, {{0}}};
 
 static bool set_ctm(struct parser *p, struct transform t)
 {
-    if (p->place.start_active)
-        p->place.ctm = t;
+    if (!p->place.start_active)
+        return true;
+    if (transform_is_usable(&p->place.ctm))
+        p->place.made_by = p->directive;
+    p->place.ctm = t;
     return true;
 }
 
@@ -45,9 +48,14 @@ bool parse_placed(struct parser *p)
         return directive_error(p, "the last row of the current transform, numbers 4, 8, 12 and 16 of a matrix, is "
                                "%g %g %g %g; only the last of them may be other than 0", last[0], last[1], last[2],
                                last[3]);
-    return transform_is_usable(&p->place.ctm) ||
-           directive_error(p, "the current transform is infinite or singular, or nearly so; its numbers and its "
-                           "inverse's go up to 1e30");
+    if (transform_is_usable(&p->place.ctm))
+        return true;
+    const struct token *by = &p->place.made_by;
+    p->place.ctm = transform_identity();
+    return source_error(&p->messages, by->position, "after this %s the current transform is infinite or singular, or "
+                        "nearly so; %s", by->text, strcmp(by->text, "LookAt") == 0
+                        ? "its up vector must not be parallel to the direction from eye to look"
+                        : "its numbers and its inverse's go up to 1e30");
 }
 
 void parse_state_reset(struct parser *p)
@@ -179,31 +187,34 @@ void parse_close_all(struct parser *p)
 
 bool parse_open_block(struct parser *p, enum block_kind kind)
 {
-    struct block b = {kind, p->directive.position, p->place, p->state,
-                      p->float_textures.n, p->spectrum_textures.n, p->materials.n};
     p->block = mem_append(p->block, (size_t)p->n_blocks, sizeof *p->block);
-    p->block[p->n_blocks++] = b;
+    p->block[p->n_blocks++] = (struct block){kind, p->directive.position, p->place};
+    if (kind == BLOCK_TRANSFORM)
+        return true;
+    p->saved = mem_append(p->saved, (size_t)p->n_saved, sizeof *p->saved);
+    p->saved[p->n_saved++] = (struct saved_state){p->state, p->float_textures.n, p->spectrum_textures.n,
+                                                  p->materials.n};
     return true;
 }
 
 bool parse_close_block(struct parser *p, enum block_kind kind)
 {
-    if (p->n_blocks == 0) {
+    if (p->n_blocks == 0 || (kind != BLOCK_TRANSFORM && p->n_saved == 0)) {
         source_warn(&p->messages, p->directive.position, "%s without %s is passed over", END[kind], BEGIN[kind]);
         return false;
     }
-    const struct block *b = &p->block[p->n_blocks - 1];
+    const struct block *b = &p->block[--p->n_blocks];
     if (b->kind != kind)
-        return directive_error(p, "the %s of line %d is still open; close it with %s", BEGIN[b->kind],
-                               b->position.line, END[b->kind]);
-    p->n_blocks--;
+        source_warn(&p->messages, p->directive.position, "as in pbrt-v3, this %s ends the block of the last %s",
+                    END[kind], BEGIN[b->kind]);
     p->place = b->place;
     if (kind == BLOCK_TRANSFORM)
         return true;
-    p->state = b->state;
-    symbols_forget(&p->float_textures, b->n_float_textures);
-    symbols_forget(&p->spectrum_textures, b->n_spectrum_textures);
-    symbols_forget(&p->materials, b->n_materials);
+    const struct saved_state *s = &p->saved[--p->n_saved];
+    p->state = s->state;
+    symbols_forget(&p->float_textures, s->n_float_textures);
+    symbols_forget(&p->spectrum_textures, s->n_spectrum_textures);
+    symbols_forget(&p->materials, s->n_materials);
     return true;
 }
 

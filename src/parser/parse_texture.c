@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/file.h"
 #include "material/noise.h"
 
 /* The current transform, kept for textures that look through it. */
@@ -68,14 +67,15 @@ static void imagemap(struct parser *p, void *object)
         type_error(q, "an imagemap needs its image: add \"string filename\" \"...\"");
         return;
     }
-    t->gamma = params_bool(q, "gamma", file_has_extension(path, ".tga") || file_has_extension(path, ".png"));
     if (!q->failed) {
         struct error inner;
         int known = symbols_find(&p->images, path);
         t->image = known >= 0 ? known : texture_load_image(set, path, &inner);
         if (known < 0 && t->image >= 0)
             symbols_add(&p->images, path, t->image);
-        parse_picture(q, at, t->image < 0 ? NULL : &set->image[t->image], known < 0, 0, &inner);
+        const struct image *image = t->image < 0 ? NULL : &set->image[t->image];
+        t->gamma = params_bool(q, "gamma", image != NULL && !image->linear);
+        parse_picture(q, at, image, known < 0, 0, &inner);
     }
     free(path);
 }

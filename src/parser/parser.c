@@ -75,7 +75,7 @@ static bool run_directive(struct parser *p)
     const struct directive *d = t->kind == TOKEN_WORD ? find_directive(t->text) : NULL;
     if (d == NULL)
         return unknown_directive(p);
-    p->source[p->n_sources - 1]->is_scene = true;
+    p->lexer.file->is_scene = true;
     if ((d->phase & p->phase) == 0)
         return wrong_phase(p, d);
     if (d->types != NULL && !(parse_typed(p) && parse_type(p, d->types)))
@@ -83,22 +83,22 @@ static bool run_directive(struct parser *p)
     return d->run(p);
 }
 
-/* All directives of the current file, up to the end of its world or to more errors than are told. */
-static void run_source(struct parser *p)
+/* All directives, up to the end of the world or to more errors than are told. */
+static void run(struct parser *p)
 {
     struct token *t = &p->directive;
     while ((p->phase & ANYWHERE) != 0 && p->messages.errors.n + p->messages.errors.more < MOST_ERRORS) {
         bool ok = lexer_next(&p->lexer, t);
         if (ok && t->kind == TOKEN_END) {
-            if (p->n_sources == 1 && p->messages.errors.n == 0)
+            if (p->messages.errors.n == 0)
                 directive_error(p, "the file ends without %s; add it, or take a pbrt-v3 scene if it is pbrt-v4's",
                                 p->phase == BEFORE_WORLD ? "WorldBegin" : "WorldEnd");
             return;
         }
         ok = ok && run_directive(p);
-        if (!p->source[p->n_sources - 1]->is_scene)
-            return;
-        if (!ok)
+        if (!t->position.file->is_scene)
+            lexer_leave(&p->lexer);
+        else if (!ok)
             lexer_resume(&p->lexer);
     }
     if (p->phase == AFTER_WORLD && lexer_peek(&p->lexer) != TOKEN_END)
@@ -107,23 +107,17 @@ static void run_source(struct parser *p)
 
 /* --- files -------------------------------------------------------------------------------------------- */
 
-/* Read a file and carry it out. Its name lives as long as the parser, for all places in it; its text does not. Returns
- * false with a message in *err if it cannot be read. */
-static bool run_file(struct parser *p, const char *path, struct error *err)
+/* Read a file, whose tokens come next. Its name lives as long as the parser, for all places in it. Returns false with a
+ * message in *err if it cannot be read. */
+static bool enter_file(struct parser *p, const char *path, struct error *err)
 {
     size_t size;
     char *text = scene_files_read(&p->named, path, &size, err);
     if (text == NULL)
         return false;
     struct source_file *source = arena_alloc(&p->arena, sizeof *source);
-    *source = (struct source_file){arena_text(&p->arena, path), text, text + size, p->n_sources == 0};
-    struct lexer outer = p->lexer;
-    p->lexer = lexer_start(source, &p->arena, &p->messages);
-    p->source[p->n_sources++] = source;
-    run_source(p);
-    p->n_sources--;
-    p->lexer = outer;
-    free(text);
+    *source = (struct source_file){arena_text(&p->arena, path), text, text + size, p->lexer.file == NULL};
+    lexer_enter(&p->lexer, source);
     return true;
 }
 
@@ -135,13 +129,13 @@ static bool include(struct parser *p)
         return false;
     if (++p->n_includes > MAX_INCLUDES)
         return source_error(&p->messages, name.position, "more than %d includes; join files", MAX_INCLUDES);
-    if (p->n_sources == MAX_INCLUDE_DEPTH)
+    if (p->lexer.depth + 1 == MAX_INCLUDE_DEPTH)
         return source_error(&p->messages, name.position, "files are nested more than %d deep", MAX_INCLUDE_DEPTH);
     struct error inner;
     char *path = scene_files_path(&p->named, name.text, &inner);
-    bool ok = path != NULL || source_error(&p->messages, name.position, "%s", inner.text);
-    if (ok && !run_file(p, path, &inner))
-        ok = source_error(&p->messages, name.position, "%s", inner.text);
+    bool ok = path != NULL && enter_file(p, path, &inner);
+    if (!ok)
+        source_error(&p->messages, name.position, "%s", inner.text);
     free(path);
     return ok;
 }
@@ -152,6 +146,8 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     p->scene = s;
     p->messages.err = err;
     p->messages.sink = sink;
+    p->lexer.arena = &p->arena;
+    p->lexer.messages = &p->messages;
     p->params.messages = &p->messages;
     p->params.arena = &p->arena;
     p->params.files = &p->named;
@@ -168,6 +164,8 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
 
 static void finish(struct parser *p)
 {
+    while (p->lexer.file != NULL)
+        lexer_leave(&p->lexer);
     for (int i = 0; i < p->objects.n; i++)
         shape_list_free(&p->object[i]);
     struct symbols *const tables[] = {&p->float_textures, &p->spectrum_textures, &p->materials, &p->systems,
@@ -178,6 +176,7 @@ static void finish(struct parser *p)
     free(p->object);
     free(p->system);
     free(p->block);
+    free(p->saved);
     free(p->material);
     params_free(&p->params);
     messages_end(&p->messages);
@@ -193,7 +192,9 @@ bool parse_scene(const char *path, const char *integrator, struct scene *out, co
     scene_init(out);
     p->integrator = integrator;
     start(p, path, out, sink, err != NULL ? err : &first);
-    if (!run_file(p, path, p->messages.err))
+    if (enter_file(p, path, p->messages.err))
+        run(p);
+    else
         messages_report(&p->messages);
     bool ok = p->messages.errors.n == 0;
     finish(p);

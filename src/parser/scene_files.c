@@ -8,6 +8,7 @@
 
 #include "base/bits.h"
 #include "base/file.h"
+#include "base/mem.h"
 #include "base/os.h"
 
 /* Bytes of a file; 0 if it cannot be opened, or is none. */
@@ -35,13 +36,24 @@ char *text_read(const char *path, size_t *size, struct error *err)
     return NULL;
 }
 
+/* The path of a name; to be given to free(). If nothing is there, its backslashes may be meant as slashes. */
+static char *find(const struct scene_files *f, const char *name)
+{
+    char *given = file_beside(f->scene_path, name), *slashed = mem_copy_text(given);
+    for (char *c = slashed + strlen(slashed) - strlen(name); *c != '\0'; c++)
+        *c = *c == '\\' ? '/' : *c;
+    bool meant = os_kind_of(given) == OS_NOTHING && os_kind_of(slashed) != OS_NOTHING;
+    free(meant ? given : slashed);
+    return meant ? slashed : given;
+}
+
 char *scene_files_path(const struct scene_files *f, const char *name, struct error *err)
 {
     if (f->full) {
         error_set(err, "%s: not read after too many or too large files", name);
         return NULL;
     }
-    char *path = file_beside(f->scene_path, name);
+    char *path = find(f, name);
     enum os_kind kind = os_kind_of(path);
     if (kind == OS_FILE || kind == OS_NOTHING) /* that there is nothing, reading will say */
         return path;

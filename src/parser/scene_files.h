@@ -33,7 +33,8 @@ struct scene_files {
 char *text_read(const char *path, size_t *size, struct error *err);
 
 /* scene_files_path: where a file of this name is, to be given to free(); NULL with a message if there is something
- * that is no regular file, or once there was too much. */
+ * that is no regular file, or once there was too much. Backslashes, as in names from Windows, are slashes if no file
+ * has the very name. */
 char *scene_files_path(const struct scene_files *f, const char *name, struct error *err);
 
 /* scene_files_read: text_read, counted. scene_files_count: a file of that hash_content and size has been read.

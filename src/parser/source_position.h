@@ -13,8 +13,9 @@
 /* One reading of a file. */
 struct source_file {
     const char *path;
-    const char *text, *end; /* end[0] is a zero byte that does not belong to the file */
-    bool is_scene;          /* the main file, or one that begins with a directive */
+    char *text;      /* released by the lexer that has entered the file (lexer.h); places need the path alone */
+    const char *end; /* of the text: a zero byte that does not belong to the file */
+    bool is_scene;   /* the main file, or one that begins with a directive */
 };
 
 /* A column of a line of a file. */

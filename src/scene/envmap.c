@@ -77,8 +77,8 @@ bool envmap_size_ok(int width, int height, size_t file_size, struct error *err)
 {
     size_t texels = (size_t)width * (size_t)height;
     return texels <= ENVMAP_FREE_TEXELS || texels / ENVMAP_TEXELS_PER_BYTE <= file_size ||
-           error_set(err, "%d x %d are too many for an environment map from a file of this size; store it as PFM",
-                     width, height);
+           error_set(err, "%d x %d are too many for an environment map from a file of this size; store it as PFM "
+                     "(convert --linear)", width, height);
 }
 
 struct envmap *envmap_load(const char *path, struct error *err)

@@ -50,16 +50,14 @@ int scene_add_material(struct scene *s, struct material *m)
 
 /* Is the surface there at this hit? Holes are where an alpha texture is exactly 0, as in pbrt-v3. The context is the
  * scene's set of textures. */
-static bool opaque_at(const void *context, const struct geometry *geo, const struct hit *hit, bool shadow)
+static bool opaque_at(const void *context, const struct geometry *geo, const struct hit *hit)
 {
     const struct texture_set *textures = context;
     const struct shape_group *group = shape_group_of(geo, hit->prim);
     const struct ray anywhere = {vec(0, 0, 0), vec(0, 0, 1), 0, INFINITY, 0, 0};
     struct surface at;
     shape_surface(geo, hit, &anywhere, &at);
-    if (group->alpha >= 0 && texture_float(textures, group->alpha, &at) == 0)
-        return false;
-    return !(shadow && group->shadow_alpha >= 0 && texture_float(textures, group->shadow_alpha, &at) == 0);
+    return texture_float(textures, group->alpha, &at) != 0;
 }
 
 /* Widen *lo and *hi to the bounds of a tree. */
@@ -142,7 +140,7 @@ void scene_prepare(struct scene *s)
         material_prepare(s->material, i, &s->textures, &s->lobes);
     for (struct shape_group *g = s->geo.group; g < s->geo.group + s->geo.n_groups; g++) {
         g->skip_partials = g->material < 0 || !s->material[g->material]->reads_partials;
-        g->skip_uv = g->skip_partials && g->alpha < 0 && g->shadow_alpha < 0 &&
+        g->skip_uv = g->skip_partials && g->alpha < 0 &&
                      (g->material < 0 || !s->material[g->material]->reads_uv);
     }
     kd_build(&s->kd, &s->geo, KD_SURFACES);

@@ -148,7 +148,7 @@ static bool arrive(const struct pixel_sample *sample, struct arena *arena, const
     struct surface at;
     if (group->material < 0 ||
         !combination(sub(corner[1], corner[0]), sub(corner[2], corner[0]), sub(x, corner[0]), &hit.b1, &hit.b2) ||
-        (group->alpha >= 0 && geo->opaque != NULL && !geo->opaque(geo->opaque_context, geo, &hit, false)))
+        (group->alpha >= 0 && geo->opaque != NULL && !geo->opaque(geo->opaque_context, geo, &hit)))
         return false;
     const struct ray none = {z->p, vec(0, 0, 1), 0, INFINITY, 0, 0};
     shape_surface(geo, &hit, &none, &at);
