@@ -24,8 +24,10 @@ refuse() { # PATTERN WORDS...: wrong usage of the program
     shift
     expect 2 "$pattern" "$program" "$@"
 }
-# What only the laboratory has the program does not have.
-for command in info equal-time bench; do refuse "^asbdpt: unknown command $command; try" $command; done
+# What only the laboratory has the program does not have; it says where that is.
+for command in info compare equal-time bench; do
+    refuse "^asbdpt: unknown command $command; asbdpt-lab has more commands; try" $command
+done
 refuse '^asbdpt: there is no integrator lvc; known are: pt lt bdpt asbdpt$' render "$box" --integrator lvc
 prints '^lvc$' "$lab" help integrators
 # A file that is called like an option is not taken for one: what is wrong with it is no wrong usage.
@@ -33,7 +35,8 @@ expect 1 '^asbdpt: --x' "$program" render "$box" $small -o--x/y.png
 # One meaning of --res everywhere: a width keeps the film's shape.
 prints '^film  *24x14,' "$lab" info "$scenes/veach-ajar.pbrt" --res 24
 refuse 'asbdpt: which command'
-refuse 'unknown command rendr; try asbdpt --help' rendr
+refuse 'unknown command rendr; .*; try asbdpt --help' rendr
+expect 2 '^asbdpt: unknown command rendr; try asbdpt-lab --help$' "$lab" rendr
 refuse 'needs a scene' render
 refuse 'unknown option --sppp; try asbdpt render --help' render "$box" --sppp 3
 refuse 'no integrator has a parameter "selct"; asbdpt help' render "$box" -P selct=bins
@@ -111,6 +114,26 @@ expect 0 '' "$lab" info warned.pbrt
 expect 1 '^asbdpt: warned.pbrt:2:16: parameter "float radus" of Shape "sphere" is not used' \
     "$program" render warned.pbrt $small --strict -o x.pfm
 check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' stderr.txt
+
+# --quiet hides no warning. The last line says which method it was, how to have the default, and how many warnings.
+expect 0 '^asbdpt: warning: warned.pbrt:2:16: ' "$program" render warned.pbrt $small -o x.pfm
+check [ "$(wc -l <stderr.txt)" = 3 ] # there is no light either
+last() { # PATTERN OPTION...: of a render's last line
+    pattern=$1
+    shift
+    expect 0 '' "$program" render "$@" --res 4x4 --spp 1 -o x.pfm
+    tail -n 1 stderr.txt | grep -Eq -e "$pattern" || fault "no \"$pattern\" at the end of $(cat stderr.txt)"
+}
+last ', 1 spp, bdpt \(for asbdpt: --integrator asbdpt\); .*; 3 warnings$' warned.pbrt
+last ', 1 spp, asbdpt; .* per sample path; 3 warnings$' warned.pbrt --integrator asbdpt
+last ', 1 spp, pt; .* per sample path; 3 warnings$' warned.pbrt --integrator pt
+for name in path bdpt asbdpt; do echo "Integrator \"$name\" WorldBegin LightSource \"infinite\" WorldEnd" >$name.pbrt; done
+last ', 1 spp, pt \(for asbdpt: .* per sample path$' path.pbrt
+last ', 1 spp, bdpt \(for asbdpt: .* per sample path$' bdpt.pbrt
+last ', 1 spp, asbdpt; .* per sample path$' asbdpt.pbrt
+awk 'BEGIN { print "WorldBegin LightSource \"infinite\""
+    for (i = 0; i < 300; i++) print "Shape \"sphere\" \"float a" i % 200 "\" 1"; print "WorldEnd" }' >many.pbrt
+last '; 300 warnings$' many.pbrt # printed or not
 
 # Bytes of a scene that mean something to a terminal do not reach it.
 printf 'Integrator "\033[31mx" "string maxdepth" "\033[31m"\nWorldBegin\nWorldEnd\n' >escape.pbrt

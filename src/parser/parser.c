@@ -153,6 +153,7 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     p->params.files = &p->named;
     p->named.scene_path = path;
     p->named.content = &s->content;
+    symbols_add(&p->named.paths, path, 0);
     p->phase = BEFORE_WORLD;
     parse_state_reset(p);
     p->current_object = -1;
@@ -164,13 +165,18 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
 
 static void finish(struct parser *p)
 {
+    struct scene *s = p->scene;
     while (p->lexer.file != NULL)
         lexer_leave(&p->lexer);
+    s->file = mem_alloc((size_t)p->named.paths.n, sizeof *s->file);
+    for (; s->n_files < p->named.paths.n; s->n_files++)
+        s->file[s->n_files] = mem_copy_text(p->named.paths.entry[s->n_files].name);
+    s->n_warnings = p->messages.warnings.n + p->messages.warnings.more;
     for (int i = 0; i < p->objects.n; i++)
         shape_list_free(&p->object[i]);
     struct symbols *const tables[] = {&p->float_textures, &p->spectrum_textures, &p->materials, &p->systems,
                                       &p->media.known,    &p->objects,           &p->named.known,
-                                      &p->images,         &p->tables,            &p->maps};
+                                      &p->named.paths,    &p->images,            &p->tables,    &p->maps};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         symbols_free(tables[i]);
     free(p->object);

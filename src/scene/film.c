@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "base/number.h"
 
 /* Places of block.splat. */
@@ -181,10 +182,9 @@ float *film_alpha(const struct film *f)
 void film_warn(const struct film *f, long cut)
 {
     if (f->nonfinite > 0)
-        fprintf(stderr, "asbdpt: warning: %ld contributions were not finite, or too large, and were left out\n",
-                f->nonfinite);
+        say_line("asbdpt: warning: %ld contributions were not finite, or too large, and were left out", f->nonfinite);
     if (cut > 0)
-        fprintf(stderr, "asbdpt: warning: %ld pixel values were beyond 3.4e38 and were cut to it\n", cut);
+        say_line("asbdpt: warning: %ld pixel values were beyond 3.4e38 and were cut to it", cut);
 }
 
 void film_standard_error(const struct film *f, double scale, float *out)

@@ -60,8 +60,8 @@ static bool write_heatmap(const struct compare_options *o, struct file_output *f
 /* What 8 bits cut off and round counts as error. */
 static void warn_of_display(const char *display, const char *linear)
 {
-    fprintf(stderr, "asbdpt: warning: %s holds sRGB values from 0 to 1, %s linear ones: what the first cut off and "
-                    "rounded counts as error\n", display, linear);
+    say_line("asbdpt: warning: %s holds sRGB values from 0 to 1, %s linear ones: what the first cut off and rounded "
+             "counts as error", display, linear);
 }
 
 static bool compare_files(const struct compare_options *o, struct error *err)
