@@ -170,6 +170,24 @@ rm -f state caught.pfm
 stopped 143 TERM '[ -e state ]' 'stopped by SIGTERM, at 0 of 16 samples per pixel, [0-9.]+ % of the pixels at 1$' \
     --integrator bdpt --res 1000x1000 --spp 16 --checkpoint state --interval 0.05 -o caught.pfm
 check [ -s caught.pfm ]
+# Of a checkpoint that ends within a block merge makes what the render wrote, if it is asked to.
+expect 1 'state: ends in the middle of a block of samples; --resume it first, or take --partial' \
+    "$program" merge state -o early.pfm
+expect 0 '' "$program" merge --partial state -o early.pfm
+expect 0 '' "$lab" compare early.pfm caught.pfm --max-rmse 1e-6
+# Its samples are not other parts', as far as it was to go.
+stopped 143 TERM '[ -e part.state ]' 'stopped by SIGTERM, at 0 of 4 samples per pixel, [0-9.]+ % ' \
+    --integrator bdpt --res 1000x1000 --spp 8 --maxdepth 2 --samples 0:4 --checkpoint part.state --interval 0.05 \
+    -o early.part
+for range in 4:5 3:4; do
+    check "$program" render "$box" --integrator bdpt --res 1000x1000 --spp 8 --maxdepth 2 --samples $range --quiet \
+        -o $range.part
+done
+expect 0 '' "$program" merge --partial 4:5.part part.state -o early.pfm
+expect 0 '' "$program" merge 4:5.part --partial -o whole.pfm
+expect 0 '' "$lab" compare early.pfm whole.pfm
+check awk '$1 == "mean_ratio" && $2 > 0.98 && $2 < 1.02 { near = 1 } END { exit !near }' stdout.txt
+expect 1 '3:4.part: other parts have the samples 3:4' "$program" merge --partial 3:4.part part.state -o early.pfm
 # Interrupted by the terminal; a shell's background commands do not hear SIGINT.
 if ! timeout --preserve-status 5 true 2>/dev/null; then
     echo "skipped: a render stopped by timeout (not installed)"

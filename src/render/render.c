@@ -229,8 +229,6 @@ static bool cut(struct run *r, struct error *err)
     r->tiling = tiling_of(r->job.film_rect, size);
     r->film->run = halves_run(size->block);
     r->begun = r->film->passes;
-    for (int64_t i = 0; i < r->begun && i < tiles_per_block(r); i++)
-        film_mark(r->film, tiling_pixels(&r->tiling, i));
     return r->begun < tiles_per_block(r) ||
            error_set(err, "the film has more tile passes in it than a block of samples has");
 }
