@@ -72,6 +72,18 @@ makes whole.png "$program" merge 32:70.part 0:32.part --quiet -o sum.part -o sum
 makes whole.png "$program" render $lit --alpha --resume sum.part -o sum.png
 same whole.pfm lit/light01_key.pfm "a light in parts"
 
+# ---- the same command again: what is done is done, also if bins do not end with a block ----
+for samples in "--samples 64:70" ""; do
+    rm -f state
+    for time in first second; do
+        check "$program" render "$box" $size --integrator asbdpt -P select=bins $samples -o $time.part \
+            --checkpoint state --resume state
+    done
+    same first.part second.part "done again $samples"
+done
+expect 1 'the film ends at sample 70: here they come in blocks of 32' \
+    "$program" render "$box" $size --integrator asbdpt -P select=bins --spp 96 --resume first.part -o x.pfm
+
 # ---- a picture is gone on with, parts are of one whole: each learns the same, more than of 24 samples ----
 rm -f state
 check "$program" render "$box" $size --integrator asbdpt --spp 400 -o whole.pfm
@@ -229,6 +241,13 @@ fi
 # A time that is over ends a block that would take long.
 expect 0 'at 0 of 64 samples per pixel, [0-9.]+ % of the pixels at 1$' \
     "$program" render "$box" --integrator bdpt --res 1000x1000 -j 1 --time 0.1 -o caught.pfm
+# A sample that has begun is completed, however long it takes, and the message says so.
+awk 'BEGIN { print "LookAt 0 0 -4 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 1"
+    print "WorldBegin LightSource \"infinite\""
+    print "MakeNamedMedium \"a\" \"string type\" \"homogeneous\" MediumInterface \"a\" \"\" Material \"\""
+    while (i++ < 30000) print "Shape \"sphere\""; print "WorldEnd" }' >slow.pbrt
+expect 0 'stopped after [0-9.]* s, when the samples that had begun were complete, at 0 of 9 samples' \
+    "$program" render slow.pbrt --integrator bdpt --res 1x1 --spp 9 --maxdepth 4 -j 1 --time 0.01 -o caught.pfm
 # A reader that goes away.
 {
     "$program" render "$box" $tiny --res 99x99 --spp 1 -o - 2>stderr.txt

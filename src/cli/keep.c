@@ -207,8 +207,8 @@ bool keep_end(struct keep *k, bool ok, struct error *err)
         say_line("asbdpt: stopped by %s, at %ld of %ld samples per pixel%s", os_signal_name(signal), f->iterations,
                  wanted, more);
     else if (ok && late(k, 0) && f->iterations < wanted)
-        say_line("asbdpt: stopped after %.1f s, at %ld of %ld samples per pixel%s", os_wall_seconds() - k->begun,
-                 f->iterations, wanted, more);
+        say_line("asbdpt: stopped after %.1f s%s, at %ld of %ld samples per pixel%s", os_wall_seconds() - k->begun,
+                 late(k, 1) ? ", when the samples that had begun were complete" : "", f->iterations, wanted, more);
     if (ok && k->bar.shown && f->half != NULL)
         say_noise(k);
     return ok && (k->options->checkpoint == NULL || save_film(k, err));
