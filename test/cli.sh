@@ -67,6 +67,28 @@ expect 0 '' "$program" render dark.pbrt --res 16x16 --spp 4 --alpha --quiet -o d
 expect 0 '' "$program" render empty.pbrt --res 16x16 --spp 4 --alpha --quiet -o empty.png
 check test -n "$(cmp dark.png empty.png 2>&1)"
 
+# A black picture is no error, but the reason is said as far as it is known; also of a render that is to be quiet.
+black() { # TEXT SCENE OPTION...
+    text=$1
+    printf 'LookAt 0 0 -5 0 0 0 0 1 0 Camera "perspective" "float fov" 40 WorldBegin %s WorldEnd\n' "$2" >black.pbrt
+    shift 2
+    expect 0 "^asbdpt: warning: the image is black: $text\$" \
+        "$program" render black.pbrt --res 16x16 --spp 4 --quiet -o x.pfm "$@"
+}
+wall='Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point P" [-9 -9 1 9 -9 1 9 9 1 -9 9 1]'
+lamp='LightSource "point" "point from" [0 0 9]'
+none='no light has reached the camera by'
+for method in pt bdpt asbdpt lt; do
+    black "$none $method; the nearest surface that it sees is at [(].* 1[)], 6 away, and faces away" \
+        "$lamp $wall" --integrator $method
+done
+black "$none bdpt; the nearest surface that it sees is at [(].* 1[)], 6 away" "$lamp ReverseOrientation $wall"
+black "$none bdpt; it sees no surface" 'LightSource "point"'
+black "$none pt; it sees no surface" 'LightSource "infinite" "rgb L" [0 0 0]' --integrator pt
+black 'the scene has no light' "$wall"
+expect 0 '' "$program" render "$box" $small -o x.pfm
+check [ ! -s stderr.txt ]
+
 # Parameters of pbrt's integrators that have no effect here are said; those of -P must be right. info and render agree.
 printf 'Integrator "sppm" "integer numiterations" 3 "integer maxdepth" 100000
 Film "image" "string filename" "x.jpg"\nWorldBegin\nLightSource "point"\nWorldEnd\n' >sppm.pbrt
@@ -117,7 +139,7 @@ check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' std
 
 # --quiet hides no warning. The last line says which method it was, how to have the default, and how many warnings.
 expect 0 '^asbdpt: warning: warned.pbrt:2:16: ' "$program" render warned.pbrt $small -o x.pfm
-check [ "$(wc -l <stderr.txt)" = 3 ] # there is no light either
+check [ "$(wc -l <stderr.txt)" = 4 ] # there is no light either, and so at the end
 last() { # PATTERN OPTION...: of a render's last line
     pattern=$1
     shift

@@ -248,6 +248,7 @@ awk 'BEGIN { print "LookAt 0 0 -4 0 0 0 0 1 0 Camera \"perspective\" \"float fov
     while (i++ < 30000) print "Shape \"sphere\""; print "WorldEnd" }' >slow.pbrt
 expect 0 'stopped after [0-9.]* s, when the samples that had begun were complete, at 0 of 9 samples' \
     "$program" render slow.pbrt --integrator bdpt --res 1x1 --spp 9 --maxdepth 4 -j 1 --time 0.01 -o caught.pfm
+check grep -q 'the image is black: no sample is complete$' stderr.txt
 # A reader that goes away.
 {
     "$program" render "$box" $tiny --res 99x99 --spp 1 -o - 2>stderr.txt

@@ -153,12 +153,50 @@ static void report(const struct job_options *o, const char *integrator, long n_w
                  render_us_per_path(film, times), warnings);
 }
 
+/* What the camera sees in front of all else, as far as a few rays tell. */
+static void describe_view(const struct scene *scene, struct pixel_rect r, char *text, size_t size)
+{
+    enum { RAYS = 32 }; /* on each axis */
+    double nearest = INFINITY;
+    snprintf(text, size, "it sees no surface");
+    for (int i = 0; i < RAYS * RAYS; i++) {
+        double px = r.x0 + rect_width(r) * (i % RAYS + 0.5) / RAYS, py = r.y0 + rect_height(r) * (i / RAYS + 0.5) / RAYS;
+        struct ray ray = camera_ray(&scene->camera, px, py, 0.5, 0.5);
+        struct surface at;
+        double d = scene_intersect(scene, &ray, &at) ? length(sub(at.p, ray.o)) : INFINITY;
+        if (d < nearest)
+            snprintf(text, size, "the nearest surface that it sees is at (%g %g %g), %.3g away%s", at.p.x, at.p.y, at.p.z,
+                     d, dot(at.ng, ray.d) > 0 ? ", and faces away" : "");
+        nearest = fmin(d, nearest);
+    }
+}
+
+/* A picture without any light is rarely what was wanted. Less than FAINT is not light: rounding lets connections along
+ * a surface through. */
+static void warn_of_black(const struct scene *scene, const struct film *film, const char *integrator,
+                          const float *pixels)
+{
+    const float FAINT = 1e-20f;
+    char view[200];
+    for (size_t i = 0; i < rect_pixels(film->rect) * 3; i++)
+        if (!(fabsf(pixels[i]) < FAINT))
+            return;
+    describe_view(scene, film->rect, view, sizeof view);
+    if (film_samples(film) == 0)
+        say_line("asbdpt: warning: the image is black: no sample is complete");
+    else if (scene->lights.n == 0)
+        say_line("asbdpt: warning: the image is black: the scene has no light");
+    else
+        say_line("asbdpt: warning: the image is black: no light has reached the camera by %s; %s", integrator, view);
+}
+
 /* Pictures, then what can only be made now, and when all are complete the statistics. `ok`: nothing has failed yet. */
 static bool write_files(const struct job_options *o, const struct scene *scene, struct render_options *options,
                         const struct film *film, struct keep *keep, struct files *f, bool ok, struct error *err)
 {
     float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels), *alpha = film_alpha(film);
     film_warn(film, film_develop(film, scene->film_scale, pixels));
+    warn_of_black(scene, film, options->integrator, pixels);
     f->pictures.alpha = f->aov.out.alpha = alpha;
     ok = outputs_write(&f->pictures, rect_width(film->rect), rect_height(film->rect), pixels, o->quiet,
                        ok ? err : NULL) && ok;
