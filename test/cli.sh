@@ -149,7 +149,9 @@ last() { # PATTERN OPTION...: of a render's last line
 last ', 1 spp, bdpt \(for asbdpt: --integrator asbdpt\); .*; 3 warnings$' warned.pbrt
 last ', 1 spp, asbdpt; .* per sample path; 3 warnings$' warned.pbrt --integrator asbdpt
 last ', 1 spp, pt; .* per sample path; 3 warnings$' warned.pbrt --integrator pt
-for name in path bdpt asbdpt; do echo "Integrator \"$name\" WorldBegin LightSource \"infinite\" WorldEnd" >$name.pbrt; done
+for name in path bdpt asbdpt; do
+    echo "Integrator \"$name\" WorldBegin LightSource \"infinite\" WorldEnd" >$name.pbrt
+done
 last ', 1 spp, pt \(for asbdpt: .* per sample path$' path.pbrt
 last ', 1 spp, bdpt \(for asbdpt: .* per sample path$' bdpt.pbrt
 last ', 1 spp, asbdpt; .* per sample path$' asbdpt.pbrt

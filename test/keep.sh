@@ -200,6 +200,8 @@ expect 0 '' "$program" merge 4:5.part --partial -o whole.pfm
 expect 0 '' "$lab" compare early.pfm whole.pfm
 check awk '$1 == "mean_ratio" && $2 > 0.98 && $2 < 1.02 { near = 1 } END { exit !near }' stdout.txt
 expect 1 '3:4.part: other parts have the samples 3:4' "$program" merge --partial 3:4.part part.state -o early.pfm
+cp part.state same.state
+expect 1 'same.state: other parts have the samples 0:4' "$program" merge --partial part.state same.state -o early.pfm
 # Interrupted by the terminal; a shell's background commands do not hear SIGINT.
 if ! timeout --preserve-status 5 true 2>/dev/null; then
     echo "skipped: a render stopped by timeout (not installed)"

@@ -96,8 +96,8 @@ check [ ! -e none ]
 cp -R "$scenes/features" features
 for file in features/*.pbrt; do sed 's/#.*//' "$file" | tr -s ' \t' '\n' | grep -E '^[A-Z]' | sort -u; done | sort -u |
     while read -r word; do printf '%s\t%s\n' "$(grep -l "^ *$word " features/*.pbrt | head -n 1)" "$word"; done >texts
-awk -F '"' '{ sub(/#.*/, "") } { for (i = 2; i < NF; i += 2) if (!($i in seen)) { seen[$i]; print FILENAME "\t\"" $i } }' \
-    features/*.pbrt >>texts
+awk -F '"' '{ sub(/#.*/, "") }
+    { for (i = 2; i < NF; i += 2) if (!($i in seen)) { seen[$i]; print FILENAME "\t\"" $i } }' features/*.pbrt >>texts
 while IFS="$(printf '\t')" read -r file text; do
     LC_ALL=C awk -v text="$text" -v more='\033[31m\007\302\233' '
         (at = index($0, text)) > 0 && !done++ { at += length(text); $0 = substr($0, 1, at - 1) more substr($0, at) }

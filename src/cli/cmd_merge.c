@@ -82,7 +82,7 @@ static bool check_ranges(const struct merge *m, long first, long end, bool gaps,
         long part_end = p->passes > 0 ? p->end : p->first + p->done;
         if (p->first > *reached && !gaps)
             ok = wrong_range("", "missing are", *reached, p->first);
-        if (i > 0 && p->first < *reached && p->done > 0)
+        if (i > 0 && p->first < *reached && p->first < part_end)
             ok = wrong_range(m->part[i].path, ": other parts have", p->first,
                              part_end < *reached ? part_end : *reached);
         *reached = part_end > *reached ? part_end : *reached;

@@ -160,13 +160,13 @@ static void describe_view(const struct scene *scene, struct pixel_rect r, char *
     double nearest = INFINITY;
     snprintf(text, size, "it sees no surface");
     for (int i = 0; i < RAYS * RAYS; i++) {
-        double px = r.x0 + rect_width(r) * (i % RAYS + 0.5) / RAYS, py = r.y0 + rect_height(r) * (i / RAYS + 0.5) / RAYS;
-        struct ray ray = camera_ray(&scene->camera, px, py, 0.5, 0.5);
+        double x = (i % RAYS + 0.5) / RAYS, y = (i / RAYS + 0.5) / RAYS;
+        struct ray ray = camera_ray(&scene->camera, r.x0 + x * rect_width(r), r.y0 + y * rect_height(r), 0.5, 0.5);
         struct surface at;
         double d = scene_intersect(scene, &ray, &at) ? length(sub(at.p, ray.o)) : INFINITY;
         if (d < nearest)
-            snprintf(text, size, "the nearest surface that it sees is at (%g %g %g), %.3g away%s", at.p.x, at.p.y, at.p.z,
-                     d, dot(at.ng, ray.d) > 0 ? ", and faces away" : "");
+            snprintf(text, size, "the nearest surface that it sees is at (%g %g %g), %.3g away%s", at.p.x, at.p.y,
+                     at.p.z, d, dot(at.ng, ray.d) > 0 ? ", and faces away" : "");
         nearest = fmin(d, nearest);
     }
 }

@@ -68,11 +68,10 @@ void film_keep_halves(struct film *f);
 /* film_take_splats: add a tile's splats, and empty its list. */
 void film_take_splats(struct film *f, struct tile *t);
 
-/* film_merge_tile: add these and a tile's sums. film_end_block: all tiles of the block are in, and count from now on. */
+/* film_merge_tile: add these and a tile's sums. film_end_block: all tiles of the block are in, and count from now on.
+ * film_settle: leave the block under way as it is: each pixel counts the samples that it has. */
 void film_merge_tile(struct film *f, struct tile *t);
 void film_end_block(struct film *f);
-
-/* film_settle: leave the block under way as it is: each pixel counts the samples that it has. */
 void film_settle(struct film *f);
 
 /* film_value: the sum so far in place i of [planes][pixels*3]. */
