@@ -141,10 +141,10 @@ check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' std
 expect 0 '^asbdpt: warning: warned.pbrt:2:16: ' "$program" render warned.pbrt $small -o x.pfm
 check [ "$(wc -l <stderr.txt)" = 4 ] # there is no light either, and so at the end
 last() { # PATTERN OPTION...: of a render's last line
-    pattern=$1
+    end=$1
     shift
     expect 0 '' "$program" render "$@" --res 4x4 --spp 1 -o x.pfm
-    tail -n 1 stderr.txt | grep -Eq -e "$pattern" || fault "no \"$pattern\" at the end of $(cat stderr.txt)"
+    tail -n 1 stderr.txt | grep -Eq -e "$end" || fault "no \"$end\" at the end of $(cat stderr.txt)"
 }
 last ', 1 spp, bdpt \(for asbdpt: --integrator asbdpt\); .*; 3 warnings$' warned.pbrt
 last ', 1 spp, asbdpt; .* per sample path; 3 warnings$' warned.pbrt --integrator asbdpt
