@@ -143,9 +143,9 @@ static void report(const struct job_options *o, const char *integrator, long n_w
                    const struct render_times *times)
 {
     bool other = o->integrator == NULL && strcmp(integrator, "asbdpt") != 0;
-    char warnings[32] = "";
+    char warnings[48] = "";
     if (n_warnings > 0)
-        snprintf(warnings, sizeof warnings, "; %ld warning%s", n_warnings, n_warnings > 1 ? "s" : "");
+        snprintf(warnings, sizeof warnings, "; %ld warning%s about the scene", n_warnings, n_warnings > 1 ? "s" : "");
     if (!o->quiet)
         say_line("%s: %dx%d, %ld spp, %s%s; %.2f s, %.2f s of CPU, %.2f us per sample path%s", o->scene_path,
                  rect_width(film->rect), rect_height(film->rect), film->iterations, integrator,
@@ -177,17 +177,16 @@ static void warn_of_black(const struct scene *scene, const struct film *film, co
                           const float *pixels)
 {
     const float FAINT = 1e-20f;
-    char view[200];
+    char why[300] = "the scene has no light", view[200];
     for (size_t i = 0; i < rect_pixels(film->rect) * 3; i++)
         if (!(fabsf(pixels[i]) < FAINT))
             return;
     describe_view(scene, film->rect, view, sizeof view);
     if (film_samples(film) == 0)
-        say_line("asbdpt: warning: the image is black: no sample is complete");
-    else if (scene->lights.n == 0)
-        say_line("asbdpt: warning: the image is black: the scene has no light");
-    else
-        say_line("asbdpt: warning: the image is black: no light has reached the camera by %s; %s", integrator, view);
+        snprintf(why, sizeof why, "no sample is complete");
+    else if (scene->lights.n > 0)
+        snprintf(why, sizeof why, "no light has reached the camera by %s; %s", integrator, view);
+    say_line("asbdpt: warning: the image is black: %s", why);
 }
 
 /* Pictures, then what can only be made now, and when all are complete the statistics. `ok`: nothing has failed yet. */

@@ -152,8 +152,6 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
     parameters_adapt(scene, readers, &sink);
     bool ok = parameters_belong(scene, readers, &err) &&
               parameters_read(scene, readers[0], o->max_depth, &read, &err);
-    if (ok && scene->lights.n == 0)
-        warn(job, "there are no lights, so the image is black");
     if (ok)
         scene_prepare(scene);
     scene->n_warnings = job->n_warnings;
