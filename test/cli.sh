@@ -24,8 +24,10 @@ refuse() { # PATTERN WORDS...: wrong usage of the program
     shift
     expect 2 "$pattern" "$program" "$@"
 }
-# What only the laboratory has the program does not have.
-for command in info equal-time bench; do refuse "^asbdpt: unknown command $command; try" $command; done
+# What only the laboratory has the program does not have; it says where that is.
+for command in info compare equal-time bench; do
+    refuse "^asbdpt: unknown command $command; asbdpt-lab has more commands; try" $command
+done
 refuse '^asbdpt: there is no integrator lvc; known are: pt lt bdpt asbdpt$' render "$box" --integrator lvc
 prints '^lvc$' "$lab" help integrators
 # A file that is called like an option is not taken for one: what is wrong with it is no wrong usage.
@@ -33,7 +35,8 @@ expect 1 '^asbdpt: --x' "$program" render "$box" $small -o--x/y.png
 # One meaning of --res everywhere: a width keeps the film's shape.
 prints '^film  *24x14,' "$lab" info "$scenes/veach-ajar.pbrt" --res 24
 refuse 'asbdpt: which command'
-refuse 'unknown command rendr; try asbdpt --help' rendr
+refuse 'unknown command rendr; .*; try asbdpt --help' rendr
+expect 2 '^asbdpt: unknown command rendr; try asbdpt-lab --help$' "$lab" rendr
 refuse 'needs a scene' render
 refuse 'unknown option --sppp; try asbdpt render --help' render "$box" --sppp 3
 refuse 'no integrator has a parameter "selct"; asbdpt help' render "$box" -P selct=bins
@@ -58,11 +61,33 @@ for method in pt lt bdpt asbdpt; do
     expect 0 '480x270, 1000000 spp' "$program" render dark.pbrt --integrator $method --res 480x270 --spp 1000000 \
         --time 5 --aov variance -o dark.ppm
 done
-check grep -q '^asbdpt: warning: dark.pbrt: there are no lights, so the image is black' stderr.txt
+check grep -q '^asbdpt: warning: the image is black: the scene has no light' stderr.txt
 check [ "$(tail -c +16 dark.ppm | tr -d '\000' | wc -c)" = 0 ]
 expect 0 '' "$program" render dark.pbrt --res 16x16 --spp 4 --alpha --quiet -o dark.png # but what the lens sees
 expect 0 '' "$program" render empty.pbrt --res 16x16 --spp 4 --alpha --quiet -o empty.png
 check test -n "$(cmp dark.png empty.png 2>&1)"
+
+# A black picture is no error, but the reason is said as far as it is known; also of a render that is to be quiet.
+black() { # TEXT SCENE OPTION...
+    text=$1
+    printf 'LookAt 0 0 -5 0 0 0 0 1 0 Camera "perspective" "float fov" 40 WorldBegin %s WorldEnd\n' "$2" >black.pbrt
+    shift 2
+    expect 0 "^asbdpt: warning: the image is black: $text\$" \
+        "$program" render black.pbrt --res 16x16 --spp 4 --quiet -o x.pfm "$@"
+}
+wall='Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point P" [-9 -9 1 9 -9 1 9 9 1 -9 9 1]'
+lamp='LightSource "point" "point from" [0 0 9]'
+none='no light has reached the camera by'
+for method in pt bdpt asbdpt lt; do
+    black "$none $method; the nearest surface that it sees is at [(].* 1[)], 6 away, and faces away" \
+        "$lamp $wall" --integrator $method
+done
+black "$none bdpt; the nearest surface that it sees is at [(].* 1[)], 6 away" "$lamp ReverseOrientation $wall"
+black "$none bdpt; it sees no surface" 'LightSource "point"'
+black "$none pt; it sees no surface" 'LightSource "infinite" "rgb L" [0 0 0]' --integrator pt
+black 'the scene has no light' "$wall"
+expect 0 '' "$program" render "$box" $small -o x.pfm
+check [ ! -s stderr.txt ]
 
 # Parameters of pbrt's integrators that have no effect here are said; those of -P must be right. info and render agree.
 printf 'Integrator "sppm" "integer numiterations" 3 "integer maxdepth" 100000
@@ -112,6 +137,28 @@ expect 1 '^asbdpt: warned.pbrt:2:16: parameter "float radus" of Shape "sphere" i
     "$program" render warned.pbrt $small --strict -o x.pfm
 check grep -q '^asbdpt: warned.pbrt:3:15: there is no named material "mate"' stderr.txt
 
+# --quiet hides no warning. The last line says which method it was, how to have the default, and how many warnings.
+expect 0 '^asbdpt: warning: warned.pbrt:2:16: ' "$program" render warned.pbrt $small -o x.pfm
+check [ "$(wc -l <stderr.txt)" = 3 ] # there is no light either
+last() { # PATTERN OPTION...: of a render's last line
+    end=$1
+    shift
+    expect 0 '' "$program" render "$@" --res 4x4 --spp 1 -o x.pfm
+    tail -n 1 stderr.txt | grep -Eq -e "$end" || fault "no \"$end\" at the end of $(cat stderr.txt)"
+}
+last ', 1 spp, bdpt \(for asbdpt: --integrator asbdpt\); .*; 2 warnings about the scene$' warned.pbrt
+last ', 1 spp, asbdpt; .* per sample path; 2 warnings about the scene$' warned.pbrt --integrator asbdpt
+last ', 1 spp, pt; .* per sample path; 2 warnings about the scene$' warned.pbrt --integrator pt
+for name in path bdpt asbdpt; do
+    echo "Integrator \"$name\" WorldBegin LightSource \"infinite\" WorldEnd" >$name.pbrt
+done
+last ', 1 spp, pt \(for asbdpt: .* per sample path$' path.pbrt
+last ', 1 spp, bdpt \(for asbdpt: .* per sample path$' bdpt.pbrt
+last ', 1 spp, asbdpt; .* per sample path$' asbdpt.pbrt
+awk 'BEGIN { print "WorldBegin LightSource \"infinite\""
+    for (i = 0; i < 300; i++) print "Shape \"sphere\" \"float a" i % 200 "\" 1"; print "WorldEnd" }' >many.pbrt
+last '; 300 warnings about the scene$' many.pbrt # printed or not
+
 # Bytes of a scene that mean something to a terminal do not reach it.
 printf 'Integrator "\033[31mx" "string maxdepth" "\033[31m"\nWorldBegin\nWorldEnd\n' >escape.pbrt
 expect 1 'integrator "[?]\[31mx" does not exist here' "$lab" info escape.pbrt
@@ -137,7 +184,7 @@ check [ -s heat.png ]
 expect 0 '' "$lab" compare a.png a.pfm --max-rmse 1000
 expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$lab" compare a.png a.pfm --max-rmse 1e-9
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
-expect 1 'equal size' "$lab" compare a.pfm c.pfm
+expect 1 'equal size can be compared; render with --res 8x8 --filter box$' "$lab" compare a.pfm c.pfm
 expect 0 '' "$lab" strategies "$box" $small --maxdepth 2 -o s
 check [ -s s/d02_s02_t02_weighted.pfm ]
 check [ -s s/pyramid.png ]

@@ -72,6 +72,18 @@ makes whole.png "$program" merge 32:70.part 0:32.part --quiet -o sum.part -o sum
 makes whole.png "$program" render $lit --alpha --resume sum.part -o sum.png
 same whole.pfm lit/light01_key.pfm "a light in parts"
 
+# ---- the same command again: what is done is done, also if bins do not end with a block ----
+for samples in "--samples 64:70" ""; do
+    rm -f state
+    for time in first second; do
+        check "$program" render "$box" $size --integrator asbdpt -P select=bins $samples -o $time.part \
+            --checkpoint state --resume state
+    done
+    same first.part second.part "done again $samples"
+done
+expect 1 'the film ends at sample 70: here they come in blocks of 32' \
+    "$program" render "$box" $size --integrator asbdpt -P select=bins --spp 96 --resume first.part -o x.pfm
+
 # ---- a picture is gone on with, parts are of one whole: each learns the same, more than of 24 samples ----
 rm -f state
 check "$program" render "$box" $size --integrator asbdpt --spp 400 -o whole.pfm
@@ -170,6 +182,26 @@ rm -f state caught.pfm
 stopped 143 TERM '[ -e state ]' 'stopped by SIGTERM, at 0 of 16 samples per pixel, [0-9.]+ % of the pixels at 1$' \
     --integrator bdpt --res 1000x1000 --spp 16 --checkpoint state --interval 0.05 -o caught.pfm
 check [ -s caught.pfm ]
+# Of a checkpoint that ends within a block merge makes what the render wrote, if it is asked to.
+expect 1 'state: ends in the middle of a block of samples; --resume it first, or take --partial' \
+    "$program" merge state -o early.pfm
+expect 0 '' "$program" merge --partial state -o early.pfm
+expect 0 '' "$lab" compare early.pfm caught.pfm --max-rmse 1e-6
+# So it does of several, together with whole parts; their samples are not other parts', as far as they were to go.
+split="--integrator lt --res 1000x1000 --spp 8 --maxdepth 2"
+some() { [ "$(work_in $range.state)" -gt 400 ]; } # of 3969 tile passes
+for range in 0:4 5:8; do
+    stopped 143 TERM some 'stopped by SIGTERM, at 0 of [34] samples per pixel, [0-9.]+ % ' $split \
+        --samples $range --checkpoint $range.state --interval 0.05 -o early.part
+done
+for range in 4:5 3:4; do check "$program" render "$box" $split --samples $range --quiet -o $range.part; done
+expect 0 '' "$program" merge --partial 4:5.part 0:4.state 5:8.state -o early.pfm
+expect 0 '' "$program" merge 4:5.part --partial -o whole.pfm
+expect 0 '' "$lab" compare early.pfm whole.pfm
+check awk '$1 == "mean_ratio" && $2 > 0.98 && $2 < 1.02 { near = 1 } END { exit !near }' stdout.txt
+expect 1 '3:4.part: other parts have the samples 3:4' "$program" merge --partial 3:4.part 0:4.state -o early.pfm
+cp 0:4.state same.state
+expect 1 'same.state: other parts have the samples 0:4' "$program" merge --partial 0:4.state same.state -o early.pfm
 # Interrupted by the terminal; a shell's background commands do not hear SIGINT.
 if ! timeout --preserve-status 5 true 2>/dev/null; then
     echo "skipped: a render stopped by timeout (not installed)"
@@ -211,6 +243,14 @@ fi
 # A time that is over ends a block that would take long.
 expect 0 'at 0 of 64 samples per pixel, [0-9.]+ % of the pixels at 1$' \
     "$program" render "$box" --integrator bdpt --res 1000x1000 -j 1 --time 0.1 -o caught.pfm
+# A sample that has begun is completed, however long it takes, and the message says so.
+awk 'BEGIN { print "LookAt 0 0 -4 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 1"
+    print "WorldBegin LightSource \"infinite\""
+    print "MakeNamedMedium \"a\" \"string type\" \"homogeneous\" MediumInterface \"a\" \"\" Material \"\""
+    while (i++ < 30000) print "Shape \"sphere\""; print "WorldEnd" }' >slow.pbrt
+expect 0 'stopped after [0-9.]* s, when the samples that had begun were complete, at 0 of 9 samples' \
+    "$program" render slow.pbrt --integrator bdpt --res 1x1 --spp 9 --maxdepth 4 -j 1 --time 0.01 -o caught.pfm
+check grep -q 'the image is black: no sample is complete$' stderr.txt
 # A reader that goes away.
 {
     "$program" render "$box" $tiny --res 99x99 --spp 1 -o - 2>stderr.txt

@@ -20,9 +20,30 @@ check render --samples 0:1 -o c.part
 same='an output needs a name of its own'
 mkdir sub
 for outputs in '-o new.pfm --stats c --checkpoint c' '--stats - -o -' '--aov albedo -o x.pfm -o x.albedo.pfm' \
-    '--lights sub -o sub/light00_area.pfm' '--stats scene.pbrt'; do # some names are known only when the scene is
+    '--lights sub -o sub/light00_area.pfm'; do # some names are known only when the scene is
     refused 2 "${outputs##* }: $same" render $outputs
 done
+# Nor does one take the place of a file that the scene was read from, under whatever name.
+mkdir things && cat >reads.pbrt <<END
+Film "image" "string filename" "things/mask.tga.png" WorldBegin LightSource "infinite" "string mapname" "things/sky.pfm"
+Texture "a" "float" "imagemap" "string filename" "things/mask.tga.png" Include "things/more.inc"
+Material "matte" "spectrum Kd" "things/red.spd" Shape "plymesh" "string filename" "things/one.ply" WorldEnd
+END
+printf '400 1 700 1\n' >things/red.spd
+echo 'Shape "sphere"' >things/more.inc
+cp "$top/test/fixtures/parts/triangle.ply" things/one.ply
+cp "$scenes/sky/sky.pfm" things/sky.pfm
+check "$program" convert things/sky.pfm -o things/mask.tga.png --quiet
+read_from='the scene is read from this file'
+for file in things/mask.tga.png things/sky.pfm things/more.inc things/one.ply things/red.spd reads.pbrt; do
+    for name in $file ./$file "$PWD/$file"; do
+        refused 2 "$read_from" "$program" render reads.pbrt $tiny -o new.pfm --stats "$name"
+    done
+done
+refused 2 "mask.tga.png: $read_from" "$program" render reads.pbrt $tiny
+refused 2 "sky.pfm: $read_from" "$program" render reads.pbrt $tiny -o things/sky.pfm
+refused 2 "more.inc: $read_from" "$lab" trace reads.pbrt $tiny --svg things/more.inc
+refused 2 "mask.tga.png: $read_from" "$lab" worth reads.pbrt $tiny -o things/mask.tga.png
 # What may be the same: an input and an output, which takes its place when it is whole; so a checkpoint resumed.
 cp c.part d.part
 makes c.part "$program" merge d.part --quiet -o d.part
@@ -69,6 +90,24 @@ refused 1 'bad/light01_distant.pfm: cannot be created: Is a directory' \
     "$program" render three.pbrt $tiny --lights bad -o new.pfm
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt --lights none
 check [ ! -e none ]
+
+# ---- text of a scene ----
+# Every string and every word of the scenes in features/ gets control characters, one at a time: no output has them.
+cp -R "$scenes/features" features
+for file in features/*.pbrt; do sed 's/#.*//' "$file" | tr -s ' \t' '\n' | grep -E '^[A-Z]' | sort -u; done | sort -u |
+    while read -r word; do printf '%s\t%s\n' "$(grep -l "^ *$word " features/*.pbrt | head -n 1)" "$word"; done >texts
+awk -F '"' '{ sub(/#.*/, "") }
+    { for (i = 2; i < NF; i += 2) if (!($i in seen)) { seen[$i]; print FILENAME "\t\"" $i } }' features/*.pbrt >>texts
+while IFS="$(printf '\t')" read -r file text; do
+    LC_ALL=C awk -v text="$text" -v more='\033[31m\007\302\233' '
+        (at = index($0, text)) > 0 && !done++ { at += length(text); $0 = substr($0, 1, at - 1) more substr($0, at) }
+        { print }' "$file" >features/marked.pbrt
+    for command in "$lab info" "$lab trace" "$program render --spp 1 --stats -"; do
+        $command features/marked.pbrt --res 2x2
+    done
+done <texts >printed.txt 2>&1
+check [ "$(LC_ALL=C tr -d '\n -~' <printed.txt | wc -c)" = 0 ]
+check [ "$(grep -c '?\[31m' printed.txt)" -gt 300 ] # they were quoted
 
 # ---- limits ----
 refused 1 'have 550 pictures; --maxdepth 20 is the most' \

@@ -166,6 +166,64 @@ static void check_unpacked(struct test *t)
     symbols_free(&f.known);
 }
 
+/* Letters by which a differs from b, by the definition: case apart, one that is changed, left out or put in. */
+static int letters(const char *a, const char *b)
+{
+    if (*a == '\0' || *b == '\0')
+        return (int)(strlen(a) + strlen(b));
+    int changed = letters(a + 1, b + 1) + ((*a | 32) != (*b | 32)), left_out = letters(a + 1, b) + 1;
+    int put_in = letters(a, b + 1) + 1, least = left_out < put_in ? left_out : put_in;
+    return changed < least ? changed : least;
+}
+
+/* The nearest of random names, of few letters, is found where it is near enough. */
+static void check_near(struct test *t, struct rng *r)
+{
+    enum { NAMES = 4, LONGEST = 8 };
+    int found = 0;
+    for (int round = 0; round < 2000; round++) {
+        char name[NAMES + 1][LONGEST + 1] = {""};
+        struct near near;
+        int best = 0;
+        for (int i = 0; i <= NAMES; i++)
+            for (int n = 1 + (int)(rng_uniform(r) * LONGEST), k = 0; k < n; k++)
+                name[i][k] = "abA"[(int)(3 * rng_uniform(r))];
+        near = near_start(name[NAMES]);
+        for (int i = 0; i < NAMES; i++) {
+            best = letters(name[NAMES], name[i]) < letters(name[NAMES], name[best]) ? i : best;
+            near_try(&near, name[i]);
+        }
+        size_t n = strlen(name[NAMES]);
+        bool close = letters(name[NAMES], name[best]) <= (n < 3 ? 0 : n < 6 ? 1 : 2);
+        const char *wanted = close ? name[best] : NULL;
+        found += close;
+        CHECK(t, near.name == wanted, "of %s, %s, %s, %s near %s is %s", name[0], name[1], name[2], name[3],
+              name[NAMES], near.name != NULL ? near.name : "none");
+    }
+    CHECK(t, found > 200 && found < 1800, "%d of 2000 names were found", found);
+}
+
+/* Megabytes of names, and of others that are near, take no longer than any others. */
+static void check_mistakes(struct test *t)
+{
+    enum { NAMES = 15000, ROOM = 1 << 22 };
+    static const char *const LINES[] = {"MakeNamedMaterial \"wood-%025d\" \"string type\" \"matte\"\n",
+                                        "NamedMaterial \"wood.%025d\"\n", "Shape \"sphere\" \"float radii%025d\" 1\n"};
+    char *text = mem_alloc(ROOM, 1);
+    int n = snprintf(text, ROOM, "WorldBegin\n");
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < NAMES; i++)
+            n += snprintf(text + n, (size_t)(ROOM - n), LINES[k], i);
+    snprintf(text + n, (size_t)(ROOM - n), "WorldEnd\n");
+    struct scene s;
+    double start = os_cpu_seconds();
+    if (scene_from_text(t, text, &s))
+        scene_free(&s);
+    double seconds = os_cpu_seconds() - start;
+    CHECK(t, n < ROOM - 100 && seconds < 5, "%d mistakes take %.1f s", 2 * NAMES, seconds);
+    free(text);
+}
+
 /* No more errors than are told are looked for. */
 static void check_many_errors(struct test *t)
 {
@@ -271,6 +329,8 @@ void check_parser_limits(struct test *t)
     check_matrices(t, &r);
     check_repeated(t);
     check_unpacked(t);
+    check_near(t, &r);
+    check_mistakes(t);
     check_many_errors(t);
     check_no_files(t);
 }

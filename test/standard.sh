@@ -4,7 +4,8 @@
 #      another machine: base/maths.h has them. What IEEE 754 or C99 defines to the last bit (sqrt, fabs, floor, ceil,
 #      fmin, fmax, fmod, frexp, ldexp, nextafter) may be called;
 #   2. it includes no header that C99 does not have, except in base/os.c and os_thread.c, nor asks there for what
-#      headers may show.
+#      headers may show;
+#   3. it prints messages by say_line() alone (base/error.h), which lets no control character of a file through.
 # Prints what is wrong; exit status 0 only if nothing is.
 top=${1:-.}
 export LC_ALL=C
@@ -22,6 +23,10 @@ awk -f "$(dirname "$0")/pieces.awk" $(find "$top/src" "$top/test/lab" -name '*.[
         header = $4
         gsub(/^[^<]*<|>.*/, "", header)
         if (!(header in standard)) { print $1 ":" $2 ": " $4 " belongs in base/os.c"; bad = 1 }
+    }
+    $1 !~ /base\/(error|mem|progress)\.c$/ && $4 ~ /(printf|puts|putc|fwrite).*stderr/ {
+        print $1 ":" $2 ": messages are printed by say_line()"
+        bad = 1
     }
     {
         while (match($4, /[A-Za-z_][A-Za-z_0-9]*/)) {

@@ -165,37 +165,48 @@ static void even_tile(struct tile *tile, int number, int iterations, const struc
     }
 }
 
-/* A picture in the middle of a block: what it has is not too bright where samples are in, nor too dark elsewhere. */
+/* A film that has so many tiles, one after the other, in blocks of one sample and two in turn. */
+static void add_tiles(struct film *film, int tiles)
+{
+    struct filter box = filter_of("box");
+    struct tile tile = {.planes = film->planes};
+    for (int i = 0; i < tiles; i++) {
+        film->block.iterations = 1 + i / 4 % 2;
+        even_tile(&tile, i % 4, (int)film->block.iterations, &box);
+        film_merge_tile(film, &tile);
+        if (i % 4 == 3)
+            film_end_block(film);
+    }
+    tile_free(&tile);
+}
+
+/* A picture in the middle of a block: what it has is not too bright where samples are in, nor too dark elsewhere. So it
+ * is of several that ended in the middle of one. */
 static void test_unfinished(struct test *t)
 {
     static const float MEANS[] = {5, 3, 2, 1};
     struct pixel_rect all = {0, 0, 8, 8};
     const struct planes planes = {2, true};
-    struct filter box = filter_of("box");
-    for (int whole = 0; whole < 3; whole++)
-        for (int in = 0; in < 4; in++) {
+    for (int first = 0; first < 12; first++)
+        for (int second = 0; second < 12; second++) {
             struct film film;
-            struct tile tile = {.planes = planes};
             float out[8 * 8 * 3];
+            int in = (first > second ? first : second);
             film_init(&film, all, 8, 8);
             film_keep_planes(&film, planes);
-            for (int i = 0; i < 4 * whole + in; i++) {
-                film.block.iterations = 1 + i / 4 % 2;
-                even_tile(&tile, i % 4, (int)film.block.iterations, &box);
-                film_merge_tile(&film, &tile);
-                if (i % 4 == 3)
-                    film_end_block(&film);
-            }
+            add_tiles(&film, first);
+            if (second > 0)
+                film_settle(&film);
+            add_tiles(&film, second);
             for (int plane = 0; plane < 4; plane++) {
                 film_develop_plane(&film, plane, 2, out);
                 for (int i = 0; i < 8 * 8 * 3; i++) {
                     int column = i / 3 % 8, row = i / 24, number = row / 4 * 2 + column / 4;
-                    float expected = whole > 0 || number < in ? 2 * MEANS[plane] : 0;
-                    CHECK(t, fabsf(out[i] - expected) < 1e-5f, "%d blocks, %d tiles, plane %d: %g at %d,%d, not %g",
-                          whole, in, plane, (double)out[i], column, row, (double)expected);
+                    float expected = number < in ? 2 * MEANS[plane] : 0;
+                    CHECK(t, fabsf(out[i] - expected) < 1e-5f, "%d and %d tiles, plane %d: %g at %d,%d, not %g", first,
+                          second, plane, (double)out[i], column, row, (double)expected);
                 }
             }
-            tile_free(&tile);
             film_free(&film);
         }
 }

@@ -80,12 +80,13 @@ static bool accepted(const struct fixture *f, const uint8_t *data, size_t n, int
 /* Digits 0, -1, 63, 64, -65 and 2^62, of which the last has nine bytes. */
 static void test_bytes(struct test *t)
 {
-    static const char TEXT[] = "asbdpt part 7\nsamples 2 7\ndone 3 1\nleft-out 4\nhalves 0\nsize 1 1, planes 0 0\n"
+    static const char TEXT[] = "asbdpt part 8\nsamples 2 7\ndone 3 1\nleft-out 4\nhalves 0\nsize 1 1, planes 0 0\n"
                                "film 1 1, window 0 0\n"
                                "scale 1\nspp 8\nversion 0\ncheck ";
     static const uint8_t SUMS[] = {255, 7,   0,   1,   126, 12,  128, 1,   129, 1,
                                    128, 128, 128, 128, 128, 128, 128, 128, 128, 1,
-                                   255, 7,   6,   0,   0,   255}; /* and what splats have brought */
+                                   255, 7,   6,   0,   0,   255, /* and what splats have brought */
+                                   7,   4,   0,   0};            /* in a block of two samples */
     const struct exact_sum sums[3] = {{{0, 0, 0}, 0}, {{0, -1, 63}, 7}, {{64, -65, INT64_MAX / 2 + 1}, 12}};
     struct pixel_rect one = {0, 0, 1, 1};
     struct fixture f;
@@ -98,12 +99,15 @@ static void test_bytes(struct test *t)
     f.film.iterations = 3;
     f.film.passes = 1;
     f.film.block.splat[1] = 3;
+    f.film.block.in[0] = true;
+    f.film.block.iterations = 2;
     f.film.nonfinite = 4;
     uint8_t *data = bytes_of(t, &f, &n);
     CHECK(t, n == text + sizeof SUMS + 4 && memcmp(data, TEXT, sizeof TEXT - 1) == 0 &&
                  memcmp(data + text, SUMS, sizeof SUMS) == 0, "the text, the sums, or the length %d", (int)n);
     CHECK(t, load(f.path, &back) && back.iterations == 3 && back.passes == 1 && back.nonfinite == 4 &&
-                 back.block.splat[0] == 0 && back.block.splat[1] == 3, "numbers");
+                 back.block.splat[0] == 0 && back.block.splat[1] == 3 && back.block.in[0] && back.block.n_in == 1 &&
+                 back.block.iterations == 2, "numbers");
     for (int i = 0; i < 3; i++)
         CHECK(t, memcmp(back.sum[i].digit, sums[i].digit, sizeof sums[i].digit) == 0, "the digits of sum %d", i);
     free(data);

@@ -122,6 +122,7 @@ static void test_stored(struct test *t)
     snprintf(path, sizeof path, "%s/room.pfm", test_tmp(t));
     image_write(path, 4, 4, pixels, &err);
     CHECK(t, reference_find(test_tmp(t), "x/room.pbrt", "room", &r, &err), "%s", err.text);
+    CHECK(t, strcmp(r.kind, "stored picture") == 0 && strncmp(r.origin, "stored picture: ", 16) == 0, "%s", r.origin);
     CHECK(t, !reference_fit(&r, 2, 2, 6, &err) && strstr(err.text, "maxdepth 5") != NULL,
           "another depth is refused: %s", err.text);
     CHECK(t, !reference_fit(&r, 3, 3, 5, &err) && strstr(err.text, "multiple") != NULL, "another size is refused: %s",

@@ -192,6 +192,8 @@ static void check_runs(struct test *t, const struct results *r)
     double rmse8 = step[0].value[Q_RMSE8], noise8 = s->reference.noise8;
     CHECK(t, fabs(step[0].square[SQUARE_RMSE8] - (rmse8 * rmse8 - noise8 * noise8)) < 1e-6 * rmse8 * rmse8,
           "squared error %g, of %g with the reference's %g", step[0].square[SQUARE_RMSE8], rmse8, noise8);
+    CHECK(t, strcmp(s->reference.kind, "rendered here") == 0, "a reference that was made here is a %s",
+          s->reference.kind);
     CHECK(t, s->reference.noise[SQUARE_RELMSE] > 1e-9, "the reference has noise in relmse, too");
     double seconds[2] = {step[0].value[Q_SECONDS], step[r->plan->n_steps - 1].value[Q_SECONDS]};
     CHECK(t, seconds[0] > 0 && seconds[1] >= seconds[0], "time falls: %g, %g s", seconds[0], seconds[1]);

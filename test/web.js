@@ -11,6 +11,10 @@ const until = async (what, text) => {
 const turn = (id, value) => { $(id).value = value; $(id).dispatchEvent(new Event('input', { bubbles: true })); };
 const sum = bytes => bytes.reduce((s, v) => (s * 31 + v) % 1000003, 0);
 const done = () => sides.every(s => s.done);
+const isBlank = i => {
+  const canvas = $(`picture${i}`);
+  return !canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.some(v => v > 0 && v < 255);
+};
 async function rendered(settings) {
   for (const [id, value] of settings) turn(id, value);
   await sleep(400); // the page waits for the last of several changes
@@ -18,7 +22,7 @@ async function rendered(settings) {
 }
 (async () => {
   await until(() => SCENES.length > 0, 'the unpacked scenes');
-  check(SCENES.length === 10 && SCENES.includes('rooms'), 'scenes: ' + SCENES);
+  check(SCENES.length === 12 && SCENES.includes('rooms') && SCENES.includes('living-room'), 'scenes: ' + SCENES);
   await until(() => sides.every(s => s.worker), 'its start');
   check($('reference').width > 20 && $('select').length === 21, 'reference and methods');
   await until(() => $('reference').width >= 72, 'a reference as fine as the picture');
@@ -102,6 +106,30 @@ async function rendered(settings) {
   $('sample').value = 5;
   $('sample').dispatchEvent(new Event('change'));
   await until(() => $('story').textContent.includes('sample 5'), 'another sample');
+
+  // What cannot be rendered leaves no picture of something else, and the next render has no error.
+  const box = FILES['scenes/shapes/box.inc'];
+  delete FILES['scenes/shapes/box.inc'];
+  await rendered([['scene', 'corridor']]);
+  check(/box\.inc: cannot open/.test($('error').textContent), 'a missing file: ' + $('error').textContent);
+  check(sides.every((side, i) => isBlank(i) && side.last === null), 'a picture stays under an error');
+  check(!/samples per pixel/.test($('caption0').textContent), 'a caption stays: ' + $('caption0').textContent);
+  FILES['scenes/shapes/box.inc'] = box;
+
+  // Every scene by every method. (The page would wait for further changes between two of them.)
+  const methods = [...$('select').options].map(option => option.value);
+  turn('spp', 2);
+  turn('scale', 1);
+  await rendered([]);
+  for (const scene of SCENES)
+    for (const method of methods) {
+      [$('scene').value, $('select').value] = [scene, method];
+      start();
+      const what = `${scene} by ${method}`;
+      await until(done, what);
+      check($('error').textContent === '', `${what}: ${$('error').textContent}`);
+      check(sides.every((side, i) => side.points.length > 0 && !isBlank(i)), what + ': no picture');
+    }
   check(document.documentElement.scrollWidth <= window.innerWidth + 1, 'the page is wider than the window');
   check(performance.getEntriesByType('resource').every(e => /^(data|blob):/.test(e.name)), 'the page loads something');
   check($('error').textContent === '', 'it says: ' + $('error').textContent);

@@ -1,8 +1,9 @@
 #!/bin/sh
-# web.sh PAGE: the page that renders, in a headless Chromium, from a file and without a network: both pictures grow and
-# their errors fall, every control does what it says, a click tells a sample, and the floats of a finished picture are
-# the native program's, bit for bit; and doc/asbdpt.html is this page, if the same compiler made it. Skipped with a line
-# where there is no page, since nothing here compiles for WebAssembly, or no Chromium. Run from the top:
+# web.sh PAGE: the page that renders, in a headless Chromium, from a file and without a network: every scene is
+# rendered by every method, both pictures grow and their errors fall, every control does what it says, an error takes
+# the place of the picture, a click tells a sample, and the floats of a finished picture are the native program's, bit
+# for bit; and doc/asbdpt.html is this page, if the same compiler made it. Skipped with a line where there is no page,
+# since nothing here compiles for WebAssembly, or no Chromium. Run from the top:
 #   sh test/web.sh out/asbdpt.html
 page=$1
 for browser in ${CHROMIUM:-chromium chromium-browser google-chrome chrome} none; do
@@ -41,13 +42,14 @@ END
     echo '</script>'
 } >"$dir/reader.html"
 
+: >"$dir/log"
 # A browser that knows no other time than the clock's, until it has said how it went.
 "$browser" --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking \
     --disable-component-update --disable-sync --user-data-dir="$dir/profile" --remote-debugging-port=0 \
     --enable-logging=stderr --window-size=1200,1500 "file://$dir/reader.html" >/dev/null 2>"$dir/log" &
 pid=$!
 i=0
-while [ $i -lt 600 ] && ! grep -q 'WEB .* END' "$dir/log" && kill -0 $pid 2>/dev/null; do
+while [ $i -lt 1800 ] && ! grep -q 'WEB .* END' "$dir/log" && kill -0 $pid 2>/dev/null; do
     sleep 1
     i=$((i + 1))
 done

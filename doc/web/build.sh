@@ -1,5 +1,5 @@
 #!/bin/sh
-# build.sh OUT.html [CLANG]: the page that renders, as one file of a megabyte: page.html with worker.js, the program as
+# build.sh OUT.html [CLANG]: the page that renders, as one file of a megabyte and a half: page.html with worker.js, the program as
 # WebAssembly, the scenes and their references in it, all of them packed by gzip. Needs clang with lld, wasi-libc and
 # libclang-rt for wasm32 (Debian: clang, lld, wasi-libc, libclang-rt-dev-wasm32); without them it says so and makes
 # nothing. What it shows as the reference, doc/web/reference/NAME.webp, is of asbdpt with 256 samples and three times the
@@ -28,6 +28,13 @@ embed() { # ATTRIBUTES FILE: a script that is none, with the file in it
     gzip -9 -n <"$2" | base64 | tr -d '\n'
     echo '</script>'
 }
+# files SCENE: it, and all that it names: whatever stands between quotes and is a file in scenes/.
+files() {
+    echo "$1"
+    case $1 in
+    *.pbrt | *.inc) tr '"' '\n' <"$1" | while IFS= read -r name; do [ ! -f "scenes/$name" ] || files "scenes/$name"; done ;;
+    esac
+}
 {
     sed '/^<!-- EMBEDDED -->$/,$d' doc/web/page.html
     embed 'data-path="wasm"' "$dir/web.wasm"
@@ -36,12 +43,11 @@ embed() { # ATTRIBUTES FILE: a script that is none, with the file in it
     echo '</script>'
     for reference in ref/*.txt; do
         name=$(basename "$reference" .txt)
-        case $name in living-room | forest) continue ;; esac # two fifths of all scenes' bytes
-        for file in "ref/$name.pfm" "scenes/$name.pbrt" "scenes/$name"/*; do
-            [ -f "$file" ] && embed "data-path=\"$file\"" "$file"
-        done
+        embed "data-path=\"ref/$name.pfm\"" "ref/$name.pfm"
         embed "data-path=\"fine/$name.webp\"" "doc/web/reference/$name.webp"
-    done
+        files "scenes/$name.pbrt" >&3
+    done 3>"$dir/files"
+    sort -u "$dir/files" | while IFS= read -r file; do embed "data-path=\"$file\"" "$file"; done
     embed 'data-path="scenes/rooms.pbrt"' doc/mini/rooms.pbrt # of the tour
     embed 'data-path="ref/rooms.pfm"' doc/web/rooms.pfm
     embed 'data-path="fine/rooms.webp"' doc/web/reference/rooms.webp

@@ -41,7 +41,7 @@ extern void web_show(const uint8_t *rgba, const float *pixels, int width, int he
 extern void web_learns(double share);
 
 static const struct command *const COMMANDS[] = {&command_trace, NULL};
-const struct program program = {"asbdpt", "the page that renders", "Renders, and tells of a sample.", COMMANDS, NULL};
+const struct program program = {"asbdpt", "the page that renders", "Renders, and tells of a sample.", COMMANDS, NULL, ""};
 
 static char *words; /* of the page; one buffer for all calls */
 

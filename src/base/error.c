@@ -4,6 +4,9 @@
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
+
+#include "base/mem.h"
 
 bool error_write(struct error *err, bool usage, const char *format, ...)
 {
@@ -46,4 +49,20 @@ void error_clean(char *text)
             *text = '?';
         text += n > 0 ? n : 1;
     }
+}
+
+void say_line(const char *format, ...)
+{
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    int length = vsnprintf(NULL, 0, format, args);
+    size_t size = length > 0 ? (size_t)length + 1 : 1;
+    char *text = mem_alloc(size, 1);
+    vsnprintf(text, size, format, again);
+    va_end(again);
+    va_end(args);
+    error_clean(text);
+    fprintf(stderr, "%s\n", text);
+    free(text);
 }

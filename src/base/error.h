@@ -28,4 +28,7 @@ bool error_write(struct error *err, bool usage, const char *format, ...);
 void error_clean(char *text);
 int printable_length(const char *text);
 
+/* say_line: a line on stderr, printf style, cleaned: what it quotes may be a file's. All messages go through it. */
+void say_line(const char *format, ...);
+
 #endif

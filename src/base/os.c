@@ -225,6 +225,15 @@ enum os_kind os_kind_of_stream(FILE *f, uint64_t *size)
     return known ? kind_of(&info) : OS_NOTHING;
 }
 
+bool os_same_file(const char *a, const char *b)
+{
+    struct stat x, y;
+    if (stat(a, &x) != 0 || stat(b, &y) != 0)
+        return false;
+    bool numbered = x.st_ino != 0; /* not on Windows */
+    return strcmp(a, b) == 0 || (numbered && x.st_ino == y.st_ino && x.st_dev == y.st_dev);
+}
+
 bool os_terminal(FILE *f) { return isatty(fileno(f)) != 0; }
 bool os_may_write(const char *path) { return access(path, W_OK) == 0; }
 bool os_make_directory(const char *path) { return mkdir(path, 0777) == 0 || os_kind_of(path) == OS_DIRECTORY; }

@@ -74,6 +74,8 @@ enum os_kind { OS_NOTHING, OS_FILE, OS_DIRECTORY, OS_OTHER /* a device, a pipe *
 enum os_kind os_kind_of(const char *path);
 enum os_kind os_kind_of_stream(FILE *f, uint64_t *size);
 
+bool os_same_file(const char *a, const char *b); /* do both paths lead to one that exists? */
+
 /* os_create_new: a file that did not exist before, not even as a link, for writing bytes, with the rights of the file
  * `like` if that exists. NULL, and errno, where it does (EEXIST) or it cannot be. */
 FILE *os_create_new(const char *path, const char *like);

@@ -50,7 +50,7 @@ static bool wrong_range(const char *path, const char *what, long first, long end
 }
 
 /* What the parts say of themselves; files are closed again, for there may be thousands. */
-static bool read_headers(struct merge *m, const struct texts *names, struct error *err)
+static bool read_headers(struct merge *m, const struct texts *names, bool partial, struct error *err)
 {
     m->part = mem_alloc((size_t)names->n, sizeof *m->part);
     for (int i = 0; i < names->n; i++) {
@@ -63,8 +63,9 @@ static bool read_headers(struct merge *m, const struct texts *names, struct erro
         m->n++;
         if (!part_same(&p->part, p->path, &m->part[0].part, err))
             return false;
-        if (p->part.passes > 0)
-            return error_set(err, "%s: ends in the middle of a block of samples; --resume it first", p->path);
+        if (p->part.passes > 0 && !partial)
+            return error_set(err, "%s: ends in the middle of a block of samples; --resume it first, or take --partial",
+                             p->path);
     }
     qsort(m->part, (size_t)m->n, sizeof *m->part, by_first);
     return true;
@@ -78,10 +79,10 @@ static bool check_ranges(const struct merge *m, long first, long end, bool gaps,
     *reached = first;
     for (int i = 0; i < m->n; i++) {
         const struct part *p = &m->part[i].part;
-        long part_end = p->first + p->done;
+        long part_end = p->passes > 0 ? p->end : p->first + p->done;
         if (p->first > *reached && !gaps)
             ok = wrong_range("", "missing are", *reached, p->first);
-        if (i > 0 && p->first < *reached && p->done > 0)
+        if (i > 0 && p->first < *reached && p->first < part_end)
             ok = wrong_range(m->part[i].path, ": other parts have", p->first,
                              part_end < *reached ? part_end : *reached);
         *reached = part_end > *reached ? part_end : *reached;
@@ -99,6 +100,8 @@ static bool add_parts(const struct merge *m, struct film *film, struct error *er
         FILE *f = part_open(m->part[i].path, &again, err);
         ok = f != NULL && part_add(f, m->part[i].path, &again, film, err);
         part_free(&again);
+        if (again.passes > 0)
+            film_settle(film);
     }
     return ok;
 }
@@ -126,7 +129,7 @@ static bool merge(const struct merge_options *o, struct merge *m, bool picture, 
 {
     struct film film;
     long end;
-    if (!read_headers(m, &o->part, err))
+    if (!read_headers(m, &o->part, o->partial, err))
         return false;
     const struct part *first = &m->part[0].part;
     struct pixel_rect rect = {0, 0, first->width, first->height};

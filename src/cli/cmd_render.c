@@ -18,7 +18,7 @@
 
 #define AT(member) offsetof(struct job_options, member)
 const struct option RENDER_OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .written = true, .help = "a scene file"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .help = "a scene file"},
     {"-o", "FILE", OPTION_TEXTS, AT(output), .alias = "--outfile", .written = true,
      .help = "image to write: linear .pfm or .exr, sRGB .png or .ppm; repeatable (default: the scene's Film name)"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
@@ -117,7 +117,7 @@ static bool open_default_output(const struct job_options *o, const struct scene 
 }
 
 /* Does every file have a name of its own? Layers are in a file that is written first without them. */
-static bool names_differ(struct job_options *o, const struct files *f, struct error *err)
+static bool names_differ(struct job_options *o, const struct scene *scene, const struct files *f, struct error *err)
 {
     struct texts names = {0};
     options_written(RENDER_OPTIONS, o, &names);
@@ -125,7 +125,7 @@ static bool names_differ(struct job_options *o, const struct files *f, struct er
         texts_add(&names, f->pictures.item[i].file.path);
     for (int i = 0; i < f->aov.out.n && !o->layers; i++)
         texts_add(&names, f->aov.out.item[i].file.path);
-    bool ok = texts_differ(&names, err);
+    bool ok = texts_differ(&names, err) && job_spares(scene, &names, err);
     free(names.item);
     return ok;
 }
@@ -135,16 +135,58 @@ static bool open_others(struct job_options *o, const struct scene *scene, struct
 {
     return (f->pictures.n > 0 || open_default_output(o, scene, &f->pictures, err)) &&
            aov_open(&f->aov, o->layers, &f->pictures, err) && lights_open(o->lights, scene, &f->pictures, err) &&
-           names_differ(o, f, err);
+           names_differ(o, scene, f, err);
 }
 
-static void report(const struct job_options *o, const char *integrator, const struct film *film,
+/* The last line. Who has not chosen a method may not know which the scene has. */
+static void report(const struct job_options *o, const char *integrator, long n_warnings, const struct film *film,
                    const struct render_times *times)
 {
+    bool other = o->integrator == NULL && strcmp(integrator, "asbdpt") != 0;
+    char warnings[48] = "";
+    if (n_warnings > 0)
+        snprintf(warnings, sizeof warnings, "; %ld warning%s about the scene", n_warnings, n_warnings > 1 ? "s" : "");
     if (!o->quiet)
-        fprintf(stderr, "%s: %dx%d, %ld spp, %s; %.2f s, %.2f s of CPU, %.2f us per sample path\n", o->scene_path,
-                rect_width(film->rect), rect_height(film->rect), film->iterations, integrator,
-                times->wall, times->cpu, render_us_per_path(film, times));
+        say_line("%s: %dx%d, %ld spp, %s%s; %.2f s, %.2f s of CPU, %.2f us per sample path%s", o->scene_path,
+                 rect_width(film->rect), rect_height(film->rect), film->iterations, integrator,
+                 other ? " (for asbdpt: --integrator asbdpt)" : "", times->wall, times->cpu,
+                 render_us_per_path(film, times), warnings);
+}
+
+/* What the camera sees in front of all else, as far as a few rays tell. */
+static void describe_view(const struct scene *scene, struct pixel_rect r, char *text, size_t size)
+{
+    enum { RAYS = 32 }; /* on each axis */
+    double nearest = INFINITY;
+    snprintf(text, size, "it sees no surface");
+    for (int i = 0; i < RAYS * RAYS; i++) {
+        double x = (i % RAYS + 0.5) / RAYS, y = (i / RAYS + 0.5) / RAYS;
+        struct ray ray = camera_ray(&scene->camera, r.x0 + x * rect_width(r), r.y0 + y * rect_height(r), 0.5, 0.5);
+        struct surface at;
+        double d = scene_intersect(scene, &ray, &at) ? length(sub(at.p, ray.o)) : INFINITY;
+        if (d < nearest)
+            snprintf(text, size, "the nearest surface that it sees is at (%g %g %g), %.3g away%s", at.p.x, at.p.y,
+                     at.p.z, d, dot(at.ng, ray.d) > 0 ? ", and faces away" : "");
+        nearest = fmin(d, nearest);
+    }
+}
+
+/* A picture without any light is rarely what was wanted. Less than FAINT is not light: rounding lets connections along
+ * a surface through. */
+static void warn_of_black(const struct scene *scene, const struct film *film, const char *integrator,
+                          const float *pixels)
+{
+    const float FAINT = 1e-20f;
+    char why[300] = "the scene has no light", view[200];
+    for (size_t i = 0; i < rect_pixels(film->rect) * 3; i++)
+        if (!(fabsf(pixels[i]) < FAINT))
+            return;
+    describe_view(scene, film->rect, view, sizeof view);
+    if (film_samples(film) == 0)
+        snprintf(why, sizeof why, "no sample is complete");
+    else if (scene->lights.n > 0)
+        snprintf(why, sizeof why, "no light has reached the camera by %s; %s", integrator, view);
+    say_line("asbdpt: warning: the image is black: %s", why);
 }
 
 /* Pictures, then what can only be made now, and when all are complete the statistics. `ok`: nothing has failed yet. */
@@ -153,6 +195,7 @@ static bool write_files(const struct job_options *o, const struct scene *scene, 
 {
     float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels), *alpha = film_alpha(film);
     film_warn(film, film_develop(film, scene->film_scale, pixels));
+    warn_of_black(scene, film, options->integrator, pixels);
     f->pictures.alpha = f->aov.out.alpha = alpha;
     ok = outputs_write(&f->pictures, rect_width(film->rect), rect_height(film->rect), pixels, o->quiet,
                        ok ? err : NULL) && ok;
@@ -180,10 +223,11 @@ static bool run_and_write(const struct job_options *o, const struct scene *scene
     bool kept = keep_end(keep, ok, err);
     if (!ok)
         return false;
-    report(o, options->integrator, film, &times);
     if (files->stats.stream != NULL)
         stats_write(files->stats.stream, o, scene, options, film, &files->pictures, &files->aov.out, &times);
-    return write_files(o, scene, options, film, keep, files, kept, err);
+    ok = write_files(o, scene, options, film, keep, files, kept, err);
+    report(o, options->integrator, scene->n_warnings, film, &times);
+    return ok;
 }
 
 static bool render(const struct job_options *o, const struct scene *scene, const struct method *m, double load_seconds,

@@ -16,7 +16,7 @@
 
 int fail(const struct error *err)
 {
-    fprintf(stderr, "asbdpt: %s\n", err->text);
+    say_line("asbdpt: %s", err->text);
     return err->usage ? EXIT_USAGE : EXIT_JOB;
 }
 
@@ -27,9 +27,8 @@ int usage_error(const struct command *command, const char *format, ...)
     va_start(args, format);
     vsnprintf(err.text, sizeof err.text, format, args);
     va_end(args);
-    error_clean(err.text);
-    fprintf(stderr, "asbdpt: %s; try %s %s%s--help\n", err.text, program.name, command != NULL ? command->name : "",
-            command != NULL ? " " : "");
+    say_line("asbdpt: %s; try %s %s%s--help", err.text, program.name, command != NULL ? command->name : "",
+             command != NULL ? " " : "");
     return EXIT_USAGE;
 }
 
@@ -171,7 +170,7 @@ static int obey(int argc, char **argv)
             return run(*c, argc - 1, argv + 1);
     if (program.unnamed != NULL && (argv[1][0] == '-' || file_has_extension(argv[1], ".pbrt")))
         return run(program.unnamed, argc, argv);
-    return usage_error(NULL, "unknown command %s", argv[1]);
+    return usage_error(NULL, "unknown command %s%s", argv[1], program.elsewhere);
 }
 
 int command_line(int argc, char **argv)

@@ -31,6 +31,7 @@ struct program {
     const char *title, *about;             /* a line and a paragraph for the help */
     const struct command *const *commands; /* ended by NULL */
     const struct command *unnamed;         /* meant where none of them is named, or NULL */
+    const char *elsewhere;                 /* "; PROGRAM has more", or "" */
 };
 extern const struct program program;
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/os.h"
 #include "cli/command.h"
 #include "parser/parser.h"
 #include "render/parameters.h"
@@ -35,15 +36,23 @@ const struct option JOB_OPTIONS[] = {
     {"--cropwindow", "X0 X1 Y0 Y1", OPTION_WINDOW, AT(crop), 0, 1,
      .help = "render only this part of the film, in fractions from 0 to 1 (default: the scene's)"},
     {"--strict", NULL, OPTION_ON, AT(strict), .help = "treat warnings about the scene as errors"},
-    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "print no progress and no warnings"}, {.name = NULL}};
+    {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "print errors and warnings alone"}, {.name = NULL}};
 
 static void print_message(void *context, bool is_error, const char *text)
 {
     struct job_loading *to = context;
-    bool fatal = is_error || to->options->strict;
     to->n_warnings += !is_error;
-    if (fatal || !to->options->quiet)
-        fprintf(stderr, "asbdpt: %s%s\n", fatal ? "" : "warning: ", text);
+    say_line("asbdpt: %s%s", is_error || to->options->strict ? "" : "warning: ", text);
+}
+
+bool job_spares(const struct scene *scene, const struct texts *outputs, struct error *err)
+{
+    for (int i = 0; i < outputs->n; i++)
+        for (int k = 0; k < scene->n_files; k++)
+            if (strcmp(outputs->item[i], "-") != 0 && os_same_file(outputs->item[i], scene->file[k]))
+                return error_usage(err, "%s: the scene is read from this file; an output needs another name",
+                                   outputs->item[i]);
+    return true;
 }
 
 static void override(const char *pair, struct settings *settings)
@@ -127,6 +136,7 @@ int job_open(struct job_loading *job, struct scene *scene, const struct method *
     struct message_sink sink = {print_message, job};
     if (!parse_scene(o->scene_path, o->integrator, scene, &sink, NULL))
         return EXIT_JOB;
+    job->n_warnings = scene->n_warnings;
     if (apply(o, scene, &err) && (*method = choose_method(scene, job, &err)) != NULL)
         return EXIT_OK;
     scene_free(scene);
@@ -142,10 +152,9 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
     parameters_adapt(scene, readers, &sink);
     bool ok = parameters_belong(scene, readers, &err) &&
               parameters_read(scene, readers[0], o->max_depth, &read, &err);
-    if (ok && scene->lights.n == 0)
-        warn(job, "there are no lights, so the image is black");
     if (ok)
         scene_prepare(scene);
+    scene->n_warnings = job->n_warnings;
     const struct light_set *l = &scene->lights;
     if (ok && scene->media.ends)
         warn(job, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the infinite "

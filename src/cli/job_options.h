@@ -61,7 +61,7 @@ int job_load(const struct job_options *o, struct scene *scene, const struct meth
  * all methods that will read the parameters, ended by NULL, does the rest, and releases the scene if it fails. */
 struct job_loading {
     const struct job_options *options;
-    int n_warnings; /* so far */
+    long n_warnings; /* so far */
 };
 int job_open(struct job_loading *job, struct scene *scene, const struct method **method);
 int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene);
@@ -70,6 +70,9 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
  * job_spp: samples per pixel in force: option, 1 if quick, scene, else 16. */
 struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m);
 long job_spp(const struct job_options *o, const struct scene *scene);
+
+/* job_spares: is none of these outputs a file that the scene was read from? False with a message. */
+bool job_spares(const struct scene *scene, const struct texts *outputs, struct error *err);
 
 /* integrator_unknown: the message about an integrator that does not exist. Returns false. */
 bool integrator_unknown(const char *wanted, struct error *err);

@@ -103,7 +103,7 @@ static void save(struct keep *k)
 {
     struct error err;
     if (!save_film(k, &err))
-        fprintf(stderr, "asbdpt: warning: %s; rendering goes on\n", err.text);
+        say_line("asbdpt: warning: %s; rendering goes on", err.text);
     k->saved = os_wall_seconds();
 }
 
@@ -186,12 +186,11 @@ static void say_noise(const struct keep *k)
     const struct noise_estimate *relative = &f->noise[NOISE_RELATIVE], *levels = &f->noise[NOISE_8_BIT];
     long every = 2L * f->run;
     if (relative->value < INFINITY)
-        fprintf(stderr, "asbdpt: noise %.3g +- %.1g of the brightness around, %.3g +- %.1g of 255 levels, at %ld "
-                "samples per pixel: %s\n", relative->value, relative->error, levels->value, levels->error,
-                f->iterations - f->iterations % every, share_by_noise(k) > 1 ? "below the limit"
-                                                                             : "above the limit");
+        say_line("asbdpt: noise %.3g +- %.1g of the brightness around, %.3g +- %.1g of 255 levels, at %ld samples per "
+                 "pixel: %s the limit", relative->value, relative->error, levels->value, levels->error,
+                 f->iterations - f->iterations % every, share_by_noise(k) > 1 ? "below" : "above");
     else
-        fprintf(stderr, "asbdpt: the noise is unknown: it is estimated every %ld samples per pixel\n", every);
+        say_line("asbdpt: the noise is unknown: it is estimated every %ld samples per pixel", every);
 }
 
 bool keep_end(struct keep *k, bool ok, struct error *err)
@@ -205,11 +204,11 @@ bool keep_end(struct keep *k, bool ok, struct error *err)
         snprintf(more, sizeof more, ", %.3g %% of the pixels at %ld",
                  100 * (double)f->block.n_in / (double)rect_pixels(f->rect), f->iterations + f->block.iterations);
     if (ok && signal != 0)
-        fprintf(stderr, "asbdpt: stopped by %s, at %ld of %ld samples per pixel%s\n", os_signal_name(signal),
-                f->iterations, wanted, more);
+        say_line("asbdpt: stopped by %s, at %ld of %ld samples per pixel%s", os_signal_name(signal), f->iterations,
+                 wanted, more);
     else if (ok && late(k, 0) && f->iterations < wanted)
-        fprintf(stderr, "asbdpt: stopped after %.1f s, at %ld of %ld samples per pixel%s\n",
-                os_wall_seconds() - k->begun, f->iterations, wanted, more);
+        say_line("asbdpt: stopped after %.1f s%s, at %ld of %ld samples per pixel%s", os_wall_seconds() - k->begun,
+                 late(k, 1) ? ", when the samples that had begun were complete" : "", f->iterations, wanted, more);
     if (ok && k->bar.shown && f->half != NULL)
         say_noise(k);
     return ok && (k->options->checkpoint == NULL || save_film(k, err));

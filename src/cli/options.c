@@ -282,8 +282,7 @@ void options_written(const struct option *table, void *target, struct texts *nam
         int n = 0;
         const char *const *text = o->written ? texts_of(o, target, &n) : NULL;
         for (int i = 0; i < n; i++)
-            if (!is_operand(o) || strcmp(text[i], "-") != 0) /* one is standard input, the other output */
-                texts_add(names, text[i]);
+            texts_add(names, text[i]);
     }
 }
 

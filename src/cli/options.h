@@ -50,7 +50,7 @@ struct option {
     const char *alias;           /* another name, or NULL */
     const char *fallback;        /* text of the default; NULL: the target stays zero */
     const char *help;            /* where one must be given: what it is, with an article */
-    bool written;                /* its texts name files that are written; of an operand: that must not be */
+    bool written;                /* its texts name files that are written */
     const struct option *others; /* in the row without a name: the table that goes on, or NULL */
 };
 

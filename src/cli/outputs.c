@@ -95,8 +95,10 @@ static void show(const struct outputs *o, const float *pixels, size_t n, float *
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err)
 {
     bool ok = true;
-    const char *before = "wrote ";
-    size_t n = (size_t)width * (size_t)height * 3;
+    size_t n = (size_t)width * (size_t)height * 3, room = 1;
+    for (int i = 0; i < o->n; i++)
+        room += strlen(o->item[i].file.path) + sizeof ", standard output";
+    char *wrote = mem_alloc(room, 1);
     float *shown = tone_is_plain(&o->tone) ? NULL : mem_alloc(n, sizeof *shown);
     if (shown != NULL)
         show(o, pixels, n, shown);
@@ -104,14 +106,14 @@ bool outputs_write(struct outputs *o, int width, int height, const float *pixels
         char *name = mem_copy_text(o->item[i].file.path);
         const float *source = shown != NULL && image_is_8_bit(name) ? shown : pixels;
         bool done = write_one(o, &o->item[i], width, height, source, ok ? err : NULL);
-        if (done && !quiet) {
-            fprintf(stderr, "%s%s", before, strcmp(name, "-") == 0 ? "standard output" : name);
-            before = ", ";
-        }
+        if (done)
+            strcat(strcat(wrote, wrote[0] != '\0' ? ", " : ""), strcmp(name, "-") == 0 ? "standard output" : name);
         ok = ok && done;
         free(name);
     }
-    fputs(before[0] == ',' ? "\n" : "", stderr);
+    if (wrote[0] != '\0' && !quiet)
+        say_line("wrote %s", wrote);
+    free(wrote);
     free(shown);
     release(o);
     return ok;

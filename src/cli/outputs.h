@@ -56,7 +56,7 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, bo
                   struct error *err);
 bool outputs_add(struct outputs *out, const char *name, bool is_part, struct error *err);
 
-/* outputs_write: the picture into all of them; unless `quiet` a last line on stderr names them. One that fails does not
+/* outputs_write: the picture into all of them; unless `quiet` a line on stderr names them. One that fails does not
  * keep the others from being written: the first message is kept and false returned.
  * outputs_abandon: remove what outputs_write has not written. */
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err);

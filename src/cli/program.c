@@ -7,4 +7,4 @@ const struct program program = {
     "asbdpt", "Alias Sampled Bidirectional Path Tracing, a reference implementation",
     "Renders scenes of pbrt-v3 by path tracing, light tracing, and bidirectional path tracing with and without alias "
     "sampling. Adds up and converts images. asbdpt-lab describes, compares, explains and measures.", COMMANDS,
-    &command_render};
+    &command_render, "; asbdpt-lab has more commands"};

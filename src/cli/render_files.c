@@ -109,7 +109,7 @@ bool aov_write(struct aov_files *f, const struct scene *scene, const struct rend
         place(f);
         ok = outputs_write(&f->out, rect_width(film->rect), rect_height(film->rect), pixels, quiet, err);
     } else {
-        fprintf(stderr, "asbdpt: --aov: not written, for there are pixels that have not been looked at\n");
+        say_line("asbdpt: --aov: not written, for there are pixels that have not been looked at");
     }
     for (int i = 0; i < N_AOVS; i++)
         free(f->picture[i]);

@@ -104,8 +104,8 @@ static void warn_of_halfs(const char *path, const struct raster *r)
     for (size_t i = 0; i < 3 * (size_t)r->width * (size_t)r->height; i++)
         cut += isfinite(r->pixels[i]) && fabsf(r->pixels[i]) > HALF_MAX;
     if (cut > 0)
-        fprintf(stderr, "asbdpt: warning: %s: %ld values are beyond %d, the most that half floats hold, and were cut "
-                "to it; a name that ends in .float.exr keeps them\n", path, cut, HALF_MAX);
+        say_line("asbdpt: warning: %s: %ld values are beyond %d, the most that half floats hold, and were cut to it; a "
+                 "name that ends in .float.exr keeps them", path, cut, HALF_MAX);
 }
 
 bool image_finish(struct file_output *f, const struct raster *r, struct error *err)

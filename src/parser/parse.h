@@ -9,6 +9,7 @@
 
 #include "base/field.h"
 #include "base/number.h"
+#include "parser/near.h"
 #include "parser/params.h"
 #include "parser/symbols.h"
 #include "scene/scene.h"
@@ -134,7 +135,17 @@ struct parser {
     int n_subdivided;      /* triangles of all subdivision surfaces and curves, at most MESH_MAX_SUBDIVIDED */
 
     bool texture_is_float; /* of the Texture directive being carried out */
+    int n_sought;          /* names that were none, for which near ones were looked for */
 };
+
+/* parse_near: a name that is none is about to be compared with those that there are, unless that has been done for
+ * MOST_SOUGHT names already. parse_near_symbol: compared with the newest MOST_COMPARED of a table. Files of nothing but
+ * mistakes are read as fast as others.
+ * parse_foreign: what is to be said of a name that only pbrt-v4 has, else "". */
+enum { MOST_SOUGHT = 100, MOST_COMPARED = 1000 };
+struct near parse_near(struct parser *p, const char *name);
+struct near parse_near_symbol(struct parser *p, const char *name, const struct symbols *table);
+const char *parse_foreign(const char *name);
 
 /* parse_type: find params.type in a table and set p->type. False with a message.
  * parse_fields: read the parameters of p->type into *object, in the table's order, and build the rest of it.

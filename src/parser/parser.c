@@ -50,15 +50,23 @@ static const struct directive *find_directive(const char *name)
     return NULL;
 }
 
-static bool unknown_directive(struct parser *p)
+/* No directive: an error. Returns the one that was meant, if there is one that is near. */
+static const struct directive *unknown_directive(struct parser *p)
 {
     const struct token *t = &p->directive;
     char found[64];
     token_text(t, found, sizeof found);
-    if (t->kind != TOKEN_WORD)
-        return source_error(&p->messages, t->position, "here should be a directive like Shape, not %s", found);
-    return source_error(&p->messages, t->position, "unknown directive %s; doc/scene-format.md lists those of pbrt-v3",
-                        found);
+    if (t->kind != TOKEN_WORD) {
+        source_error(&p->messages, t->position, "here should be a directive like Shape, not %s", found);
+        return NULL;
+    }
+    struct near near = parse_near(p, t->text);
+    for (const struct directive *const *table = TABLES; *table != NULL; table++)
+        for (const struct directive *d = *table; d->name != NULL; d++)
+            near_try(&near, d->name);
+    source_error(&p->messages, t->position, "unknown directive %s%s; doc/scene-format.md lists those of pbrt-v3%s",
+                 found, parse_foreign(t->text), near.text);
+    return near.name != NULL ? find_directive(near.name) : NULL;
 }
 
 static bool wrong_phase(struct parser *p, const struct directive *d)
@@ -73,9 +81,13 @@ static bool run_directive(struct parser *p)
 {
     const struct token *t = &p->directive;
     const struct directive *d = t->kind == TOKEN_WORD ? find_directive(t->text) : NULL;
-    if (d == NULL)
-        return unknown_directive(p);
-    p->lexer.file->is_scene = true;
+    struct source_file *source = p->lexer.file;
+    bool known = d != NULL;
+    if (!known) /* goes on as if the one that was meant stood there, so that this is the only error */
+        d = unknown_directive(p);
+    if (d == NULL || !(known || source->is_scene))
+        return false;
+    source->is_scene = true;
     if ((d->phase & p->phase) == 0)
         return wrong_phase(p, d);
     if (d->types != NULL && !(parse_typed(p) && parse_type(p, d->types)))
@@ -153,6 +165,7 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     p->params.files = &p->named;
     p->named.scene_path = path;
     p->named.content = &s->content;
+    symbols_add(&p->named.paths, path, 0);
     p->phase = BEFORE_WORLD;
     parse_state_reset(p);
     p->current_object = -1;
@@ -164,13 +177,18 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
 
 static void finish(struct parser *p)
 {
+    struct scene *s = p->scene;
     while (p->lexer.file != NULL)
         lexer_leave(&p->lexer);
+    s->file = mem_alloc((size_t)p->named.paths.n, sizeof *s->file);
+    for (; s->n_files < p->named.paths.n; s->n_files++)
+        s->file[s->n_files] = mem_copy_text(p->named.paths.entry[s->n_files].name);
+    s->n_warnings = p->messages.warnings.n + p->messages.warnings.more;
     for (int i = 0; i < p->objects.n; i++)
         shape_list_free(&p->object[i]);
     struct symbols *const tables[] = {&p->float_textures, &p->spectrum_textures, &p->materials, &p->systems,
                                       &p->media.known,    &p->objects,           &p->named.known,
-                                      &p->images,         &p->tables,            &p->maps};
+                                      &p->named.paths,    &p->images,            &p->tables,    &p->maps};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         symbols_free(tables[i]);
     free(p->object);

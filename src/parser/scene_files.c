@@ -47,7 +47,7 @@ static char *find(const struct scene_files *f, const char *name)
     return meant ? slashed : given;
 }
 
-char *scene_files_path(const struct scene_files *f, const char *name, struct error *err)
+char *scene_files_path(struct scene_files *f, const char *name, struct error *err)
 {
     if (f->full) {
         error_set(err, "%s: not read after too many or too large files", name);
@@ -55,6 +55,8 @@ char *scene_files_path(const struct scene_files *f, const char *name, struct err
     }
     char *path = find(f, name);
     enum os_kind kind = os_kind_of(path);
+    if (symbols_find(&f->paths, path) < 0)
+        symbols_add(&f->paths, path, 0);
     if (kind == OS_FILE || kind == OS_NOTHING) /* that there is nothing, reading will say */
         return path;
     error_set(err, "%s: cannot be read: scenes name files, not %s", path,

@@ -22,7 +22,8 @@ enum { MAX_READ_AGAIN = 1 << 26, READ_AGAIN_PER_BYTE = 8, MAX_UNPACKED = 3 << 26
 struct scene_files {
     const char *scene_path; /* the main file: relative names start in its directory */
     uint64_t *content;      /* where the hashes of all files are combined */
-    struct symbols known;   /* hashes of the files so far, as texts */
+    struct symbols paths;   /* of the files that were named so far */
+    struct symbols known;   /* hashes of those that were read, as texts */
     uint64_t first, again;  /* bytes read for the first time and again */
     uint64_t unpacked;      /* bytes of images beyond what the size of their files allows */
     bool full;              /* it was too much: nothing more is read */
@@ -35,7 +36,7 @@ char *text_read(const char *path, size_t *size, struct error *err);
 /* scene_files_path: where a file of this name is, to be given to free(); NULL with a message if there is something
  * that is no regular file, or once there was too much. Backslashes, as in names from Windows, are slashes if no file
  * has the very name. */
-char *scene_files_path(const struct scene_files *f, const char *name, struct error *err);
+char *scene_files_path(struct scene_files *f, const char *name, struct error *err);
 
 /* scene_files_read: text_read, counted. scene_files_count: a file of that hash_content and size has been read.
  * scene_files_picture: a picture, for which `tables` bytes more have been made. NULL, or false, with a message where

@@ -14,17 +14,19 @@
 #include "base/os.h"
 #include "image/zlib.h"
 
-static const char MAGIC[] = "asbdpt part 7\n";
+static const char MAGIC[] = "asbdpt part 8\n";
 enum { MOST_TEXT = 1 << 20, BUFFER = 1 << 16, EMPTY = 255, LONGEST_SUM = 1 + 10 * EXACT_DIGITS };
 
-/* Of one plane; of all; with half the picture's samples; and with the splats of a block under way. */
+/* Of one plane; of all; with half the picture's samples; and, of a block under way, with its splats and then, of each
+ * pixel, its samples. */
 static size_t plane_of(const struct part *p) { return (size_t)p->width * (size_t)p->height * 3; }
 static size_t planes_of(const struct part *p) { return plane_of(p) * (size_t)plane_count(p->planes); }
 static size_t samples_of(const struct part *p) { return planes_of(p) + (p->halves ? plane_of(p) : 0); }
-static size_t sums_of(const struct part *p)
+static size_t splats_of(const struct part *p)
 {
     return samples_of(p) + (p->passes > 0 ? plane_of(p) * (size_t)(1 + p->planes.lights) : 0);
 }
+static size_t sums_of(const struct part *p) { return splats_of(p) + (p->passes > 0 ? plane_of(p) / 3 : 0); }
 
 struct part part_describe(const struct scene *scene, const struct render_options *o)
 {
@@ -164,10 +166,14 @@ void part_write(struct file_output *file, const struct part *p, const struct fil
     struct stream *s = mem_alloc(1, sizeof *s);
     s->file = file->stream;
     fwrite(text, 1, strlen(text), s->file);
-    for (size_t i = 0, n = planes_of(p), m = samples_of(&now); i < sums_of(&now); i++) {
-        struct exact_sum splat = {{0}, 0};
-        exact_add(&splat, i < m ? 0 : (double)film->block.splat[i - m]);
-        put_sum(s, i < n ? &film->sum[i] : i < m ? &film->half[i - n] : &splat);
+    const struct film_block *block = &film->block;
+    for (size_t i = 0, n = planes_of(p), m = samples_of(&now), k = splats_of(&now); i < sums_of(&now); i++) {
+        struct exact_sum of_block = {{0}, 0};
+        if (i >= m && i < k)
+            exact_add(&of_block, (double)block->splat[i - m]);
+        else if (i >= k && block->in[i - k])
+            exact_add(&of_block, (double)block->iterations);
+        put_sum(s, i < n ? &film->sum[i] : i < m ? &film->half[i - n] : &of_block);
     }
     flush(s);
     uint8_t end[4];
@@ -265,14 +271,28 @@ FILE *part_open(const char *path, struct part *out, struct error *err)
     return NULL;
 }
 
+/* How many samples of the block under way a pixel has: all or none. */
+static bool get_samples(const struct part *p, size_t pixel, double samples, struct film_block *block)
+{
+    double most = fmin((double)(p->end - p->first - p->done), 1 << 30);
+    if (!(samples >= 1 && samples <= most))
+        return samples == 0;
+    block->iterations = (long)samples;
+    block->in[pixel] = true;
+    block->n_in++;
+    return true;
+}
+
 /* Every sum, the right check behind them, and nothing more. */
 static bool add_sums(struct stream *s, const struct part *p, struct film *film)
 {
-    for (size_t i = 0, n = planes_of(p), m = samples_of(p); i < sums_of(p); i++) {
+    for (size_t i = 0, n = planes_of(p), m = samples_of(p), k = splats_of(p); i < sums_of(p); i++) {
         struct exact_sum sum, *to = i < n ? &film->sum[i] : i < m && film->half != NULL ? &film->half[i - n] : NULL;
         if (!get_sum(s, &sum) || (to != NULL && !exact_join(to, &sum)))
             return false;
-        if (i >= m)
+        if (i >= k && !get_samples(p, i - k, exact_value(&sum), &film->block))
+            return false;
+        if (i >= m && i < k)
             film->block.splat[i - m] = float_within(exact_value(&sum));
     }
     refill(s);

@@ -205,16 +205,19 @@ static bool prepare(struct run *r, const struct scene *scene, struct error *err)
     return ok;
 }
 
-/* Blocks of a length that the method has chosen must not be cut: what it draws depends on where one begins. */
+/* Blocks of a length that the method has chosen must not be cut: what it draws depends on where one begins. Nothing is
+ * cut where all is done. */
 static bool check_range(const struct run *r, struct error *err)
 {
     const struct render_options *o = r->options;
     int block = r->prepared.size.block;
-    if (r->film->iterations > 0 && block > 0 && o->first % block != 0)
+    if (block == 0 || o->first == o->end)
+        return true;
+    if (r->film->iterations > 0 && o->first % block != 0)
         return error_set(err,
                          "the film ends at sample %ld: here they come in blocks of %d, so it cannot be continued",
                          o->first, block);
-    if (o->is_part && block > 0 && (o->first % block != 0 || (o->end % block != 0 && o->end != o->planned)))
+    if (o->is_part && (o->first % block != 0 || (o->end % block != 0 && o->end != o->planned)))
         return error_set(err, "samples %ld:%ld: here they come in blocks of %d; begin and end with one", o->first,
                          o->end, block);
     return true;
@@ -229,8 +232,6 @@ static bool cut(struct run *r, struct error *err)
     r->tiling = tiling_of(r->job.film_rect, size);
     r->film->run = halves_run(size->block);
     r->begun = r->film->passes;
-    for (int64_t i = 0; i < r->begun && i < tiles_per_block(r); i++)
-        film_mark(r->film, tiling_pixels(&r->tiling, i));
     return r->begun < tiles_per_block(r) ||
            error_set(err, "the film has more tile passes in it than a block of samples has");
 }

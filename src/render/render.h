@@ -48,8 +48,8 @@ struct render_options {
      * then, that ends with what has been learnt, by which one block is rendered, or at RENDER_STOP one tile pass,
      * unless `stop` ends that, if the film is empty. */
     enum render_wish (*progress)(void *context, double done);
-    /* Asked before every sample, by any thread, with the same context: is the render to stop at once, even without the
-     * tile passes under way? Once true, always. NULL: never. */
+    /* Asked before every sample, by any thread, with the same context: is the render to stop, even without the tile
+     * passes under way? Once true, always. NULL: never. */
     bool (*stop)(void *context);
     void *progress_context;
 };

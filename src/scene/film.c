@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "base/number.h"
 
 /* Places of block.splat. */
@@ -28,6 +29,7 @@ void film_free(struct film *f)
     free(f->sum);
     free(f->block.in);
     free(f->block.splat);
+    free(f->more);
     free(f->half);
     free(f->eye);
     free(f->square);
@@ -99,7 +101,8 @@ void film_take_splats(struct film *f, struct tile *t)
 void film_merge_tile(struct film *f, struct tile *t)
 {
     size_t from = 0, film_plane = 3 * rect_pixels(f->rect), tile_plane = 3 * (size_t)pixels_count(t->pixels);
-    for (int i = 0, x, y; pixels_get(t->pixels, i, &x, &y); i++)
+    for (int i = 0, x, y; pixels_get(t->pixels, i, &x, &y); i++) {
+        f->block.in[pixel_of(f, x, y)] = true;
         for (size_t to = 3 * pixel_of(f, x, y), c = 0; c < 3; c++, to++, from++) {
             for (size_t p = 0; p < (size_t)plane_count(f->planes); p++)
                 f->nonfinite += !exact_join(&f->sum[p * film_plane + to], &t->sum[p * tile_plane + from]);
@@ -110,25 +113,53 @@ void film_merge_tile(struct film *f, struct tile *t)
                 f->square[to] += t->square[from];
             }
         }
+    }
     film_take_splats(f, t);
-    film_mark(f, t->pixels);
+    f->block.n_in += (size_t)pixels_count(t->pixels);
     f->nonfinite += t->nonfinite;
 }
 
-void film_mark(struct film *f, struct tile_pixels tile)
+static void clear_block(struct film *f)
 {
-    for (int i = 0, x, y; pixels_get(tile, i, &x, &y); i++)
-        f->block.in[pixel_of(f, x, y)] = true;
-    f->block.n_in += (size_t)pixels_count(tile);
+    f->passes = 0;
+    f->block.n_in = 0;
+    memset(f->block.in, 0, rect_pixels(f->rect) * sizeof *f->block.in);
+    memset(f->block.splat, 0, film_splat_sums(f) * sizeof *f->block.splat);
 }
 
 void film_end_block(struct film *f)
 {
     f->iterations += f->block.iterations;
-    f->passes = 0;
-    f->block.n_in = 0;
-    memset(f->block.in, 0, rect_pixels(f->rect) * sizeof *f->block.in);
-    memset(f->block.splat, 0, film_splat_sums(f) * sizeof *f->block.splat);
+    clear_block(f);
+}
+
+/* What must be added to the value in place i of the planes. Of a block under way pixels that are in have their own
+ * samples, but every pixel has the splats of all that are in: where its samples count these are made to stand for the
+ * splats of all, else taken out. */
+static double block_correction(const struct film *f, size_t i)
+{
+    size_t n = rect_pixels(f->rect), pixel = i % (3 * n) / 3;
+    if (f->block.n_in == 0 || i >= film_splat_sums(f))
+        return 0;
+    double all = f->block.in[pixel] ? (double)n / (double)f->block.n_in : 0;
+    return (all - 1) * (double)f->block.splat[i];
+}
+
+static long samples_of(const struct film *f, size_t pixel)
+{
+    return f->iterations + (f->block.in[pixel] ? f->block.iterations : 0) + (f->more != NULL ? f->more[pixel] : 0);
+}
+
+void film_settle(struct film *f)
+{
+    size_t n = rect_pixels(f->rect);
+    if (f->more == NULL)
+        f->more = mem_alloc(n, sizeof *f->more);
+    for (size_t i = 0; i < film_splat_sums(f); i++)
+        exact_add(&f->sum[i], block_correction(f, i));
+    for (size_t i = 0; i < n; i++)
+        f->more[i] = samples_of(f, i) - f->iterations;
+    clear_block(f);
 }
 
 double film_samples(const struct film *f)
@@ -141,21 +172,12 @@ double film_samples(const struct film *f)
 
 long film_develop(const struct film *f, double scale, float *out) { return film_develop_plane(f, 0, scale, out); }
 
-static long samples_of(const struct film *f, size_t pixel)
-{
-    return f->iterations + (f->block.in[pixel] ? f->block.iterations : 0);
-}
-
-/* A pixel's value in a plane. Of a block under way pixels that are in have their own samples, but every pixel has the
- * splats of all that are in: where its samples count these are made to stand for the splats of all, else taken out. */
+/* A pixel's value in a plane. */
 static double mean_in_plane(const struct film *f, size_t plane, size_t i, double scale)
 {
-    size_t n = rect_pixels(f->rect);
-    long iterations = samples_of(f, i / 3);
-    double sum = film_value(f, plane * 3 * n + i), all = f->block.in[i / 3] ? (double)n / (double)f->block.n_in : 0;
-    if (f->block.n_in > 0 && plane <= (size_t)f->planes.lights)
-        sum += (all - 1) * (double)f->block.splat[plane * 3 * n + i];
-    return iterations > 0 ? sum * (scale / (double)iterations) : 0;
+    size_t at = plane * 3 * rect_pixels(f->rect) + i;
+    long samples = samples_of(f, i / 3);
+    return samples > 0 ? (film_value(f, at) + block_correction(f, at)) * (scale / (double)samples) : 0;
 }
 
 long film_develop_plane(const struct film *f, int plane, double scale, float *out)
@@ -181,10 +203,9 @@ float *film_alpha(const struct film *f)
 void film_warn(const struct film *f, long cut)
 {
     if (f->nonfinite > 0)
-        fprintf(stderr, "asbdpt: warning: %ld contributions were not finite, or too large, and were left out\n",
-                f->nonfinite);
+        say_line("asbdpt: warning: %ld contributions were not finite, or too large, and were left out", f->nonfinite);
     if (cut > 0)
-        fprintf(stderr, "asbdpt: warning: %ld pixel values were beyond 3.4e38 and were cut to it\n", cut);
+        say_line("asbdpt: warning: %ld pixel values were beyond 3.4e38 and were cut to it", cut);
 }
 
 void film_standard_error(const struct film *f, double scale, float *out)

@@ -41,6 +41,8 @@ struct film {
     long iterations;             /* samples per pixel taken so far */
     int64_t passes;              /* tile passes of the next block of iterations that are in already */
     struct film_block block;     /* that block */
+    long *more;                  /* [pixels] samples of each beyond `iterations`, of blocks that film_settle has left
+                                  * incomplete; NULL: there are none; owned */
     struct planes planes;
     struct exact_sum *sum;       /* [planes][pixels*3] of eye values and splats; owned */
     struct exact_sum *half;      /* [pixels*3], the picture's of every other `run` iterations, or NULL; owned */
@@ -66,11 +68,11 @@ void film_keep_halves(struct film *f);
 /* film_take_splats: add a tile's splats, and empty its list. */
 void film_take_splats(struct film *f, struct tile *t);
 
-/* film_merge_tile: add these and a tile's sums. film_mark: its pixels are in. film_end_block: all tiles of the block
- * are in, and count from now on. */
+/* film_merge_tile: add these and a tile's sums. film_end_block: all tiles of the block are in, and count from now on.
+ * film_settle: leave the block under way as it is: each pixel counts the samples that it has. */
 void film_merge_tile(struct film *f, struct tile *t);
-void film_mark(struct film *f, struct tile_pixels tile);
 void film_end_block(struct film *f);
+void film_settle(struct film *f);
 
 /* film_value: the sum so far in place i of [planes][pixels*3]. */
 static inline double film_value(const struct film *f, size_t i) { return exact_value(&f->sum[i]); }

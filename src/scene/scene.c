@@ -35,6 +35,9 @@ void scene_free(struct scene *s)
     free(s->film_filename);
     free(s->integrator);
     settings_clear(&s->settings);
+    while (s->n_files > 0)
+        free(s->file[--s->n_files]);
+    free(s->file);
     memset(s, 0, sizeof *s);
 }
 

@@ -48,7 +48,10 @@ struct scene {
     struct settings settings; /* its parameters, and those of -P */
     int spp;                /* pixelsamples, 0 if the file does not say */
 
-    uint64_t content;       /* hash of all files the scene was read from */
+    char **file;            /* [n_files] paths of all files the scene was read from; owned */
+    int n_files;
+    uint64_t content;       /* hash of these files */
+    long n_warnings;        /* that were given while it was loaded */
 };
 
 /* scene_init: an empty scene with pbrt's defaults (1280x720 film, box filter of radius 0.5, fov 90). */

@@ -60,8 +60,8 @@ static bool write_heatmap(const struct compare_options *o, struct file_output *f
 /* What 8 bits cut off and round counts as error. */
 static void warn_of_display(const char *display, const char *linear)
 {
-    fprintf(stderr, "asbdpt: warning: %s holds sRGB values from 0 to 1, %s linear ones: what the first cut off and "
-                    "rounded counts as error\n", display, linear);
+    say_line("asbdpt: warning: %s holds sRGB values from 0 to 1, %s linear ones: what the first cut off and rounded "
+             "counts as error", display, linear);
 }
 
 static bool compare_files(const struct compare_options *o, struct error *err)
@@ -75,8 +75,8 @@ static bool compare_files(const struct compare_options *o, struct error *err)
     float *x = image_read_linear(o->image, &w1, &h1, &about1, err), *r = NULL;
     bool ok = x != NULL && (r = image_read_linear(o->reference, &w2, &h2, &about2, err)) != NULL;
     if (ok && (w1 != w2 || h1 != h2))
-        ok = error_set(err, "%s is %dx%d but %s is %dx%d; only images of equal size can be compared", o->image, w1, h1,
-                       o->reference, w2, h2);
+        ok = error_set(err, "%s is %dx%d but %s is %dx%d: only images of equal size can be compared; render with --res "
+                       "%dx%d --filter box", o->image, w1, h1, o->reference, w2, h2, w2, h2);
     if (ok) {
         struct difference d = compare_pixels(x, r, (long)w1 * h1 * 3);
         double square[N_SQUARES];

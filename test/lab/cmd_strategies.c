@@ -72,7 +72,7 @@ static int run(void *options)
               render(&scene, job_render(&o->job, &scene, m), o->directory, &err);
     scene_free(&scene);
     if (ok && !o->job.quiet)
-        fprintf(stderr, "wrote the pictures of all strategies, and pyramid.png, into %s\n", o->directory);
+        say_line("wrote the pictures of all strategies, and pyramid.png, into %s", o->directory);
     return ok ? EXIT_OK : fail(&err);
 }
 

@@ -14,7 +14,7 @@ struct trace_options {
 
 #define AT(member) offsetof(struct trace_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .written = true, .help = "a scene file"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
     {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "of the film, 0,0 top left"},
     {"--sample", "K", OPTION_INTEGER, AT(sample), 0, 1 << 30, .fallback = "0", .help = "which, from 0"},
     {"--brightest", NULL, OPTION_ON, AT(brightest), .help = "instead, the sample that contributes most to the pixel"},
@@ -36,7 +36,9 @@ static int run(void *options)
         return status;
     struct render_options render = job_render(&o->job, &scene, integrator);
     const struct trace_story story = {o->job.scene_path, &scene, integrator, o->job.seed, &trace};
-    bool ok = (o->svg == NULL || file_create(o->svg, &svg, &err)) && trace_render(&scene, &render, &trace, &err);
+    struct texts outputs = {(const char **)&o->svg, o->svg != NULL};
+    bool ok = job_spares(&scene, &outputs, &err) && (o->svg == NULL || file_create(o->svg, &svg, &err)) &&
+              trace_render(&scene, &render, &trace, &err);
     if (ok)
         trace_tell(stdout, &story, o->all);
     if (ok && svg.stream != NULL)

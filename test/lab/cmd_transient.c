@@ -101,7 +101,7 @@ static int run(void *options)
     free(pictures);
     scene_free(&scene);
     if (ok && !o->job.quiet)
-        fprintf(stderr, "wrote %d pictures, and transient.png, into %s\n", gates.n, o->directory);
+        say_line("wrote %d pictures, and transient.png, into %s", gates.n, o->directory);
     return ok ? EXIT_OK : fail(&err);
 }
 

@@ -14,7 +14,7 @@ struct worth_options {
 
 #define AT(member) offsetof(struct worth_options, member)
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .written = true, .help = "a scene file"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file"},
     {"-o", "FILE.png", OPTION_TEXTS, AT(job.output), 1, .alias = "--outfile", .written = true,
      .help = "a picture to write"},
     {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "where the surface is seen"},
@@ -39,7 +39,8 @@ static int run(void *options)
     int status = job_load(&o->job, &scene, &integrator);
     if (status == EXIT_OK) {
         struct render_options render = job_render(&o->job, &scene, integrator);
-        bool ok = worth_picture(&scene, &render, o->pixel[0], o->pixel[1], o->scale, &picture, &err) &&
+        bool ok = job_spares(&scene, &o->job.output, &err) &&
+                  worth_picture(&scene, &render, o->pixel[0], o->pixel[1], o->scale, &picture, &err) &&
                   outputs_write(&out, picture.width, picture.height, picture.pixels, o->job.quiet, &err);
         sheet_free(&picture);
         scene_free(&scene);

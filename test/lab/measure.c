@@ -121,8 +121,8 @@ static bool render_run(struct subject *s, int method, int seed, const long *spp,
     film_free(&film);
     progress_end(&s->pace->bar);
     if (ok && !p->quiet)
-        fprintf(stderr, "%s, %s, seed %" PRIu64 ": %ld spp in %.2f s of CPU\n", s->out->name,
-                p->methods.item[method].text, number, spp[n - 1], seconds);
+        say_line("%s, %s, seed %" PRIu64 ": %ld spp in %.2f s of CPU", s->out->name, p->methods.item[method].text,
+                 number, spp[n - 1], seconds);
     return ok;
 }
 

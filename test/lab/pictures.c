@@ -83,9 +83,8 @@ struct sheet pictures_sheet(const struct scene_results *s)
     char text[100];
     sheet_init(&sheet, (p->n_compared + 1) * (s->width * k + COLUMN_GAP) + COLUMN_GAP,
                COLUMN_GAP + COLUMN_LABEL + 2 * (s->height * k + COLUMN_GAP), SHEET_PAPER);
-    snprintf(text, sizeof text, "%.14s", s->reference.origin);
-    draw_column(&sheet, p->n_compared, "reference", "noise", s->reference.noise8, text, s->reference.pixels, s->width,
-                s->height, k);
+    draw_column(&sheet, p->n_compared, "reference", "noise", s->reference.noise8, s->reference.kind,
+                s->reference.pixels, s->width, s->height, k);
     for (int v = 0; v < p->n_compared; v++) {
         const struct run *last = &s->run[v][0][plan_last_step(p)];
         snprintf(text, sizeof text, "%ld spp, %.1f s; 8x8 means %.1f", last->spp, last->value[Q_SECONDS],

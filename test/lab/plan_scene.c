@@ -59,8 +59,8 @@ static bool read_planned(const struct plan *p, const char *path, const struct re
 static void warn(const struct plan *p, const struct scene *scene, const char *path, const char *why)
 {
     if (!p->quiet)
-        fprintf(stderr, "asbdpt: warning: %s: %s: measured at %dx%d pixels, whatever the film's own are (see --res)\n",
-                path, why, scene->width, scene->height);
+        say_line("asbdpt: warning: %s: %s: measured at %dx%d pixels, whatever the film's own are (see --res)", path,
+                 why, scene->width, scene->height);
 }
 
 bool plan_scene_load(const struct plan *p, const char *path, const char *name, struct scene *scene, int *depth,

@@ -11,4 +11,4 @@ const struct program program = {
     "asbdpt-lab", "the laboratory of asbdpt: what measures its pictures and its speed",
     "Does what asbdpt does, with more integrators. Compares pictures, tells how a sample came about, tests whether "
     "methods have the same expectation, gives them the same time, repeats the dissertation's measurements.", COMMANDS,
-    &command_render_more};
+    &command_render_more, ""};

@@ -19,6 +19,7 @@
 #include "lab/sides.h"
 
 enum { PATH_SIZE = 4096 };
+static const char STORED[] = "stored picture", MADE[] = "rendered here";
 
 void reference_free(struct reference *r)
 {
@@ -85,7 +86,7 @@ static bool read_noise(const char *path, struct reference *r, struct error *err)
 }
 
 /* Read one picture, and its text. False with a message if it is damaged. */
-static bool load(const char *path, struct reference *out, struct error *err)
+static bool load(const char *path, const char *kind, struct reference *out, struct error *err)
 {
     struct image about;
     read_text(path, out);
@@ -97,7 +98,8 @@ static bool load(const char *path, struct reference *out, struct error *err)
         reference_free(out);
         return false;
     }
-    snprintf(out->origin, sizeof out->origin, "stored picture %.1000s of %dx%d pixels", path, out->width, out->height);
+    out->kind = kind;
+    snprintf(out->origin, sizeof out->origin, "%s: %.1000s of %dx%d pixels", kind, path, out->width, out->height);
     return true;
 }
 
@@ -162,13 +164,13 @@ bool reference_find(const char *given, const char *scene_path, const char *name,
     char path[PATH_SIZE];
     if (given != NULL) {
         given_path(given, name, path);
-        return load(path, out, err);
+        return load(path, STORED, out, err);
     }
     *out = (struct reference){.noise8 = NAN, .mean_error = NAN};
     for (int i = 0; i < N_PLACES; i++) {
         place_path(i, scene_path, name, path);
         if (file_exists(path))
-            return load(path, out, err);
+            return load(path, STORED, out, err);
     }
     return true;
 }
@@ -197,14 +199,14 @@ bool reference_make(const struct scene *scene, const struct render_options *opti
     snprintf(stem, sizeof stem, "%s/%s", directory, name);
     snprintf(path, sizeof path, "%s.pfm", stem);
     read_text(path, out);
-    if (strcmp(out->origin, key) == 0 && load(path, out, NULL))
+    if (strcmp(out->origin, key) == 0 && load(path, MADE, out, NULL))
         return true;
     o.end = spp / (2 * BATCHES) > 1 ? spp / (2 * BATCHES) : 1;
     bool ok = file_make_directory(directory, err) && side_render(scene, &o, 0, BATCHES, true, &a, err) &&
               side_render(scene, &o, 1, BATCHES, true, &b, err);
     if (ok) {
         struct provenance from = {key, "here", scene->content, options->max_depth, NULL};
-        ok = sides_store(stem, &a, &b, &from, err) && load(path, out, err);
+        ok = sides_store(stem, &a, &b, &from, err) && load(path, MADE, out, err);
     }
     batches_free(&a.pixels);
     batches_free(&b.pixels);

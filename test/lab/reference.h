@@ -31,6 +31,7 @@ struct reference {
     double noise8;     /* of its 8-bit values; NaN when unknown */
     double noise[N_SQUARES]; /* its own part of squared errors against it; 0 when unknown */
     double mean_error; /* relative standard error of its mean; NaN when unknown */
+    const char *kind;  /* "stored picture" or "rendered here" */
     char origin[1200]; /* one sentence for readers */
 };
 
