@@ -89,6 +89,12 @@ black 'the scene has no light' "$wall"
 expect 0 '' "$program" render "$box" $small -o x.pfm
 check [ ! -s stderr.txt ]
 
+# A filter with negative lobes takes whole cycles of samples; others take as many as are asked for.
+printf 'WorldBegin LightSource "infinite" WorldEnd\n' >sky.pbrt
+expect 0 'takes samples in fours: 8, not 5$' "$program" render sky.pbrt --filter sinc --spp 5 --res 8 -o sky.pfm
+check grep -q ' 8 spp' stderr.txt
+expect 0 ' 5 spp' "$program" render sky.pbrt --filter gaussian --spp 5 --res 8 -o sky.pfm
+
 # Parameters of pbrt's integrators that have no effect here are said; those of -P must be right. info and render agree.
 printf 'Integrator "sppm" "integer numiterations" 3 "integer maxdepth" 100000
 Film "image" "string filename" "x.jpg"\nWorldBegin\nLightSource "point"\nWorldEnd\n' >sppm.pbrt

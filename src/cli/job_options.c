@@ -143,6 +143,17 @@ int job_open(struct job_loading *job, struct scene *scene, const struct method *
     return fail(&err);
 }
 
+static long wanted_spp(const struct job_options *o, const struct scene *scene)
+{
+    return o->spp > 0 ? o->spp : o->quick ? 1 : scene->spp > 0 ? scene->spp : 16;
+}
+
+long job_spp(const struct job_options *o, const struct scene *scene)
+{
+    long cycle = filter_cycle(&scene->filter);
+    return (wanted_spp(o, scene) + cycle - 1) / cycle * cycle;
+}
+
 int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene)
 {
     const struct job_options *o = job->options;
@@ -159,6 +170,9 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
     if (ok && scene->media.ends)
         warn(job, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the infinite "
              "and distant lights are", l->radius, l->center.x, l->center.y, l->center.z);
+    if (ok && !o->quiet && job_spp(o, scene) > wanted_spp(o, scene))
+        fprintf(stderr, "asbdpt: a pixel filter with negative lobes takes samples in fours: %ld, not %ld\n",
+                job_spp(o, scene), wanted_spp(o, scene));
     if (ok && o->strict && job->n_warnings > 0)
         ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
     if (ok)
@@ -180,9 +194,4 @@ struct render_options job_render(const struct job_options *o, const struct scene
 {
     return (struct render_options){.integrator = m->name, .seed = o->seed, .end = job_spp(o, scene),
                                    .n_threads = o->n_threads, .max_depth = o->max_depth};
-}
-
-long job_spp(const struct job_options *o, const struct scene *scene)
-{
-    return o->spp > 0 ? o->spp : o->quick ? 1 : scene->spp > 0 ? scene->spp : 16;
 }
