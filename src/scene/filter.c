@@ -121,12 +121,12 @@ static bool take(double *u, double share)
  * sign of each axis' profile. Uses up u in part; returns the probability. */
 static double choose_signs(const struct filter *f, double *u, bool below[2])
 {
-    const double of_cycle = 1.0 / FILTER_CYCLE, mass = negative(f);
+    const double of_cycle = 1.0 / FILTER_CYCLE;
     below[0] = below[1] = false;
-    if (!(mass > 0))
+    if (!(negative(f) > 0))
         return 1;
     bool minus = take(u, of_cycle);
-    double all = minus ? mass : positive(f), share = f->mass[0][1] * f->mass[1][!minus] / all;
+    double share = f->mass[0][1] * f->mass[1][!minus] / (minus ? negative(f) : positive(f));
     below[0] = take(u, share);
     below[1] = below[0] != minus;
     return (minus ? of_cycle : 1 - of_cycle) * (below[0] ? share : 1 - share);
