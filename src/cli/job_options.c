@@ -154,6 +154,9 @@ long job_spp(const struct job_options *o, const struct scene *scene)
     return (wanted_spp(o, scene) + cycle - 1) / cycle * cycle;
 }
 
+/* Vertices are floats, and shadow rays begin a step of theirs away from a surface: doc/scene-format.md has the errors. */
+enum { FAR_AWAY = 1000 };
+
 int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene)
 {
     const struct job_options *o = job->options;
@@ -165,11 +168,15 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
               parameters_read(scene, readers[0], o->max_depth, &read, &err);
     if (ok)
         scene_prepare(scene);
-    scene->n_warnings = job->n_warnings;
-    const struct light_set *l = &scene->lights;
+    vec3 center = add(scene->lights.center, scene->origin);
     if (ok && scene->media.ends)
         warn(job, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the infinite "
-             "and distant lights are", l->radius, l->center.x, l->center.y, l->center.z);
+             "and distant lights are", scene->lights.radius, center.x, center.y, center.z);
+    double distance = length(scene->lights.center) / scene->lights.radius; /* from the camera, in radii */
+    if (ok && distance > FAR_AWAY)
+        warn(job, "the scene is %.3g times its own radius away from the camera; above %d light passes through edges, "
+             "by rounding: move the camera nearer", distance, FAR_AWAY);
+    scene->n_warnings = job->n_warnings;
     if (ok && !o->quiet && job_spp(o, scene) > wanted_spp(o, scene))
         fprintf(stderr, "asbdpt: a pixel filter with negative lobes takes samples in fours: %ld, not %ld\n",
                 job_spp(o, scene), wanted_spp(o, scene));
