@@ -82,7 +82,7 @@ static char *everything(vec3 by)
             "Integrator \"bdpt\" \"integer maxdepth\" 4\nLookAt 0.3 3 -6  0 0.5 0  0 1 0 ");
     put_move(&w, neg(by));
     put(&w, "Camera \"perspective\" \"float fov\" 45 WorldBegin\n"
-            "MakeNamedMedium \"milk\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 1 1] \"rgb sigma_s\" [2 2 2]\n");
+            "MakeNamedMedium \"milk\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [2 2 2]\n");
     put_textures_of_places(&w, by);
     put(&w, "Material \"matte\" \"texture Kd\" \"planar\" Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] ");
     put_points(&w, 4, FLOOR, by);
