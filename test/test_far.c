@@ -1,5 +1,7 @@
-/* test_far.c: a scene far from the origin of its file is the same scene: the picture of one that is moved, with its
- * camera, is that of the one that is not, by the same random numbers, but for what rounding does to some sample. */
+/* test_far.c: scenes far from the origin of their file: moved with its camera, a scene has the image that it had, by the
+ * same random numbers.
+ *
+ * Rounding may still send some samples elsewhere: a few pixels may differ. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
