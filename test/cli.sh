@@ -89,7 +89,7 @@ black 'the scene has no light' "$wall"
 expect 0 '' "$program" render "$box" $small -o x.pfm
 check [ ! -s stderr.txt ]
 
-# A scene far from the origin of its file: places are told in the file's coordinates. One far from its camera: a warning.
+# A scene far from the origin of its file: places are told in the file's coordinates. Far from its camera: a warning.
 far() { # DISTANCE FOV: a ball, moved by 3e7 with its camera
     printf 'LookAt 0 0 -%s 0 0 0 0 1 0 Translate -3e7 0 0 Camera "perspective" "float fov" %s\nWorldBegin\n' $1 $2
     printf 'Translate 3e7 0 0 LightSource "point" "point from" [0 0 -4] Shape "sphere" WorldEnd\n'
@@ -103,6 +103,7 @@ far 1e4 0.01 >far.pbrt
 expect 0 'the scene is 5.76e\+03 times its own radius away from' "$program" render far.pbrt --res 8x8 -o x.ppm
 
 # A filter with negative lobes takes whole cycles of samples; others take as many as are asked for.
+# row: filters with negative lobes
 printf 'WorldBegin LightSource "infinite" WorldEnd\n' >sky.pbrt
 expect 0 'takes samples in fours: 8, not 5$' "$program" render sky.pbrt --filter sinc --spp 5 --res 8 -o sky.pfm
 check grep -q ' 8 spp' stderr.txt

@@ -1,5 +1,5 @@
-/* test_far.c: scenes far from the origin of their file: moved with its camera, a scene has the image that it had, by the
- * same random numbers.
+/* test_far.c: scenes far from the origin of their file: moved with its camera, a scene has the image that it had, by
+ * the same random numbers.
  *
  * Rounding may still send some samples elsewhere: a few pixels may differ. */
 #include <math.h>

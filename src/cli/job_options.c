@@ -154,7 +154,7 @@ long job_spp(const struct job_options *o, const struct scene *scene)
     return (wanted_spp(o, scene) + cycle - 1) / cycle * cycle;
 }
 
-/* Vertices are floats, and shadow rays begin a step of theirs away from a surface: doc/scene-format.md has the errors. */
+/* Vertices are floats, and shadow rays begin a step of theirs away from surfaces: see doc/design-notes.md. */
 enum { FAR_AWAY = 1000 };
 
 int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene)
@@ -178,8 +178,8 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
              "by rounding: move the camera nearer", distance, FAR_AWAY);
     scene->n_warnings = job->n_warnings;
     if (ok && !o->quiet && job_spp(o, scene) > wanted_spp(o, scene))
-        fprintf(stderr, "asbdpt: a pixel filter with negative lobes takes samples in fours: %ld, not %ld\n",
-                job_spp(o, scene), wanted_spp(o, scene));
+        say_line("asbdpt: a pixel filter with negative lobes takes samples in fours: %ld, not %ld", job_spp(o, scene),
+                 wanted_spp(o, scene));
     if (ok && o->strict && job->n_warnings > 0)
         ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
     if (ok)

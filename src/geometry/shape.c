@@ -134,8 +134,8 @@ int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group
     quadric_normalise(&q);
     quadric_bounds(&q, &lo, &hi);
     if (!is_place(lo) || !is_place(hi)) {
-        error_set(err, "seen from the camera this shape is from (%g, %g, %g) to (%g, %g, %g): places go up to 1e12", lo.x,
-                  lo.y, lo.z, hi.x, hi.y, hi.z);
+        error_set(err, "this shape is (%g, %g, %g) to (%g, %g, %g) from the camera: places go up to 1e12", lo.x, lo.y,
+                  lo.z, hi.x, hi.y, hi.z);
         return -1;
     }
     q.group = geo->n_groups;
