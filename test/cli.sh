@@ -89,6 +89,26 @@ black 'the scene has no light' "$wall"
 expect 0 '' "$program" render "$box" $small -o x.pfm
 check [ ! -s stderr.txt ]
 
+# A scene far from the origin of its file: places are told in the file's coordinates. Far from its camera: a warning.
+far() { # DISTANCE FOV: a ball, moved by 3e7 with its camera
+    printf 'LookAt 0 0 -%s 0 0 0 0 1 0 Translate -3e7 0 0 Camera "perspective" "float fov" %s\nWorldBegin\n' $1 $2
+    printf 'Translate 3e7 0 0 LightSource "point" "point from" [0 0 -4] Shape "sphere" WorldEnd\n'
+}
+far 5 20 >far.pbrt
+prints '^camera .* at (3e+07, 0, -5)' "$lab" info far.pbrt
+says '^bounds .*(3e+07, -1, -1) to (3e+07, 1, 1)'
+check [ ! -s stderr.txt ]
+prints 'z_1 * matte * 3e+07 ' "$lab" trace far.pbrt --pixel 5,5 --res 11x11 --all
+far 1e4 0.01 >far.pbrt
+expect 0 'the scene is 5.76e\+03 times its own radius away from' "$program" render far.pbrt --res 8x8 -o x.ppm
+
+# A filter with negative lobes takes whole cycles of samples; others take as many as are asked for.
+# row: filters with negative lobes
+printf 'WorldBegin LightSource "infinite" WorldEnd\n' >sky.pbrt
+expect 0 'takes samples in fours: 8, not 5$' "$program" render sky.pbrt --filter sinc --spp 5 --res 8 -o sky.pfm
+check grep -q ' 8 spp' stderr.txt
+expect 0 ' 5 spp' "$program" render sky.pbrt --filter gaussian --spp 5 --res 8 -o sky.pfm
+
 # Parameters of pbrt's integrators that have no effect here are said; those of -P must be right. info and render agree.
 printf 'Integrator "sppm" "integer numiterations" 3 "integer maxdepth" 100000
 Film "image" "string filename" "x.jpg"\nWorldBegin\nLightSource "point"\nWorldEnd\n' >sppm.pbrt

@@ -23,7 +23,7 @@ static const struct test_entry ENTRIES[] = {
     {"hdr", test_hdr, false},
     {"sheet", test_sheet, false},
     {"file", test_file, false},       {"ply", test_ply, false},
-    {"features", test_features, false}, {"format", test_format, false},
+    {"far", test_far, false}, {"features", test_features, false}, {"format", test_format, false},
     {"shape", test_shape, false},     {"subdivide", test_subdivide, false},
     {"curve", test_curve, false},     {"fourier", test_fourier, false},
     {"kdtree", test_kdtree, false}, {"texture", test_texture, false},

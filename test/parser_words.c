@@ -52,7 +52,7 @@ static void put_options(struct words *w, const struct scene *s)
     const struct filter *f = &s->filter;
     put(w, "film %dx%d scale %g crop %g %g %g %g file %s\n", s->width, s->height, s->film_scale, s->crop[0], s->crop[1],
         s->crop[2], s->crop[3], s->film_filename != NULL ? s->film_filename : "none");
-    vec3 world = transform_point(&c->world_to_camera, vec(0, 0, 0));
+    vec3 world = transform_point(&c->world_to_camera, neg(s->origin));
     put(w, "camera %d fov %g aspect %g lens %g %g window %d %g %g %g %g", (int)c->kind, c->fov, c->frame_aspect_ratio,
         c->lens_radius, c->focal_distance, c->has_screen_window, c->screen_window[0], c->screen_window[1],
         c->screen_window[2], c->screen_window[3]);

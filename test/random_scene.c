@@ -31,6 +31,13 @@ static struct map before_camera(struct writer *w)
     return chance(w, 0.3) ? map_identity() : m;
 }
 
+/* Move what follows, or, by -1, back. The parser takes lengths up to 1e12. */
+static void move(struct writer *w, double unit, double sign)
+{
+    put(w, "Translate ");
+    put_vec(w, mul(vec(0.6, -0.48, 0.64), sign * fmin(w->away * unit, 5e11)));
+}
+
 static void camera(struct writer *w, const struct view *v)
 {
     struct map m = before_camera(w);
@@ -41,6 +48,7 @@ static void camera(struct writer *w, const struct view *v)
     put_vec(w, mul(v->eye, v->unit));
     put_vec(w, mul(v->look, v->unit));
     put_vec(w, fabs(normalize(sub(v->look, v->eye)).y) < 0.95 ? vec(0.1, 1, 0) : vec(1, 0, 0.1));
+    move(w, v->unit, -1);
     put(w, "\nCamera ");
     if (kind == 3) {
         const double window[4] = {-1.5 * v->unit, 1.7 * v->unit, -1.6 * v->unit, 1.4 * v->unit};
@@ -91,7 +99,9 @@ static void begin(struct writer *w, const struct view *v, int max_depth)
     if (w->media)
         put_media(w, v->unit);
     camera(w, v);
-    put(w, "WorldBegin\nScale ");
+    put(w, "WorldBegin\n");
+    move(w, v->unit, 1);
+    put(w, "Scale ");
     put_vec(w, vec(v->unit, v->unit, v->unit));
     put(w, "\n");
 }
@@ -397,7 +407,7 @@ static void anything(struct writer *w, struct random_scene *s)
     }
 }
 
-struct random_scene random_scene(uint64_t number, const char *top, bool evil)
+static struct random_scene scene_away(uint64_t number, const char *top, bool evil, double away)
 {
     static const struct {
         const char *name;
@@ -405,7 +415,7 @@ struct random_scene random_scene(uint64_t number, const char *top, bool evil)
     } FAMILIES[] = {{"any", anything}, {"closed furnace", closed_furnace}, {"any", anything}, {"any", anything},
                     {"direct", direct}, {"any", anything}, {"open furnace", open_furnace}, {"any", anything}};
     struct random_scene s = {.text = NULL};
-    struct writer w = {.rng = rng_stream(number, RNG_TEST, 7, evil), .top = top, .evil = evil};
+    struct writer w = {.rng = rng_stream(number, RNG_TEST, 7, evil), .top = top, .evil = evil, .away = away};
     int family = (int)(number % (sizeof FAMILIES / sizeof FAMILIES[0]));
     s.family = FAMILIES[family].name;
     w.media = FAMILIES[family].write == anything && number / 8 % 3 == 1;
@@ -419,4 +429,15 @@ struct random_scene random_scene(uint64_t number, const char *top, bool evil)
     s.fog = w.around[0] != '\0';
     s.known &= !evil;
     return s;
+}
+
+struct random_scene random_scene(uint64_t number, const char *top, bool evil)
+{
+    struct writer w = {.rng = rng_stream(number, RNG_TEST, 9, evil)};
+    return scene_away(number, top, evil, chance(&w, 0.5) ? 0 : across(&w, 1, 1e8));
+}
+
+struct random_scene random_scene_moved(uint64_t number, const char *top, double away)
+{
+    return scene_away(number, top, false, away);
 }

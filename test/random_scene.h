@@ -1,7 +1,8 @@
 /* random_scene.h: a scene from a number, for tests that ask whether all methods see the same.
  *
- * Everything is drawn: the camera and what is before it, film, filter, crop, unit of length, shapes, instances, lights,
- * materials, textures, and linear maps (turns, uneven scales, shears, mirrors) around each. Three families:
+ * Everything is drawn: the camera and what is before it, film, filter, crop, unit of length, where all that is, shapes,
+ * instances, lights, materials, textures, and linear maps (turns, uneven scales, shears, mirrors) around each. Three
+ * families:
  *
  *     furnaces   every ray sees the same, by theory: walls of albedo a that shine, or a sky over one convex thing
  *     direct     a patch lit by a delta light, seen from so near that the picture is one number, which is computed
@@ -41,5 +42,9 @@ struct random_scene {
  *   evil  some numbers are ones that no scene should have; nothing is known then
  * To be given to free(): text. */
 struct random_scene random_scene(uint64_t number, const char *top, bool evil);
+
+/* random_scene_moved: the same, without evil, moved with its camera so many units away from the origin, up to 1e8. Half
+ * of those of random_scene are moved, too, by as many as are drawn. */
+struct random_scene random_scene_moved(uint64_t number, const char *top, double away);
 
 #endif

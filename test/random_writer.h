@@ -21,6 +21,7 @@ struct writer {
     int textures;              /* "s0", "f0", "s1", ... are defined */
     bool specular, delta_light; /* what has been written so far */
     bool media;                 /* there are some, so that every lamp has a material and stands in what is around */
+    double away;                /* how far the scene is moved, in its units */
     const char *around;         /* the medium that the camera is in; "": none */
     bool boxes;                 /* boxes of media lie on the ground: no lamp comes near */
 };

@@ -237,7 +237,7 @@ static void test_path(struct test *t)
             if (path_eye_pixel(&walk, x, y, path, 2, &weight) < 2 || path[1].kind != VERTEX_SURFACE)
                 continue;
             vec3 q = {(double)ours[0], (double)ours[1], (double)ours[2]};
-            double off = sqrt(length2(sub(path[1].p, q)));
+            double off = length(sub(add(path[1].p, scene.origin), q));
             CHECK(t, off < 1e-5 * (1 + sqrt(length2(q))), "pixel (%d,%d): off by %g", x, y, off);
             hits++;
         }

@@ -253,7 +253,7 @@ static void test_receivers(struct test *t)
                                     .power = i % 4 > 1};
         struct pixel_sample sample = {.scene = &scene, .counts = &counts, .max_depth = 5};
         for (int n = 0; n < 40; n++) {
-            vec3 at = vec(4 * rng_uniform(&r) - 2, 0, 4 * rng_uniform(&r) - 2);
+            vec3 at = sub(vec(4 * rng_uniform(&r) - 2, 0, 4 * rng_uniform(&r) - 2), scene.origin);
             struct vertex z, path[2];
             struct one_more_path c[ONE_MORE_MOST];
             if (!first_hit(&scene, &arena, eye, at, &z))
@@ -261,10 +261,10 @@ static void test_receivers(struct test *t)
             path[1] = z;
             sample.sampler = sampler_start(test_seed(t), RNG_TEST, i, (uint64_t)n);
             for (int k = extra->connect(extra, &sample, &arena, path, 2, c); k-- > 0;)
-                if (!rgb_is_black(c[k].c.value) && c[k].c.end.y < 9) {
-                    vec3 image = c[k].c.end;
+                if (!rgb_is_black(c[k].c.value) && c[k].c.end.y + scene.origin.y < 9) {
+                    vec3 image = add(c[k].c.end, scene.origin);
                     image.z = mirror ? 8 - image.z : image.z;
-                    double sum = all_weights(extra, &sample, &arena, eye, &z, &c[k].c, image);
+                    double sum = all_weights(extra, &sample, &arena, eye, &z, &c[k].c, sub(image, scene.origin));
                     met++;
                     CHECK(t, fabs(sum - 1) < 1e-6, "receiver %d: weights add up to %.9f", (int)i, sum);
                 }

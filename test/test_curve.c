@@ -46,7 +46,7 @@ static vec3 row_centre(const struct mesh *m, int row)
 {
     vec3 sum = vec(0, 0, 0);
     for (int i = 0; i < RING - 1; i++)
-        sum = add(sum, load3(m->P, (size_t)(row * RING + i)));
+        sum = add(sum, m->P[row * RING + i]);
     return mul(sum, 1.0 / (RING - 1));
 }
 
@@ -63,7 +63,7 @@ static void straight(struct test *t)
     for (int k = 0; k < VIEWS; k++) {
         double most = 0, least = 0;
         for (size_t i = 0; i < RING - 1; i++) {
-            double x = dot(load3(m.P, i), vec(cos(PI * k / VIEWS), sin(PI * k / VIEWS), 0));
+            double x = dot(m.P[i], vec(cos(PI * k / VIEWS), sin(PI * k / VIEWS), 0));
             most = fmax(most, x);
             least = fmin(least, x);
         }
@@ -71,9 +71,9 @@ static void straight(struct test *t)
     }
     CHECK(t, fabs(mean - 0.2) < 1e-6, "looks %g wide, not 0.2", mean);
     for (size_t i = 0; i < 2 * RING; i++) {
-        vec3 p = load3(m.P, i), n = load3(m.N, i), out = vec(p.x, p.y, 0);
+        vec3 p = m.P[i], n = load3(m.N, i), out = vec(p.x, p.y, 0);
         bool far = i >= RING;
-        CHECK(t, fabs(p.z - 3 * far) < 1e-6 && fabs(length(out) / length(load3(m.P, 0)) - 1 - far) < 1e-5, "point");
+        CHECK(t, fabs(p.z - 3 * far) < 1e-6 && fabs(length(out) / length(m.P[0]) - 1 - far) < 1e-5, "point");
         CHECK(t, length(sub(n, normalize(out))) < 1e-5, "normals point outwards");
         CHECK(t, m.UV[2 * i] == (float)far && m.UV[2 * i + 1] == (float)(i % RING) / (RING - 1), "u and v");
     }
@@ -135,7 +135,7 @@ static double seen(const struct mesh *m)
     for (int i = 0; i < m->n_triangles; i++) {
         vec3 p[3];
         for (int k = 0; k < 3; k++)
-            p[k] = load3(m->P, (size_t)m->index[3 * i + k]);
+            p[k] = m->P[m->index[3 * i + k]];
         area += fabs(cross(sub(p[1], p[0]), sub(p[2], p[0])).x) / 2;
     }
     return area;
@@ -150,7 +150,7 @@ static void ribbon(struct test *t)
     struct curve c = {P, 7, 3, false, {0.2, 0.2}, N};
     struct mesh m = mesh_of(t, &c);
     struct error err;
-    vec3 a = load3(m.P, 0), b = load3(m.P, 1);
+    vec3 a = m.P[0], b = m.P[1];
     CHECK(t, length(sub(sub(b, a), vec(0, -0.2, 0))) < 1e-6, "across the normal and the curve");
     CHECK(t, m.N[0] == 1 && m.UV[1] == 0 && m.UV[3] == 1, "normal, v");
     mesh_free(&m);

@@ -63,11 +63,17 @@ static void test_filters(struct test *t)
         filter_prepare(&f);
         double one = integral(&f);
         CHECK(t, fabs(one - 1) < 2e-4, "%s integrates to %g", NAMES[i], one);
+        CHECK(t, filter_cycle(&f) == (i < 3 ? 1 : FILTER_CYCLE), "%s: a cycle of %d", NAMES[i], filter_cycle(&f));
         TEST_ACCEPT(t, sampling_p(&f, &r, 1), "samples of the %s filter", NAMES[i]);
         TEST_REJECT(t, sampling_p(&f, &r, 1.03), "samples of the %s filter stretched by 3 %%", NAMES[i]);
     }
     struct filter f;
     CHECK(t, !filter_default("tent", &f), "a filter that does not exist was found");
+    filter_default("mitchell", &f);
+    f.B = 1; /* the cubic B-spline */
+    f.C = 0;
+    filter_prepare(&f);
+    CHECK(t, filter_cycle(&f) == 1, "a spline that touches 0 has a cycle");
 }
 
 /* The sum over a new film's pixels of what a tile's splats bring; how many pixels are not black. */

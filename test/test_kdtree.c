@@ -21,8 +21,8 @@
 
 static uint32_t add_vertex(struct mesh *m, vec3 p)
 {
-    m->P = mem_append(m->P, (size_t)m->n_vertices, 3 * sizeof *m->P);
-    store3(m->P, (size_t)m->n_vertices, p);
+    m->P = mem_append(m->P, (size_t)m->n_vertices, sizeof *m->P);
+    m->P[m->n_vertices] = p;
     return (uint32_t)m->n_vertices++;
 }
 
@@ -310,8 +310,8 @@ static void check_against_brute_force(struct test *t, struct rng *r)
         case 'b': make_ball(&s, r, n, 20, 1, vec(0.1, 0.2, 0.3)); break;
         default: make_random(&s, r, n, CASES[i].size, CASES[i].offset); break;
         }
-        for (int k = 0; k < 3 * s.n_vertices; k++)
-            s.P[k] *= CASES[i].scale;
+        for (int k = 0; k < s.n_vertices; k++)
+            s.P[k] = mul(s.P[k], CASES[i].scale);
         struct geometry geo = geometry_of(t, &s);
         bool mixed = strcmp(CASES[i].name, "mixed") == 0;
         if (mixed)

@@ -166,7 +166,8 @@ static bool same_mesh(const struct mesh *m)
         return false;
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < 8; k++) {
-            float x = k < 3 ? m->P[3 * i + k] : k < 6 ? m->N[3 * i + k - 3] : m->UV[2 * i + k - 6];
+            const double p[3] = {m->P[i].x, m->P[i].y, m->P[i].z};
+            float x = k < 3 ? (float)p[k] : k < 6 ? m->N[3 * i + k - 3] : m->UV[2 * i + k - 6];
             if (x != (float)CORNER[i][k])
                 return false;
         }
@@ -436,8 +437,8 @@ static void check_long_numbers(struct test *t)
             put(&f, "0");
         put(&f, "1 0 0 0 1 0 3 0 1 2 ");
         bool ok = read_bytes(t, f.data, f.n, &m, &err);
-        CHECK(t, ok ? fabsf(m.P[3] - 0.5f) < 0.01f && m.P[4] == 0 : strstr(err.text, "no number here") != NULL,
-              "%d digits: %g %g, %s", digits, ok ? (double)m.P[3] : 0, ok ? (double)m.P[4] : 0, err.text);
+        CHECK(t, ok ? fabs(m.P[1].x - 0.5) < 0.01 && m.P[1].y == 0 : strstr(err.text, "no number here") != NULL,
+              "%d digits: %g %g, %s", digits, ok ? m.P[1].x : 0, ok ? m.P[1].y : 0, err.text);
         CHECK(t, ok || digits > 500, "%d digits are refused", digits);
         mesh_free(&m);
     }

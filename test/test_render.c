@@ -231,6 +231,51 @@ static void test_stop_late(struct test *t)
     scene_free(&scene);
 }
 
+/* --- filters with negative lobes --------------------------------------------------------------------- */
+
+/* The largest difference of a pixel from 1, of a sky of 1. */
+static double sky_error(struct test *t, const char *filter, struct render_options o, long *samples)
+{
+    struct scene scene;
+    struct film film;
+    float pixels[12 * 9 * 3];
+    double most = 0;
+    if (!scene_from_format(t, &scene, "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 9\n"
+                           "PixelFilter \"%s\" WorldBegin LightSource \"infinite\" WorldEnd\n", filter))
+        return INFINITY;
+    o.integrator = "pt";
+    render_film(t, &scene, &o, &film);
+    film_develop(&film, 1, pixels);
+    for (int i = 0; i < 12 * 9 * 3; i++)
+        most = fmax(most, fabs((double)pixels[i] - 1));
+    *samples = film.iterations;
+    film_free(&film);
+    scene_free(&scene);
+    return most;
+}
+
+static enum render_wish stop_at_once(void *context, double done)
+{
+    (void)context;
+    return done > 0 ? RENDER_STOP : RENDER_GO_ON;
+}
+
+/* The weights of four samples add up to 4, in a render that is stopped, too, but not those of half a cycle. */
+static void test_negative_lobes(struct test *t)
+{
+    static const char *const FILTERS[] = {"mitchell", "sinc"};
+    for (int i = 0; i < 2; i++) {
+        struct render_options o = {.end = 4};
+        struct render_options stopped = {.end = 16, .max_depth = 1000, .progress = stop_at_once};
+        long n;
+        for (; o.end <= 64; o.end *= 4)
+            CHECK(t, sky_error(t, FILTERS[i], o, &n) < 0.05, "%s, %ld samples: a sky of 1 is not 1", FILTERS[i], n);
+        CHECK(t, sky_error(t, FILTERS[i], stopped, &n) < 0.05 && n < 16, "%s, stopped at %ld", FILTERS[i], n);
+        o.end = 6;
+        CHECK(t, sky_error(t, FILTERS[i], o, &n) > 0.1, "%s: any number of samples is one of whole cycles", FILTERS[i]);
+    }
+}
+
 /* --- Russian roulette -------------------------------------------------------------------------------- */
 
 /* Each integrator has its own default threshold, whatever parameters of other integrators are set; the user's wins. */
@@ -291,6 +336,7 @@ void test_render(struct test *t)
     test_blocks(t);
     test_stop(t);
     test_stop_late(t);
+    test_negative_lobes(t);
     test_roulette_defaults(t);
     test_crop(t);
 }

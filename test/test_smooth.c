@@ -8,7 +8,7 @@
 #include "helpers.h"
 #include "tests.h"
 
-static float corner[] = {0, 0, 0, 2, 0, 0, 0, 1, 0};
+static vec3 corner[] = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}};
 static float corner_normal[] = {0, 0, 1, 0.6f, 0, 0.8f, 0, -0.6f, 0.8f};
 static float corner_uv[] = {0.5f, 0, 1, 0.25f, 0.25f, 1};
 static uint32_t corner_index[] = {0, 1, 2};

@@ -13,9 +13,10 @@
 static struct mesh mesh_of(const float *P, int n_vertices, const uint32_t *index, int n_triangles)
 {
     struct mesh m = {.n_vertices = n_vertices, .n_triangles = n_triangles};
-    m.P = mem_alloc((size_t)n_vertices, 3 * sizeof *m.P);
+    m.P = mem_alloc((size_t)n_vertices, sizeof *m.P);
     m.index = mem_alloc((size_t)n_triangles, 3 * sizeof *m.index);
-    memcpy(m.P, P, 3 * (size_t)n_vertices * sizeof *P);
+    for (size_t i = 0; i < (size_t)n_vertices; i++)
+        m.P[i] = load3(P, i);
     memcpy(m.index, index, 3 * (size_t)n_triangles * sizeof *index);
     return m;
 }
@@ -25,18 +26,14 @@ static bool mesh_subdivide(struct mesh *m, int levels, struct error *err)
 {
     struct shape_fields f = shape_fields_of("loopsubdiv");
     struct mesh made;
-    double *P = mem_alloc(3 * (size_t)m->n_vertices, sizeof *P);
     double *index = mem_alloc(3 * (size_t)m->n_triangles, sizeof *index);
-    for (int i = 0; i < 3 * m->n_vertices; i++)
-        P[i] = m->P[i];
     for (int i = 0; i < 3 * m->n_triangles; i++)
         index[i] = m->index[i];
-    struct field_list points = {P, m->n_vertices}, indices = {index, m->n_triangles};
+    struct field_list points = {(const double *)m->P, m->n_vertices}, indices = {index, m->n_triangles};
     shape_fields_set(&f, "P", &points, sizeof points);
     shape_fields_set(&f, "indices", &indices, sizeof indices);
     shape_fields_set(&f, "levels", &levels, sizeof levels);
     bool ok = shape_fields_mesh(&f, MESH_MAX_SUBDIVIDED, &made, err);
-    free(P);
     free(index);
     mesh_free(ok ? m : &made);
     if (ok)
@@ -75,7 +72,7 @@ static vec3 *face_normals(const struct mesh *m)
     vec3 *sum = mem_alloc((size_t)m->n_vertices, sizeof *sum);
     for (int f = 0; f < m->n_triangles; f++) {
         const uint32_t *v = &m->index[3 * f];
-        vec3 p = load3(m->P, v[0]), n = cross(sub(load3(m->P, v[1]), p), sub(load3(m->P, v[2]), p));
+        vec3 p = m->P[v[0]], n = cross(sub(m->P[v[1]], p), sub(m->P[v[2]], p));
         for (int k = 0; k < 3; k++)
             sum[v[k]] = add(sum[v[k]], n);
     }
@@ -91,16 +88,16 @@ static void check_closed(struct test *t)
         CHECK(t, fine.n_triangles == 2 * n * 256 && fine.n_vertices == 2 + fine.n_triangles / 2, "Euler: %d vertices",
               fine.n_vertices);
         for (uint32_t v = 0; v < (uint32_t)n + 2; v++)
-            CHECK(t, near3(load3(coarse.P, v), load3(fine.P, v), 1e-6), "valence %d: vertex %u has two limits", n, v);
+            CHECK(t, near3(coarse.P[v], fine.P[v], 1e-6), "valence %d: vertex %u has two limits", n, v);
         for (int f = 0; f < 2 * n; f++)
             for (int k = 0; k < 3; k++)
                 CHECK(t, fine.index[3 * 256 * f + k * 3 * 85 + k] == coarse.index[3 * f + k], "corner %d of %d", k, f);
         struct mesh control = spindle(n);
-        vec3 tip = load3(control.P, (uint32_t)n), mean = vec(0, 0, 0);
+        vec3 tip = control.P[n], mean = vec(0, 0, 0);
         for (uint32_t k = 0; k < (uint32_t)n; k++)
-            mean = add(mean, mul(load3(control.P, k), 1.0 / n));
+            mean = add(mean, mul(control.P[k], 1.0 / n));
         vec3 limit = lerp3(n == 3 ? 0.6 : 0.5, tip, mean); /* [PBRT3 3.8.2] */
-        CHECK(t, near3(load3(coarse.P, (uint32_t)n), limit, 1e-6), "valence %d: limit of the tip", n);
+        CHECK(t, near3(coarse.P[n], limit, 1e-6), "valence %d: limit of the tip", n);
         mesh_free(&control);
         vec3 *want = face_normals(&fine);
         double worst = 1;
@@ -134,8 +131,8 @@ static void check_boundary(struct test *t)
             double step = levels == 0 ? 0 : levels == 1 ? 1.0 / 8 : 1.0 / 8 + 1.0 / 32;
             double reach = levels == 0 ? 1 : levels == 1 ? 1.0 / 4 : 1.0 / 16;
             vec3 want = mul(ends, step + 0.2 * reach);
-            CHECK(t, near3(load3(m.P, 0), want, 1e-6), "%d triangles, %d levels: boundary at (%g %g)", n, levels,
-                  (double)m.P[0], (double)m.P[1]);
+            CHECK(t, near3(m.P[0], want, 1e-6), "%d triangles, %d levels: boundary at (%g %g)", n, levels,
+                  m.P[0].x, m.P[0].y);
             for (uint32_t v = 0; v < (uint32_t)m.n_vertices; v++)
                 CHECK(t, near3(normalize(load3(m.N, v)), vec(0, 0, -1), 1e-6), "a flat mesh has one normal");
             mesh_free(&m);
@@ -167,8 +164,8 @@ static void check_refused(struct test *t)
 static void check_normal_lengths(struct test *t)
 {
     struct mesh small = subdivided(t, spindle(5), 1), control = spindle(5);
-    for (int i = 0; i < 3 * control.n_vertices; i++)
-        control.P[i] *= 2;
+    for (int i = 0; i < control.n_vertices; i++)
+        control.P[i] = mul(control.P[i], 2);
     struct mesh large = subdivided(t, control, 1);
     for (uint32_t v = 0; v < (uint32_t)small.n_vertices; v++) {
         vec3 want = mul(load3(small.N, v), 4);
@@ -185,8 +182,8 @@ static void check_odd(struct test *t)
     static const uint32_t index[] = {0, 1, 2, 0, 3, 4};
     struct mesh m = subdivided(t, mesh_of(P, 6, index, 2), 3);
     for (int i = 0; i < 3 * m.n_vertices; i++)
-        CHECK(t, isfinite(m.P[i]) && isfinite(m.N[i]), "number %d is none", i);
-    CHECK(t, near3(load3(m.P, 5), vec(7, 7, 7), 0) && near3(load3(m.N, 5), vec(0, 0, 0), 0), "a point of no triangle");
+        CHECK(t, is_finite3(m.P[i / 3]) && isfinite(m.N[i]), "number %d is none", i);
+    CHECK(t, near3(m.P[5], vec(7, 7, 7), 0) && near3(load3(m.N, 5), vec(0, 0, 0), 0), "a point of no triangle");
     mesh_free(&m);
 }
 

@@ -23,6 +23,7 @@ void test_sdtree(struct test *t);
 void test_emission(struct test *t);
 void test_equal_time(struct test *t); /* part of test_report */
 void test_plan(struct test *t); /* part of test_report */
+void test_far(struct test *t);
 void test_features(struct test *t);
 void test_format(struct test *t);
 void test_file(struct test *t);

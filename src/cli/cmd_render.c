@@ -164,9 +164,10 @@ static void describe_view(const struct scene *scene, struct pixel_rect r, char *
         struct ray ray = camera_ray(&scene->camera, r.x0 + x * rect_width(r), r.y0 + y * rect_height(r), 0.5, 0.5);
         struct surface at;
         double d = scene_intersect(scene, &ray, &at) ? length(sub(at.p, ray.o)) : INFINITY;
+        vec3 p = add(at.p, scene->origin);
         if (d < nearest)
-            snprintf(text, size, "the nearest surface that it sees is at (%g %g %g), %.3g away%s", at.p.x, at.p.y,
-                     at.p.z, d, dot(at.ng, ray.d) > 0 ? ", and faces away" : "");
+            snprintf(text, size, "the nearest surface that it sees is at (%g %g %g), %.3g away%s", p.x, p.y, p.z, d,
+                     dot(at.ng, ray.d) > 0 ? ", and faces away" : "");
         nearest = fmin(d, nearest);
     }
 }

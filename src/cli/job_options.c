@@ -143,6 +143,20 @@ int job_open(struct job_loading *job, struct scene *scene, const struct method *
     return fail(&err);
 }
 
+static long wanted_spp(const struct job_options *o, const struct scene *scene)
+{
+    return o->spp > 0 ? o->spp : o->quick ? 1 : scene->spp > 0 ? scene->spp : 16;
+}
+
+long job_spp(const struct job_options *o, const struct scene *scene)
+{
+    long cycle = filter_cycle(&scene->filter);
+    return (wanted_spp(o, scene) + cycle - 1) / cycle * cycle;
+}
+
+/* Vertices are floats, and shadow rays begin a step of theirs away from surfaces: see doc/design-notes.md. */
+enum { FAR_AWAY = 1000 };
+
 int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene)
 {
     const struct job_options *o = job->options;
@@ -154,11 +168,18 @@ int job_ready(struct job_loading *job, const struct method *const *readers, stru
               parameters_read(scene, readers[0], o->max_depth, &read, &err);
     if (ok)
         scene_prepare(scene);
-    scene->n_warnings = job->n_warnings;
-    const struct light_set *l = &scene->lights;
+    vec3 center = add(scene->lights.center, scene->origin);
     if (ok && scene->media.ends)
         warn(job, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the infinite "
-             "and distant lights are", l->radius, l->center.x, l->center.y, l->center.z);
+             "and distant lights are", scene->lights.radius, center.x, center.y, center.z);
+    double distance = length(scene->lights.center) / scene->lights.radius; /* from the camera, in radii */
+    if (ok && distance > FAR_AWAY)
+        warn(job, "the scene is %.3g times its own radius away from the camera; above %d light passes through edges, "
+             "by rounding: move the camera nearer", distance, FAR_AWAY);
+    scene->n_warnings = job->n_warnings;
+    if (ok && !o->quiet && job_spp(o, scene) > wanted_spp(o, scene))
+        say_line("asbdpt: a pixel filter with negative lobes takes samples in fours: %ld, not %ld", job_spp(o, scene),
+                 wanted_spp(o, scene));
     if (ok && o->strict && job->n_warnings > 0)
         ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
     if (ok)
@@ -180,9 +201,4 @@ struct render_options job_render(const struct job_options *o, const struct scene
 {
     return (struct render_options){.integrator = m->name, .seed = o->seed, .end = job_spp(o, scene),
                                    .n_threads = o->n_threads, .max_depth = o->max_depth};
-}
-
-long job_spp(const struct job_options *o, const struct scene *scene)
-{
-    return o->spp > 0 ? o->spp : o->quick ? 1 : scene->spp > 0 ? scene->spp : 16;
 }

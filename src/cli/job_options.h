@@ -67,7 +67,8 @@ int job_open(struct job_loading *job, struct scene *scene, const struct method *
 int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene);
 
 /* job_render: what a render is to be by these options, all its samples at once.
- * job_spp: samples per pixel in force: option, 1 if quick, scene, else 16. */
+ * job_spp: samples per pixel in force: option, 1 if quick, scene, else 16; rounded up to whole cycles of the prepared
+ * scene's filter (filter.h). */
 struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m);
 long job_spp(const struct job_options *o, const struct scene *scene);
 

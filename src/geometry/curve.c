@@ -99,7 +99,7 @@ static void make_net(struct mesh *m, int columns, int rows)
 {
     size_t n = (size_t)columns * (size_t)rows;
     m->n_vertices = columns * rows;
-    m->P = mem_alloc(n, 3 * sizeof *m->P);
+    m->P = mem_alloc(n, sizeof *m->P);
     m->N = mem_alloc(n, 3 * sizeof *m->N);
     m->UV = mem_alloc(n, 2 * sizeof *m->UV);
     m->index = mem_alloc(n, 6 * sizeof *m->index);
@@ -124,7 +124,7 @@ static void put_row(struct mesh *m, int row, bool tube, vec3 p, vec3 x, vec3 y, 
         vec3 around = cylindrical(1, 2 * PI * (i % SIDES) / SIDES, 0);
         vec3 across = tube ? add(mul(x, around.x), mul(y, around.y)) : mul(y, 2 * v - 1);
         size_t k = (size_t)(row * n + i);
-        store3(m->P, k, add(p, mul(across, radius)));
+        m->P[k] = add(p, mul(across, radius));
         store3(m->N, k, tube ? across : x);
         m->UV[2 * k + 1] = (float)v;
     }

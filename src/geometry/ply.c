@@ -322,13 +322,12 @@ static bool store_vertex(struct ply *r, size_t i, const double value[NO_ROLE])
         float f = good ? (float)value[k] : 0;
         if (k <= Z && !good)
             return fail(r, "the position is not a finite number", "");
-        if (k <= Z)
-            m->P[3 * i + (size_t)k] = f;
-        else if (k <= NZ && m->N != NULL)
+        if (k > Z && k <= NZ && m->N != NULL)
             m->N[3 * i + (size_t)(k - NX)] = f;
         else if (k > NZ && m->UV != NULL)
             m->UV[2 * i + (size_t)(k - U)] = f;
     }
+    m->P[i] = vec(value[X], value[Y], value[Z]);
     return true;
 }
 
@@ -358,7 +357,7 @@ static bool start_vertices(struct ply *r, const struct ply_element *e)
     size_t count = (size_t)e->count;
     if (!(e->has[X] && e->has[Y] && e->has[Z]))
         return fail(r, "vertices have no x, y, z", "");
-    m->P = mem_alloc(count * 3, sizeof *m->P);
+    m->P = mem_alloc(count, sizeof *m->P);
     if (e->has[NX] && e->has[NY] && e->has[NZ])
         m->N = mem_alloc(count * 3, sizeof *m->N);
     if (e->has[U] && e->has[V])

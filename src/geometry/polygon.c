@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/mem.h"
-#include "base/vec.h"
 
 /* Those corners of a polygon that are left. */
 struct ring {
@@ -12,12 +11,6 @@ struct ring {
     int *after;  /* [n] the next corner */
     vec3 normal; /* of the polygon, twice its area long */
 };
-
-static vec3 point(const float *P, uint32_t i)
-{
-    const float *p = P + 3 * (size_t)i;
-    return vec((double)p[0], (double)p[1], (double)p[2]);
-}
 
 /* Twice the area of a triangle, seen along the normal, times the normal's length; above 0 where it turns left. */
 static double turn(vec3 normal, vec3 a, vec3 b, vec3 c) { return dot(normal, cross(sub(b, a), sub(c, a))); }
@@ -54,15 +47,15 @@ static void cut_ears(const struct ring *r, const uint32_t *corner, uint32_t *ind
     }
 }
 
-bool polygon_cut(const float *P, uint32_t *index, int n, double *room)
+bool polygon_cut(const vec3 *P, uint32_t *index, int n, double *room)
 {
     const uint32_t *end = index + 3 * (n - 2);
     struct ring r = {.normal = vec(0, 0, 0)};
     double least = 0;
     for (const uint32_t *t = index; t < end; t += 3) /* whatever the cut, the polygon's normal is this sum */
-        r.normal = add(r.normal, cross(sub(point(P, t[1]), point(P, t[0])), sub(point(P, t[2]), point(P, t[0]))));
+        r.normal = add(r.normal, cross(sub(P[t[1]], P[t[0]]), sub(P[t[2]], P[t[0]])));
     for (const uint32_t *t = index; t < end; t += 3)
-        least = fmin(least, turn(r.normal, point(P, t[0]), point(P, t[1]), point(P, t[2])));
+        least = fmin(least, turn(r.normal, P[t[0]], P[t[1]], P[t[2]]));
     if (least >= -1e-6 * dot(r.normal, r.normal)) /* of corners on a line, by rounding */
         return true;
     uint32_t *corner = mem_alloc((size_t)n, sizeof *corner);
@@ -70,7 +63,7 @@ bool polygon_cut(const float *P, uint32_t *index, int n, double *room)
     r.after = mem_alloc((size_t)n, sizeof *r.after);
     for (int i = 0; i < n; i++) {
         corner[i] = i < 3 ? index[i] : index[3 * (i - 2)];
-        r.at[i] = point(P, corner[i]);
+        r.at[i] = P[corner[i]];
         r.after[i] = (i + 1) % n;
     }
     cut_ears(&r, corner, index, n, room);

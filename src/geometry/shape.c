@@ -89,9 +89,9 @@ static bool add_vertices(struct geometry *geo, const struct mesh *m, const struc
     double scale_s = scale_of(m->S, false, to_world, m->n_vertices);
     reserve_vertices(geo, base + (size_t)m->n_vertices, m->S != NULL);
     for (size_t i = 0; i < (size_t)m->n_vertices; i++) {
-        vec3 p = transform_point(to_world, load3(m->P, i));
+        vec3 p = transform_point(to_world, m->P[i]);
         if (!is_place(p))
-            return error_set(err, "vertex %lu of the mesh lies at (%g, %g, %g) in the world: places go up to 1e12",
+            return error_set(err, "vertex %lu of the mesh is (%g, %g, %g) from the camera: places go up to 1e12",
                              (unsigned long)i, p.x, p.y, p.z);
         store3(geo->P, base + i, p);
         store3(geo->N, base + i, mul(direction(m->N, true, to_world, i), scale));
@@ -134,8 +134,8 @@ int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group
     quadric_normalise(&q);
     quadric_bounds(&q, &lo, &hi);
     if (!is_place(lo) || !is_place(hi)) {
-        error_set(err, "this shape reaches from (%g, %g, %g) to (%g, %g, %g) in the world: places go up to 1e12", lo.x,
-                  lo.y, lo.z, hi.x, hi.y, hi.z);
+        error_set(err, "this shape is (%g, %g, %g) to (%g, %g, %g) from the camera: places go up to 1e12", lo.x, lo.y,
+                  lo.z, hi.x, hi.y, hi.z);
         return -1;
     }
     q.group = geo->n_groups;

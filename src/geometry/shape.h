@@ -58,7 +58,8 @@ struct geometry {
 
 /* A mesh as a Shape directive or a PLY file describes it, in object space. Owned arrays; see mesh_free. */
 struct mesh {
-    float *P, *N, *UV;  /* [n_vertices * 3, 3, 2]; N and UV may be NULL */
+    vec3 *P;            /* [n_vertices]; only what is in world space is rounded to floats */
+    float *N, *UV;      /* [n_vertices * 3, 2]; may be NULL */
     uint32_t *index;    /* [n_triangles*3], every entry < n_vertices */
     int n_vertices, n_triangles;
     int n_thin;         /* faces of the file of fewer than 3 corners, which are left out */

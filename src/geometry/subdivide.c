@@ -9,6 +9,7 @@
  * Tests: test_subdivide.c.
  */
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/maths.h"
 #include "base/mem.h"
@@ -251,13 +252,11 @@ static vec3 limit_normal(const struct ring *r, vec3 p)
 static struct mesh limit_mesh(struct level *l, struct ring *ring)
 {
     struct mesh m = {.index = l->corner, .n_vertices = l->n_vertices, .n_triangles = l->n_triangles};
-    vec3 *limit = mem_alloc((size_t)m.n_vertices, sizeof *limit), *p = l->p;
-    m.P = mem_alloc((size_t)m.n_vertices, 3 * sizeof *m.P);
+    vec3 *limit = m.P = mem_alloc((size_t)m.n_vertices, sizeof *m.P), *p = l->p;
     m.N = mem_alloc((size_t)m.n_vertices, 3 * sizeof *m.N);
     for (int v = 0; v < m.n_vertices; v++) {
         ring_around(l, v, ring);
         limit[v] = limit_point(ring, p[v]);
-        store3(m.P, (size_t)v, limit[v]); /* a mean of floats */
     }
     l->p = limit;
     for (int v = 0; v < m.n_vertices; v++) {
@@ -265,15 +264,14 @@ static struct mesh limit_mesh(struct level *l, struct ring *ring)
         store3(m.N, (size_t)v, limit_normal(ring, limit[v]));
     }
     l->corner = NULL;
-    free(p);
+    l->p = p;
     return m;
 }
 
 static struct level control_level(const struct mesh *m)
 {
     struct level l = level_make(m->n_vertices, m->n_triangles);
-    for (size_t i = 0; i < (size_t)m->n_vertices; i++)
-        l.p[i] = load3(m->P, i);
+    memcpy(l.p, m->P, (size_t)m->n_vertices * sizeof *l.p);
     for (int h = 0; h < 3 * m->n_triangles; h++)
         l.corner[h] = m->index[h];
     find_out(&l);

@@ -15,7 +15,7 @@ struct ray {
 };
 
 /* ray_margin: how far from a point p of a surface, which is not met again (`from`, `to`), a ray meets others.
- * Corners are floats: surfaces nearer to each other than a float's step at p are one to the scene file. */
+ * Corners are floats: surfaces nearer to each other than a float's step at p are one. */
 static inline double ray_margin(vec3 p) { return 1e-7 * (fabs(p.x) + fabs(p.y) + fabs(p.z)); }
 
 /* Where a ray meets a primitive. */

@@ -34,7 +34,9 @@ void mesh_triangles(struct field_list P, struct field_list indices, struct mesh_
 {
     int n = P.n > 0 ? indices.n : 0;
     out->n_vertices = P.n;
-    out->P = floats(P.number, 3 * P.n);
+    out->P = mem_alloc((size_t)P.n, sizeof *out->P);
+    for (int i = 0; i < P.n; i++)
+        out->P[i] = vec(P.number[3 * i], P.number[3 * i + 1], P.number[3 * i + 2]);
     out->index = mem_alloc((size_t)n, 3 * sizeof *out->index);
     task->about = "indices";
     for (int i = 0; i < 3 * n; i++) {

@@ -96,6 +96,7 @@ static void take_sample(const struct probe *p, struct notes *notes, int64_t k, i
     arena_reset(&work->arena);
     struct pixel_sample sample = pixel_sample_begin(&pass, counts, x, y, (long)k);
     int n_eye = pixel_eye_path(&pass, &sample, work->eye, job.max_depth + 2);
+    sample.filter_weight = fabs(sample.filter_weight); /* that signs differ is no noise of an image (filter.h) */
     int n_light = pixel_light_path(&pass, counts, x, y, (uint64_t)k, &work->arena, work->light);
     pixel_sum_eye(&sample, work->eye, n_eye);
     pixel_sum_pairs(&sample, work->eye, n_eye, work->light, n_light, NO_CHOICE);

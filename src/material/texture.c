@@ -161,18 +161,19 @@ rgb image_bilinear(const struct image *img, double s, double t, enum texture_wra
 /* (s, t, 0); may be NaN where coordinates are. */
 static vec3 map_point(const struct texture_set *set, const struct mapping *m, const struct surface *at)
 {
+    vec3 p = add(at->p, set->origin);
     switch (m->kind) {
     case MAPPING_UV: return vec(m->su * at->u + m->du, m->sv * at->v + m->dv, 0);
     case MAPPING_SPHERICAL: {
-        vec3 w = normalize(transform_point_back(&set->space[m->space], at->p));
+        vec3 w = normalize(transform_point_back(&set->space[m->space], p));
         double turns = m_atan2(w.y, w.x) / (2 * PI);
         return vec(m_acos(clamp(w.z, -1, 1)) / PI, turns < 0 ? turns + 1 : turns, 0);
     }
     case MAPPING_CYLINDRICAL: {
-        vec3 w = normalize(transform_point_back(&set->space[m->space], at->p));
+        vec3 w = normalize(transform_point_back(&set->space[m->space], p));
         return vec(0.5 + m_atan2(w.y, w.x) / (2 * PI), w.z, 0);
     }
-    case MAPPING_PLANAR: return vec(dot(at->p, m->v1) + m->du, dot(at->p, m->v2) + m->dv, 0);
+    case MAPPING_PLANAR: return vec(dot(p, m->v1) + m->du, dot(p, m->v2) + m->dv, 0);
     }
     return vec(0, 0, 0);
 }
@@ -186,7 +187,7 @@ static rgb mix(rgb a, rgb b, double amount) { return rgb_add(rgb_scale(a, 1 - am
 static vec3 point_of(const struct texture_set *set, const struct texture *t, const struct surface *at)
 {
     bool in_space = t->kind == TEXTURE_CUBES || t->kind >= TEXTURE_FBM; /* and what follows: noise */
-    return in_space ? transform_point(&set->space[t->space], at->p) : map_point(set, &t->map, at);
+    return in_space ? transform_point(&set->space[t->space], add(at->p, set->origin)) : map_point(set, &t->map, at);
 }
 
 static rgb noise_value(const struct texture *t, vec3 p)

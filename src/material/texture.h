@@ -79,6 +79,7 @@ struct texture_set {
     struct image *image;     /* [n_images], owned */
     struct fourier_table *table; /* [n_tables], owned: what materials look up besides textures */
     int n_textures, n_spaces, n_images, n_tables;
+    vec3 origin;             /* of world space: textures see the coordinates of the scene file */
 };
 
 /* texture_add: append a texture; returns its number. Textures it names must have been added before.

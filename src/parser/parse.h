@@ -34,7 +34,8 @@ struct material_source {
 
 /* What every block saves. */
 struct transform_state {
-    struct transform ctm; /* object to world, before WorldBegin world to camera; of use where parse_placed says so */
+    struct transform ctm; /* object to the file's world, before WorldBegin that to camera; of use where parse_placed
+                           * says so */
     struct token made_by; /* the last directive to change a usable ctm: if it is of no use, the culprit */
     bool start_active;    /* ActiveTransform: transforms act on the start of the shutter interval */
 };
@@ -69,7 +70,7 @@ struct shape_item {
     struct mesh mesh;       /* owned */
     struct quadric quadric; /* to_world not yet set */
     struct shape_group group;
-    struct transform to_world;
+    struct transform place; /* object to the file's world */
     bool reverse;
     struct area_light area;
 };
@@ -170,8 +171,10 @@ bool parse_typed(struct parser *p);
 int parse_named(struct parser *p, struct token *name, const struct symbols *table, const char *what,
                 const char *instead);
 
-/* parse_placed: can anything stand where the current transform puts it? False if not, with a message, which is the last
+/* parse_to_world: what a transform of the file does, into world space (scene_set_origin).
+ * parse_placed: can anything stand where the current transform puts it? False if not, with a message, which is the last
  * about this transform. */
+struct transform parse_to_world(const struct parser *p, struct transform t);
 bool parse_placed(struct parser *p);
 
 /* parse_constant: a constant texture. parse_named_texture: that of "texture NAME"; -1 without such a parameter or, with

@@ -152,7 +152,7 @@ static bool light(struct parser *p)
     struct params *q = &p->params;
     struct light_item item = {.light = {.kind = (enum light_kind)p->type.kind, .prim = -1,
                                         .medium = parse_medium(p, 1)},
-                              .frame.to_world = p->place.ctm, .to = {0, 0, 1}};
+                              .frame.to_world = parse_to_world(p, p->place.ctm), .to = {0, 0, 1}};
     if (!is_turned(p, &item) && !parse_placed(p))
         return false;
     parse_fields(p, &item);
@@ -160,7 +160,8 @@ static bool light(struct parser *p)
     item.group = group(p);
     vec3 position = item.frame.position;
     if (!is_place(position))
-        type_error(q, "this light would be at (%g %g %g); places go up to 1e12", position.x, position.y, position.z);
+        type_error(q, "this light would be (%g %g %g) from the camera; places go up to 1e12", position.x, position.y,
+                   position.z);
     if (item.light.kind == LIGHT_INFINITE && ++p->n_infinite > LIGHT_MAX_INFINITE)
         type_error(q, "more than %d infinite lights; use fewer", LIGHT_MAX_INFINITE);
     if (!parse_done(p))

@@ -196,9 +196,10 @@ static void add_lights(struct scene *s, int group, int n, const struct area_ligh
 }
 
 /* Add one shape to the scene. A mesh inside the item stays the caller's. */
-static bool add_shape(struct parser *p, const struct shape_item *item, struct transform to_world,
+static bool add_shape(struct parser *p, const struct shape_item *item, struct transform place,
                       struct source_position at)
 {
+    struct transform to_world = parse_to_world(p, place);
     struct scene *s = p->scene;
     struct shape_group group = item->group;
     group.first_light = item->area.on ? s->lights.n : -1;
@@ -237,7 +238,7 @@ static bool place_shape(struct parser *p, struct shape_item *item)
         list->item[list->n++] = *item;
         return true;
     }
-    bool ok = add_shape(p, item, item->to_world, p->params.position);
+    bool ok = add_shape(p, item, item->place, p->params.position);
     mesh_free(&item->mesh);
     return ok;
 }
@@ -253,7 +254,7 @@ static bool is_seen(const struct shape_item *item)
 /* pbrt-v3 turns normals of quadrics under a mirroring transform. Here they stay, but the sides of media are its. */
 static void set_media(struct parser *p, struct shape_item *item)
 {
-    bool turned = !item->is_mesh && transform_swaps_handedness(&item->to_world);
+    bool turned = !item->is_mesh && transform_swaps_handedness(&item->place);
     item->group.medium[turned] = parse_medium(p, 0);
     item->group.medium[!turned] = parse_medium(p, 1);
 }
@@ -264,7 +265,7 @@ static bool shape(struct parser *p)
     parse_shape_types(types);
     if (!parse_typed(p) || !parse_type(p, types))
         return false;
-    struct shape_item item = {.to_world = p->place.ctm, .reverse = p->state.reverse, .area = p->state.area};
+    struct shape_item item = {.place = p->place.ctm, .reverse = p->state.reverse, .area = p->state.area};
     item.group.alpha = item.group.first_light = -1;
     if (p->type.kind < N_QUADRICS)
         parse_fields(p, &item);
@@ -342,11 +343,11 @@ static bool object_instance(struct parser *p)
                             "with this instance they take more than %.0f MB, for each is a copy; use fewer",
                             (double)MAX_COPIED_BYTES / 1e6);
     for (int k = 0; k < list->n; k++) {
-        struct transform to_world = transform_compose(p->place.ctm, list->item[k].to_world);
-        if (!transform_is_usable(&to_world))
+        struct transform place = transform_compose(p->place.ctm, list->item[k].place);
+        if (!transform_is_usable(&place))
             return source_error(&p->messages, name.position,
                                "the object's transform and this instance's together are infinite or singular");
-        if (!add_shape(p, &list->item[k], to_world, name.position))
+        if (!add_shape(p, &list->item[k], place, name.position))
             return false;
     }
     return true;

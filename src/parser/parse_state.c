@@ -58,6 +58,11 @@ bool parse_placed(struct parser *p)
                         : "its numbers and its inverse's go up to 1e30");
 }
 
+struct transform parse_to_world(const struct parser *p, struct transform t)
+{
+    return transform_compose(transform_translate(neg(p->scene->origin)), t);
+}
+
 void parse_state_reset(struct parser *p)
 {
     p->place.ctm = transform_identity();

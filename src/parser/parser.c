@@ -16,6 +16,7 @@ enum { MAX_INCLUDES = 65536 };
 static bool world_begin(struct parser *p)
 {
     p->phase = IN_WORLD;
+    scene_set_origin(p->scene);
     parse_state_reset(p);
     parse_begin_media(p);
     parse_name_system(p, "world", transform_identity());

@@ -116,9 +116,10 @@ static bool row_done(void *context, int64_t row, int slot)
     return !r->stopped;
 }
 
-/* From sums to means. False where a row has nothing. */
+/* From sums to means, positions in the coordinates of the file. False where a row has nothing. */
 static bool divide(const struct pass *r)
 {
+    const double origin[3] = {r->scene->origin.x, r->scene->origin.y, r->scene->origin.z};
     bool all = true;
     for (int row = 0; row < rect_height(r->rect); row++) {
         all = all && r->done[row] > 0;
@@ -126,7 +127,8 @@ static bool divide(const struct pass *r)
             for (int k = 0; k < N_FIRST_HIT; k++) {
                 bool of_hits = k == AOV_DEPTH || k == AOV_POSITION;
                 double n = most_of(of_hits ? r->hits[i / 3] : r->done[row], 1);
-                r->out[k][i] = float_within((double)r->out[k][i] / n);
+                double shift = k == AOV_POSITION && r->hits[i / 3] > 0 ? origin[i % 3] : 0;
+                r->out[k][i] = float_within((double)r->out[k][i] / n + shift);
             }
     }
     return all;

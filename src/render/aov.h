@@ -4,7 +4,7 @@
  *             transmission, in [0,1]: pbrt-v4's "Albedo"
  *   normal    the shading normal in world space, bump mapping included, turned towards the camera
  *   depth     distance along the camera's axis (z in camera space), the same in all channels
- *   position  in world space
+ *   position  in the world of the scene file
  *   variance  of the rendered pixel itself, the mean of its samples: the square of its standard error
  *
  * The first four are means over the first AOV_SAMPLES samples of a pixel, if the render has so many, through the very

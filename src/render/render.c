@@ -43,14 +43,14 @@ struct under_way {
 };
 
 /* Samples of a block that may have any length: few enough for a render to be stopped soon, and for the splats of a pass
- * to wait for its end. A power of two divides the runs of halves. */
+ * to wait for its end. A power of two divides the runs of halves, and cuts no cycle of the filter. */
 enum { BLOCK_SAMPLES = 1 << 17 };
 
 static int choose_block(const struct render_job *job, int tile)
 {
-    int block = LONGEST_BLOCK;
-    while (block > 1 && (rect_pixels(job->film_rect) > (size_t)(BLOCK_SAMPLES / block) ||
-                         tile * tile * block > TILE_FULL / (job->max_depth + 1)))
+    int block = LONGEST_BLOCK, least = filter_cycle(&job->scene->filter);
+    while (block > least && (rect_pixels(job->film_rect) > (size_t)(BLOCK_SAMPLES / block) ||
+                             tile * tile * block > TILE_FULL / (job->max_depth + 1)))
         block /= 2;
     return block;
 }

@@ -4,6 +4,12 @@
  * samples draw p from |h| (filter importance sampling), so a sample counts for its own pixel only; a light-image
  * splat (t = 1) adds h(p) times its value to each pixel it reaches. Both estimate the same integral.
  *
+ * Where h has negative lobes, with M = integral of max(-h, 0), one sample in four is drawn from them and has the weight
+ * -4 M, and three from the others, with 4/3 (1 + M). Any number of samples is unbiased. Which one it is depends on the
+ * quarter of [0,1) that the first number is in, and of four samples of a pixel, beginning with a multiple of four, each
+ * is in another quarter (sampler.h): so the weights of these add up to 4, and what is the same all over the filter has
+ * no noise of them.
+ *
  * Tests: test_film.c.
  */
 #ifndef ASBDPT_FILTER_H
@@ -13,7 +19,10 @@
 
 enum filter_kind { FILTER_BOX, FILTER_TRIANGLE, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_SINC };
 
-enum { FILTER_STEPS = 256 }; /* of the sampling table, over [-radius, radius] */
+enum {
+    FILTER_STEPS = 2048, /* at most, of the sampling table, over [-radius, radius] */
+    FILTER_CYCLE = 4     /* of so many samples one is drawn from negative lobes */
+};
 
 /* Separable: f(x,y) = f1(x) f1(y), each with its own radius. */
 struct filter {
@@ -23,8 +32,10 @@ struct filter {
     double B, C;      /* mitchell */
     double tau;       /* sinc */
     /* filled by filter_prepare, per axis */
-    double norm[2];                  /* 1 / integral of f1 */
-    double cdf[2][FILTER_STEPS + 1]; /* running integral of |f1|, normalised; box, triangle: unused */
+    int steps;                          /* of the table */
+    double norm[2];                     /* 1 / integral of f1 */
+    double mass[2][2];                  /* integral of |f1| times norm, where f1 is not below 0 and where it is */
+    double cdf[2][2][FILTER_STEPS + 1]; /* running integrals of both, normalised; box, triangle: unused */
 };
 
 /* filter_default: the filter of that name ("box", "triangle", "gaussian", "mitchell", "sinc") at pbrt's default
@@ -37,8 +48,12 @@ void filter_prepare(struct filter *f);
 /* filter_eval: h(dx,dy), normalised to integrate to 1 over the plane; dx, dy in pixels from the pixel's centre. */
 double filter_eval(const struct filter *f, double dx, double dy);
 
-/* filter_sample: draw an offset in pixels from the density |h| / integral |h|, or the steps of a table of it, by u1, u2
- * in [0,1). Returns the weight h / density, which makes up for the steps: of filters without negative lobes about 1. */
+/* filter_sample: draw an offset in pixels by u1, u2 in [0,1), from the density |h|, each sign of h having its share of
+ * the samples, or from the steps of a table of it. Returns the weight h / density, which makes up for the steps: about
+ * 1 of filters without negative lobes. */
 double filter_sample(const struct filter *f, double u1, double u2, double *dx, double *dy);
+
+/* filter_cycle: of a prepared filter: the weights of so many samples add up to about their number. */
+int filter_cycle(const struct filter *f);
 
 #endif

@@ -41,6 +41,18 @@ void scene_free(struct scene *s)
     memset(s, 0, sizeof *s);
 }
 
+void scene_set_origin(struct scene *s)
+{
+    struct transform *t = &s->camera.world_to_camera;
+    vec3 at = transform_point_back(t, vec(0, 0, 0));
+    int power;
+    frexp(fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z))), &power);
+    double unit = ldexp(1, power - 20);
+    s->origin = vec(unit * floor(at.x / unit + 0.5), unit * floor(at.y / unit + 0.5), unit * floor(at.z / unit + 0.5));
+    s->textures.origin = s->origin;
+    *t = transform_compose(*t, transform_translate(s->origin));
+}
+
 int scene_add_material(struct scene *s, struct material *m)
 {
     material_settle(m, s->material);

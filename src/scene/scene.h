@@ -27,6 +27,7 @@
 #include "scene/settings.h"
 
 struct scene {
+    vec3 origin;            /* of world space in the file's coordinates; see scene_set_origin */
     struct geometry geo;
     struct kdtree kd;       /* of the surfaces that have a material */
     struct kdtree kd_lamps; /* of those that have none: the see-through lights */
@@ -57,6 +58,12 @@ struct scene {
 /* scene_init: an empty scene with pbrt's defaults (1280x720 film, box filter of radius 0.5, fov 90). */
 void scene_init(struct scene *s);
 void scene_free(struct scene *s);
+
+/* scene_set_origin: put the origin of world space at the camera, to its distance's 2^-20, so that round numbers of the
+ * file still are some of floats. Vertices are floats, which are fine about the origin alone: far from that of the file
+ * a scene would be rounded to what is another one. Call it once the camera is known, before anything is placed: what
+ * has a position in the file goes to that less s->origin. [pbrt-v4 cameras.h, CameraWorld] */
+void scene_set_origin(struct scene *s);
 
 /* scene_add_material: append a material, settle and own it; returns its number. */
 int scene_add_material(struct scene *s, struct material *m);

@@ -161,8 +161,8 @@ static void fuzz_ply(const uint8_t *data, size_t size, const char *directory)
         for (int i = 0; i < 3 * m.n_triangles; i++)
             if (m.index[i] >= (uint32_t)m.n_vertices)
                 broken("a mesh names a vertex that is not there");
-        for (int i = 0; i < 3 * m.n_vertices; i++)
-            if (!isfinite(m.P[i]))
+        for (int i = 0; i < m.n_vertices; i++)
+            if (!is_finite3(m.P[i]))
                 broken("a vertex is nowhere");
         mesh_free(&m);
     } else if (err.text[0] == '\0') {

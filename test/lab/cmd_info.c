@@ -33,9 +33,10 @@ static void print_scene(const struct scene *s, const struct method *m, double se
     struct pixel_rect crop = render_crop(s);
     printf("film          %dx%d, crop [%d,%d) x [%d,%d)\n", s->width, s->height, crop.x0, crop.x1, crop.y0, crop.y1);
     static const char *const KINDS[] = {"perspective", "orthographic", "environment"};
+    vec3 lo, hi, at = add(s->camera.position, s->origin);
     printf("camera        %s, fov %g degrees, lens radius %g, at (%g, %g, %g)\n", KINDS[s->camera.kind],
            s->camera.kind == CAMERA_PERSPECTIVE ? s->camera.fov : 0, s->camera.lens_radius,
-           s->camera.position.x, s->camera.position.y, s->camera.position.z);
+           at.x, at.y, at.z);
     printf("integrator    %s\n", m->name);
     for (int i = 0; i < s->settings.n; i++) {
         struct error line; /* cleaned, as the file's words are */
@@ -47,8 +48,9 @@ static void print_scene(const struct scene *s, const struct method *m, double se
     printf("materials     %d\ntextures      %d (%d images)\n", s->n_materials, s->textures.n_textures,
            s->textures.n_images);
     print_lights(&s->lights);
-    vec3 lo, hi;
     scene_bounds(s, &lo, &hi);
+    lo = add(lo, s->origin);
+    hi = add(hi, s->origin);
     printf("bounds        (%g, %g, %g) to (%g, %g, %g)\n", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
     const struct tree_figures tree = tree_figures(&s->kd);
     printf("kd-tree       %d nodes, %zu references, depth %d, expected cost %.1f\n", s->kd.n_nodes, tree.references,

@@ -85,7 +85,8 @@ static void print_path(FILE *f, const struct scene *scene, const struct trace_pa
         bool delta = i + 1 < path->n && path->vertex[i + 1].prev_delta;
         char what[40];
         vec3 p;
-        trace_place(scene, v, &p);
+        if (!trace_place(scene, v, &p))
+            p = add(p, scene->origin);
         snprintf(what, sizeof what, "%s%s", trace_what(scene, v), delta ? ", delta" : "");
         fprintf(f, "  %c_%-4d %-17s %9.4g %9.4g %9.4g  %9.4g  %9.4g  %9.4g", letter, i, what, p.x, p.y, p.z, v->beta.r,
                 v->beta.g, v->beta.b);

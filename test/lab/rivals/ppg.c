@@ -199,7 +199,7 @@ static void trace(const struct pass *p, int thread, long i, struct findings *out
     struct pixel_sample sample = pixel_sample_begin(&pass, &s->frozen.counts, rect.x0 + (int)(at % width),
                                                     rect.y0 + (int)(at / width), -(p->end + i) / pixels);
     for (int t = trace_pixel(s, &pass, &sample, &step); t >= 2; t--)
-        if (step[t - 1].guide != NULL && step[t - 1].left) {
+        if (step[t - 1].guide != NULL && step[t - 1].left && sample.filter_weight != 0) {
             rgb found = rgb_sub(sample.value, step[t - 1].before);
             record(out, &s->tree, &pass.work->eye[t - 1], &step[t - 1], rgb_scale(found, 1 / sample.filter_weight),
                    &sample.sampler);
