@@ -245,7 +245,8 @@ void test_mis(struct test *t)
     const struct mis_counts power = {{1, 1}, {1, 1}, {1, 1}, .splat = 1024, .power = true};
     const struct mis_counts uneven = {{3, 1}, {6, 1.5}, {8, 0.7}, .splat = 300};
     const struct mis_counts both = {{3, 1}, {6, 1.5}, {8, 0.7}, .splat = 300, .power = true};
-    const struct mis_counts first = {{2, 0}, {3, 0}, {4, 0}, .splat = 300}, later = {{0, 2}, {0, 3}, {0, 4}, .splat = 300};
+    const struct mis_counts first = {{2, 0}, {3, 0}, {4, 0}, .splat = 300};
+    const struct mis_counts later = {{0, 2}, {0, 3}, {0, 4}, .splat = 300};
     const struct mis_counts mixed = {{2, 0}, {0, 3}, {4, 0}, .splat = 300, .power = true};
     const struct {
         const char *name;
