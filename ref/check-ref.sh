@@ -6,20 +6,21 @@
 program=${1:-./asbdpt} lab=${1:-./asbdpt}-lab
 spp=${2:-256}
 failures=0
+said=$(mktemp) || exit 1
+trap 'rm -f "$said"' EXIT
 for text in ref/*.txt; do
     name=$(basename "$text" .txt)
     methods=$(sed -n 's/^origin .*: \([a-z:=]*\) with seeds .* and \([a-z:=]*\) with seeds .*/\1 \2/p' "$text")
     [ -n "$methods" ] || { echo "FAILED  $text names no two methods"; failures=$((failures + 1)); }
     for method in $methods; do
         if "$lab" verify "scenes/$name.pbrt" --methods $method --reference "ref/$name.pfm" --filter box --spp "$spp" \
-            --batches 16 --seed 777000 --quiet >"/tmp/check-ref.$$"; then
-            echo "ok      $name by $method: $(grep 'ratio of' "/tmp/check-ref.$$")"
+            --batches 16 --seed 777000 --quiet >"$said"; then
+            echo "ok      $name by $method: $(grep 'ratio of' "$said")"
         else
             echo "FAILED  $name by $method"
-            cat "/tmp/check-ref.$$"
+            cat "$said"
             failures=$((failures + 1))
         fi
     done
 done
-rm -f "/tmp/check-ref.$$"
 [ $failures -eq 0 ]

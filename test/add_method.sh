@@ -17,7 +17,7 @@ awk '/^const struct method \*const method_rows\[\] = {/ {
     }
     { print }' test/lab/rows.c >"$dir/test/lab/rows.c"
 cd "$dir" || exit 1
-must make BUILD="$build" LTO=
+must make BUILD="$build" LTO= -o "$build/flags"
 must ./asbdpt-lab help integrators
 says 'resampling'
 says 'candidates'
@@ -32,7 +32,7 @@ says 'resampling:candidates=2'
 if grep -q '^In cornell-box, ' log; then echo "FAIL: it is marked:"; cat log; exit 1; fi
 cp test/lab/rivals/resampling.c whole.c
 sed 's/(L \* M \*/(L */' whole.c >test/lab/rivals/resampling.c
-must make BUILD="$build" LTO=
+must make BUILD="$build" LTO= -o "$build/flags"
 if ./asbdpt-lab verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet >log 2>&1; then
     echo "FAIL: a method without 1/M is accepted"
     exit 1

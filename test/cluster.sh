@@ -4,7 +4,8 @@
 #   sh test/cluster.sh PROGRAM
 # What is not installed, or cannot be started here, is skipped with a line.
 . test/expect.sh
-work=$dir recipes=$top/doc/cluster scene=$scenes/veach-ajar.pbrt
+work=$dir recipes=$top/doc/cluster scene=scenes/veach-ajar.pbrt # without the blanks that may be in $top
+ln -s "$scenes" scenes
 export ASBDPT="$program"
 trap 'stop_slurm; rm -rf "$dir"' EXIT
 trap 'exit 1' INT TERM
@@ -24,9 +25,9 @@ stop_slurm() {
 
 start_slurm() {
     for tool in munged slurmctld slurmd sbatch; do
-        command -v $tool >/dev/null || { echo "cluster: no $tool, Slurm's recipe not run"; return 1; }
+        command -v $tool >/dev/null || { echo "skipped: Slurm's recipe (no $tool)"; return 1; }
     done
-    [ "$(id -u)" = 0 ] || { echo "cluster: slurmd wants root, Slurm's recipe not run"; return 1; }
+    [ "$(id -u)" = 0 ] || { echo "skipped: Slurm's recipe (slurmd wants root)"; return 1; }
     host=$(uname -n | sed 's/[.].*//') socket=$work/munge.socket
     mkdir -p "$work/state" "$work/spool"
     chmod 711 "$work"
@@ -40,7 +41,7 @@ start_slurm() {
         sleep 1
         sinfo -h -o %t 2>/dev/null | grep -q idle && return 0
     done
-    echo "cluster: Slurm does not start here, its recipe not run"
+    echo "skipped: Slurm's recipe (it does not start here)"
     return 1
 }
 
@@ -58,16 +59,16 @@ run_slurm() {
     same "Slurm, part 1 stopped and put back" slurm.pfm
 }
 
-"$ASBDPT" render "$scene" --res 64x36 --spp 48 -o "$work/whole.pfm" --quiet || exit 1
-make -s -f "$recipes/Makefile" -j2 SCENE="$scene" SPP=48 PARTS=5 OUT="$work/make.pfm" "ASBDPT=$ASBDPT" \
+"$ASBDPT" render "$scene" --res 64x36 --spp 48 -o whole.pfm --quiet || exit 1
+make -s -f "$recipes/Makefile" -j2 SCENE="$scene" SPP=48 PARTS=5 OUT=make.pfm "ASBDPT=$ASBDPT" \
     OPTIONS="--res 64x36" >/dev/null 2>&1
-same make "$work/make.pfm"
+same make make.pfm
 if parallel --version 2>/dev/null | grep -q GNU; then
-    sed 's/-j 1 /-j 1 --res 64x36 /' "$recipes/parallel.sh" >"$work/parallel.sh"
-    sh "$work/parallel.sh" "$scene" 48 5 "$work/parts" "$work/parallel.pfm" -j2 >/dev/null 2>&1
-    same "GNU parallel" "$work/parallel.pfm"
+    sed 's/-j 1 /-j 1 --res 64x36 /' "$recipes/parallel.sh" >parallel.sh
+    sh parallel.sh "$scene" 48 5 "the parts" parallel.pfm -j2 >/dev/null 2>&1
+    same "GNU parallel" parallel.pfm
 else
-    echo "cluster: no GNU parallel, its recipe not run"
+    echo "skipped: GNU parallel's recipe (not installed)"
 fi
 start_slurm && run_slurm
 exit $((failures > 0))

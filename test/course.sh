@@ -29,13 +29,13 @@ files() { get "$1" hole | sed 's/ .*//' | sort -u; }
 
 # ---- copies of the tree ----
 # build TREE WORD...: what make is told; a dot for each file, and what the compiler says. -O1: it is the compiler one
-# waits for here. What is changed in a copy is built with sanitizers: they say the line in which an index leaves its
-# array.
+# waits for here. What is changed in a copy, and nothing else, is built with sanitizers: they say the line in which an
+# index leaves its array.
 build() {
-    extra="-Wno-unused-parameter -Wno-unused-function"
-    [ "$1" = "$original" ] || extra="$extra $SANE"
+    extra="-Wno-unused-parameter -Wno-unused-function" old=
+    [ "$1" = "$original" ] || { extra="$extra $SANE" old="-o build/flags"; }
     (cd "$1" && shift && MAKEFLAGS='' ${MAKE:-make} -s -j2 CC="${CC:-cc}" BUILD=build LTO= OPT=-O1 CFLAGS="$extra" \
-        "$@" 2>&1 || echo "It does not compile yet.") |
+        $old "$@" 2>&1 || echo "It does not compile yet.") |
         awk '/^  (build|asbdpt)/ { printf "."; dots++; next } /^It does not/ { bad = 1 } { print }
             END { if (dots) print ""; exit bad }'
 }
@@ -44,19 +44,19 @@ build() {
 sanitizers() {
     echo '#include <stdlib.h>
         int main(int n, char **word) { char *lost = malloc(n); lost[0] = word[0][0]; return lost = NULL, !n; }' \
-        >$work/sane.c
-    ${CC:-cc} $SANE -o $work/sane $work/sane.c 2>/dev/null && ASAN_OPTIONS=detect_leaks=0 $work/sane || SANE=
-    ASAN_OPTIONS=detect_leaks=1:exitcode=86 $work/sane >/dev/null 2>&1
+        >"$work/sane.c"
+    ${CC:-cc} $SANE -o "$work/sane" "$work/sane.c" 2>/dev/null && ASAN_OPTIONS=detect_leaks=0 "$work/sane" || SANE=
+    ASAN_OPTIONS=detect_leaks=1:exitcode=86 "$work/sane" >/dev/null 2>&1
     [ $? -eq 86 ] && leaks=1 || leaks=0
 }
 
 # alone: a tree has one original, so its commands wait for each other.
 alone() {
-    mkdir -p $work
-    [ ! -d $work/lock ] ||
+    mkdir -p "$work"
+    [ ! -d "$work/lock" ] ||
         say "Another course command works in this tree. This one waits. (If there is none: rmdir $work/lock)" >&2
-    until mkdir $work/lock 2>/dev/null; do sleep 1; done
-    trap 'rmdir $work/lock' EXIT
+    until mkdir "$work/lock" 2>/dev/null; do sleep 1; done
+    trap 'rmdir "$work/lock"' EXIT
     trap 'exit 130' INT TERM HUP PIPE
 }
 
@@ -67,10 +67,10 @@ original() {
     [ -z "$original" ] || return 0
     alone
     sanitizers
-    home=$(cat $work/where 2>/dev/null)
+    home=$(cat "$work/where" 2>/dev/null)
     if [ ! -d "${home:-/none}/kept" ]; then
         home=$(mktemp -d "${TMPDIR:-/tmp}/XXXXXXXXXX") && mkdir "$home/kept" "$home/tree" || exit
-        echo "$home" >$work/where
+        echo "$home" >"$work/where"
         say "Building the original (half a minute or more, the first time) ..."
     fi
     original=$home/tree kept=$home/kept

@@ -86,7 +86,6 @@ missing() {
         others) [ -d "${OTHERS-}" ] || echo "OTHERS=DIR, scenes by others" ;;
         references) [ -d "${REFERENCES-}" ] || echo "REFERENCES=DIR, their references" ;;
         peers) [ -d "${PEERS-}" ] || echo "PEERS=DIR, made by sh test/peers.sh build" ;;
-        *) [ -e "$need" ] || echo "$need" ;;
         esac
     done | head -n 1
 }
@@ -285,8 +284,9 @@ show_list() {
 
 case ${1-} in
 list) show_list ;;
-run)
+run) # what was built of these sources
     shift
+    make -s asbdpt asbdpt-lab build/test >/dev/null || exit
     [ $# -gt 0 ] || set -- $(for name in $(names); do
         [ -n "$(missing "$name")" ] || { [ -f $stored/$name.txt ] && ! old $stored/$name.txt "$name"; } || echo "$name"
     done)

@@ -10,8 +10,7 @@
 # new. LIST=FILE takes another list.
 program=$1 mode=$2
 list=${LIST:-test/hashes.txt}
-dir=out/hashes.$$
-mkdir -p "$dir" || exit 1
+dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 if $program --version | grep 'FLT_EVAL_METHOD'; then
     echo "hashes: not compared"
@@ -33,13 +32,12 @@ heading "$list" | sed "s/estimator $estimator,/estimator $listed,/" | grep -qxF 
 while read -r sum scene options; do
     case $sum in '#'*) echo "$sum $scene $options"; continue ;; esac
     # shellcheck disable=SC2086
-    if $program render $scene --res 20x15 --spp 2 -j 2 --quiet $options -o "$dir/x.pfm" </dev/null 2>"$dir/log"; then
+    if $program render $scene --res 20x15 --spp 2 -j 2 --quiet $options -o - </dev/null >"$dir/x.pfm" 2>"$dir/log"; then
         set -- $(cksum <"$dir/x.pfm")
     else
         echo "# FAIL: status $?, $scene $options: $(cat "$dir/log")" >&2
         set --
     fi
-    rm -f "$dir/x.pfm"
     echo "${1:-none} $scene${options:+ $options}"
 done <"$list" >"$dir/new"
 grep -q '^[0-9]' "$dir/new" || fail "no picture of $list was made"

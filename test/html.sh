@@ -12,7 +12,7 @@ wrong() { echo "html: $*"; bad=1; }
 
 # whole DIR: prints what is wrong with the pages of DIR.
 whole() {
-    find "$1" -name '*.html' | sort | LC_ALL=C xargs awk '
+    LC_ALL=C find "$1" -name '*.html' -exec awk '
         function count(text, piece,    n, at) {
             while (at = index(text, piece)) { n++; text = substr(text, at + length(piece)) }
             return n + 0
@@ -58,7 +58,7 @@ whole() {
                     print page ": " url " does not define " label
             }
         }
-        END { check() }'
+        END { check() }' {} +
 }
 
 sh doc/html.sh "$dir/html" >/dev/null || exit 1

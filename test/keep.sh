@@ -11,13 +11,21 @@ work_in() {
     [ -e "$1" ] || { echo 0; return; }
     LC_ALL=C awk '/^done / { print 1000 * $2 + $3; exit }' "$1"
 }
-# wait_until COMMAND...: until it succeeds, or for a minute.
+# wait_until COMMAND...: until it succeeds. Status 1: it has not within a minute.
 wait_until() {
     i=0
-    while ! "$@" && [ $i -lt 3000 ]; do
+    until "$@"; do
         i=$((i + 1))
+        [ $i -lt 3000 ] || return
         sleep 0.02
     done
+}
+# hold COMMAND...: let the program in the background work in steps until the command succeeds, and stop it there: it is
+# not far beyond that, however busy the machine is. release [SIGNAL...]: give it these signals at once, and let it go.
+hold() { wait_until held "$@"; }
+held() { kill -s STOP $! && { "$@" || { kill -s CONT $!; false; }; }; }
+release() {
+    for signal in "$@" CONT; do kill -s "$signal" $!; done
 }
 
 # ---- every integrator, which the laboratory has: parts add up to the whole, and a checkpoint goes on to it ----
@@ -62,14 +70,14 @@ END
 check [ "$(work_in whole.part)" = 70000 ]
 
 # ---- lights that are kept apart, and alpha, are in parts and checkpoints ----
-lit="$top/test/fixtures/parts/hidden.pbrt $size --integrator bdpt --lights lit"
-check "$program" render $lit --alpha -o whole.png
+hidden=$top/test/fixtures/parts/hidden.pbrt lit="$size --integrator bdpt --lights lit --alpha"
+check "$program" render "$hidden" $lit -o whole.png
 cp lit/light01_key.pfm whole.pfm
 for range in 0:32 32:70; do
-    check "$program" render $lit --alpha --samples $range -o $range.part
+    check "$program" render "$hidden" $lit --samples $range -o $range.part
 done
 makes whole.png "$program" merge 32:70.part 0:32.part --quiet -o sum.part -o sum.png
-makes whole.png "$program" render $lit --alpha --resume sum.part -o sum.png
+makes whole.png "$program" render "$hidden" $lit --resume sum.part -o sum.png
 same whole.pfm lit/light01_key.pfm "a light in parts"
 
 # ---- the same command again: what is done is done, also if bins do not end with a block ----
@@ -130,37 +138,46 @@ no_temporaries "after errors"
 
 # ---- a checkpoint that is made is written again, whatever has become of it meanwhile ----
 "$program" render "$box" --integrator bdpt --res 160x160 --spp 8 --maxdepth 3 --quiet -j 1 --checkpoint state \
-    --interval 0.02 -o kept.pfm 2>stderr.txt &
-wait_until [ -e state ]
+    --interval 0 -o kept.pfm 2>stderr.txt &
+hold [ -e state ]
 echo other >other
 mv other state
+release
 wait $! || fault "a render whose checkpoint was replaced: $(cat stderr.txt)"
 check [ "$(work_in state)" = 8000 ]
 check [ ! -s stderr.txt ]
 
 # ---- signals ----
-# heard SIGNAL: does it end a program here? It does not if the parent ignores it, as nohup does.
+# heard SIGNAL...: do they end a program here? One does not if the parent ignores it, as nohup does.
 heard() {
-    { sh -c "kill -s $1 \$\$"; } 2>/dev/null || return 0
-    echo "skipped: SIG$1 (it is ignored here)"
-    return 1
+    for signal; do
+        { sh -c "kill -s $signal \$\$"; } 2>/dev/null && echo "skipped: SIG$signal (it is ignored here)" && return 1
+    done
+    true
 }
-scene=$box
-# stopped STATUS SIGNAL CONDITION SAYS OPTION...: its render gets the signal when the condition, a command, is met. It
-# must end with the status, say that it is stopping and what it has reached, and leave no temporary file.
+# stopped STATUS SIGNALS CONDITION SAYS OPTION...: its render gets the signals when the condition, a command, is met. It
+# must end with the status (extended regexp), say that it is stopping and what it has reached, write a picture, and
+# leave no temporary file. One that does not hear them is the end of this.
 stopped() {
-    wanted=$1 signal=$2 condition=$3 says=$4
+    wanted=$1 signals=$2 condition=$3 says=$4
     shift 4
-    heard "$signal" || return
-    "$program" render "$scene" --quiet --time 100 "$@" 2>stderr.txt & # one that hears nothing ends all the same
-    wait_until $condition
-    kill -s "$signal" $!
+    heard $signals || return
+    rm -f caught.pfm
+    "$program" render "$box" --quiet "$@" -o caught.pfm 2>stderr.txt &
+    hold $condition
+    release $signals
+    wait_until grep -q 'asbdpt: stopped' stderr.txt || {
+        kill -s KILL $!
+        fault "$signals: not heard: $*"
+        exit 1
+    }
     wait $!
     got=$?
-    [ $got = "$wanted" ] || fault "SIG$signal: status $got: $*"
+    echo $got | grep -Eqx "$wanted" || fault "$signals: status $got: $*"
     for line in 'stopping, and writing' "$says"; do
-        grep -Eq "^asbdpt: .*$line" stderr.txt || fault "SIG$signal: no \"$line\" in $(cat stderr.txt): $*"
+        grep -Eq "^asbdpt: .*$line" stderr.txt || fault "$signals: no \"$line\" in $(cat stderr.txt): $*"
     done
+    [ -s caught.pfm ] || fault "$signals: no picture: $*"
     no_temporaries "$*"
 }
 # A render stops between two tile passes and goes on from there to the same bytes.
@@ -170,18 +187,18 @@ rm -f state
 further() { [ "$(work_in state)" -gt "$at" ]; }
 for pair in TERM:143 HUP:129 TERM:143; do
     at=$(work_in state)
-    stopped "${pair#*:}" "${pair%:*}" further "stopped by SIG${pair%:*}, at 1?[0-9] of 24" $size -j 2 \
-        --checkpoint state --resume state --interval 0.02 -o caught.pfm
+    stopped "${pair#*:}" "${pair%:*}" further "stopped by SIG${pair%:*}, at [0-9]+ of 24" $size -j 2 \
+        --checkpoint state --resume state --interval 0.02
     expect 0 '' "$lab" compare caught.pfm whole.pfm
     check awk '$1 == "mean_ratio" && $2 < 1.1 { near = 1 } END { exit !near }' stdout.txt
 done
 makes whole.pfm "$program" render "$box" $size --resume state --checkpoint state -o sum.part -o sum.pfm
 same whole.part sum.part "after signals"
-# However large the picture is.
-rm -f state caught.pfm
-stopped 143 TERM '[ -e state ]' 'stopped by SIGTERM, at 0 of 16 samples per pixel, [0-9.]+ % of the pixels at 1$' \
-    --integrator bdpt --res 1000x1000 --spp 16 --checkpoint state --interval 0.05 -o caught.pfm
-check [ -s caught.pfm ]
+# However large the picture is. Two signals at once are one wish.
+rm -f state
+stopped '143|129' 'TERM HUP' '[ -e state ]' \
+    'stopped by SIG(TERM|HUP), at 0 of 16 samples per pixel, [0-9.]+ % of the pixels at 1$' \
+    --integrator bdpt --res 1000x1000 --spp 16 --checkpoint state --interval 0.05
 # Of a checkpoint that ends within a block merge makes what the render wrote, if it is asked to.
 expect 1 'state: ends in the middle of a block of samples; --resume it first, or take --partial' \
     "$program" merge state -o early.pfm
@@ -192,7 +209,7 @@ split="--integrator lt --res 1000x1000 --spp 8 --maxdepth 2"
 some() { [ "$(work_in $range.state)" -gt 400 ]; } # of 3969 tile passes
 for range in 0:4 5:8; do
     stopped 143 TERM some 'stopped by SIGTERM, at 0 of [34] samples per pixel, [0-9.]+ % ' $split \
-        --samples $range --checkpoint $range.state --interval 0.05 -o early.part
+        --samples $range --checkpoint $range.state --interval 0.05
 done
 for range in 4:5 3:4; do check "$program" render "$box" $split --samples $range --quiet -o $range.part; done
 expect 0 '' "$program" merge --partial 4:5.part 0:4.state 5:8.state -o early.pfm
@@ -202,36 +219,46 @@ check awk '$1 == "mean_ratio" && $2 > 0.98 && $2 < 1.02 { near = 1 } END { exit 
 expect 1 '3:4.part: other parts have the samples 3:4' "$program" merge --partial 3:4.part 0:4.state -o early.pfm
 cp 0:4.state same.state
 expect 1 'same.state: other parts have the samples 0:4' "$program" merge --partial 0:4.state same.state -o early.pfm
-# Interrupted by the terminal; a shell's background commands do not hear SIGINT.
+# A signal while a method learns, when a checkpoint has no samples, ends that, and the picture is of what there is.
+rm -f state
+stopped 143 TERM '[ -e state ]' 'stopped by SIGTERM, at [0-9]+ of 1000000' --integrator asbdpt --res 200x200 \
+    --spp 1000000 --checkpoint state --interval 0
+# Interrupted by timeout, which signals the program and its group. A shell's background commands do not hear SIGINT.
 if ! timeout --preserve-status 5 true 2>/dev/null; then
     echo "skipped: a render stopped by timeout (not installed)"
 elif heard INT; then
-    timeout --preserve-status -s INT 1 "$program" render "$box" --integrator bdpt --res 32x32 --spp 1000000 --quiet \
-        --time 100 -o caught.pfm 2>stderr.txt
-    [ $? = 130 ] && grep -q 'stopped by SIGINT, at [0-9]* of' stderr.txt || fault "SIGINT: $(cat stderr.txt)"
+    rm -f state caught.pfm
+    { wait_until [ -e state ] && kill -s INT "$(cat pid)"; } &
+    sh -c 'echo $$ >pid && exec "$@"' - timeout --preserve-status 60 "$program" render "$box" --integrator bdpt \
+        --res 32x32 --spp 1000000 --quiet --checkpoint state --interval 0 -o caught.pfm 2>stderr.txt
+    [ $? = 130 ] && grep -q 'stopped by SIGINT, at [0-9]* of' stderr.txt && [ -s caught.pfm ] ||
+        fault "SIGINT: $(cat stderr.txt)"
 fi
-# A signal while a method learns ends that, and the picture is of what there is.
-stopped 143 TERM 'sleep 0.1' 'stopped by SIGTERM, at [0-9]+ of 1000000' --integrator asbdpt --res 200x200 \
-    --spp 1000000 -o learning.pfm
-check [ -s learning.pfm ]
-# A signal in the first tile pass ends it, while it has no splats in the film: there is a picture, even if it is black.
-loaded() { [ "$(find . -name '.asbdpt-*' | wc -l)" = 2 ] && sleep 0.2; } # --aov is opened when the scene is loaded
+# A limit of CPU time, which comes again every second, here in the first tile pass, while it has no splats in the film:
+# there is a picture, even if it is black.
 echo 'WorldBegin LightSource "point" WorldEnd' >empty.pbrt
-scene=empty.pbrt stopped 143 TERM loaded 'stopped by SIGTERM, at 0 of 1000000000 samples per pixel$' \
-    --integrator asbdpt -P select=bins -P restart=0 --spp 1000000000 -j 1 --aov depth -o black.pfm
+(
+    ulimit -S -t 1 && ulimit -H -t 4 && ulimit -S -c 0
+    "$program" render empty.pbrt --integrator asbdpt -P select=bins -P restart=0 --spp 1000000000 -j 1 --quiet \
+        -o black.pfm 2>stderr.txt
+    echo $? >status.txt
+)
+check [ "$(cat status.txt)" = 152 -o "$(uname)" != Linux ]
+check grep -q 'stopped by SIGXCPU, at 0 of 1000000000 samples per pixel$' stderr.txt
 check [ -s black.pfm ]
-# The second signal ends the program, here while it writes to a reader that does not read, and leaves nothing behind
-# however many outputs there are.
+# A signal a second after the first ends the program, here while it writes to a reader that does not read, and leaves
+# nothing behind however many outputs there are.
 if heard TERM; then
     rm -f state
     mkfifo slow.pfm
     sleep 100 <slow.pfm &
     reader=$!
     "$program" render "$box" --integrator pt --res 160x160 --spp 100000 --quiet -j 1 --checkpoint state \
-        --interval 0.01 -o slow.pfm $(awk 'BEGIN { while (i < 100) printf " -o m%d.pfm", i++ }') 2>stderr.txt &
+        --interval 0 -o slow.pfm $(awk 'BEGIN { while (i < 100) printf " -o m%d.pfm", i++ }') 2>stderr.txt &
     wait_until [ -s state ]
     kill -s TERM $!
     wait_until grep -q 'asbdpt: stopping' stderr.txt
+    sleep 1.1
     check kill -s TERM $!
     wait $!
     got=$?

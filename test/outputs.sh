@@ -115,15 +115,6 @@ refused 1 'have 550 pictures; --maxdepth 20 is the most' \
 # A name is wrong before the work, not after it.
 long=$(awk 'BEGIN { for (i = 0; i < 300; i++) printf "n" }')
 refused 1 'nnn.pfm: cannot be created' "$program" render nothing.pbrt -o "$long.pfm"
-# A limit of CPU time, too, ends with what there is.
-(
-    ulimit -S -t 1 && ulimit -S -c 0
-    "$program" render "$box" --integrator bdpt --res 64x64 --spp 100000 --quiet -o late.pfm 2>stderr.txt
-    echo $? >status.txt
-)
-check [ "$(cat status.txt)" = 152 -o "$(uname)" != Linux ]
-check grep -Eq 'stopped by SIGXCPU, at [0-9]' stderr.txt
-check [ -s late.pfm ]
 
 [ $failures -eq 0 ] && echo "outputs: all as expected"
 exit $((failures > 0))

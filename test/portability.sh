@@ -4,8 +4,10 @@
 # one line is said: the same bytes, skipped (and why), or FAIL. Where there is no fork the suites that need none are
 # run too. With NAMEs only those. Run from the top.
 chosen=" $* "
-dir=$(mktemp -d) || exit 1
+dir=build-portability.$$ # its path has no blanks, for it is in lines that are split there
+mkdir "$dir" || exit 1
 trap 'rm -rf "$dir"' EXIT
+trap 'exit 1' HUP INT TERM
 failures=0
 
 # line WORDS: the build line of doc/portability.md that follows these WORDS.

@@ -42,7 +42,7 @@ judge() {
 # build N SIZE: the suite with that fault of that size.
 build() {
     touch "$work/tree/$(field "$1" 2)"
-    make -s -C $work/tree ${CC:+"CC=$CC"} LTO= CFLAGS="-DFAULT=$2" build/test >$work/output.txt 2>&1
+    make -s -C $work/tree ${CC:+"CC=$CC"} LTO= CFLAGS="-DFAULT=$2" -o build/flags build/test >$work/output.txt 2>&1
 }
 
 # wanted SUITE SIZE: is this size to be tried after those before? By how far those are found.

@@ -1,13 +1,12 @@
 #!/bin/sh
-# references.sh [TOP]: does every source named in a comment resolve? A source is a bracket in a comment of TOP's src and
-# test, [KEY] or [KEY WHERE], that begins with a capital and a second letter or digit (but is no constant's name and no
+# references.sh: does every source named in a comment resolve? A source is a bracket in a comment of src and test,
+# [KEY] or [KEY WHERE], that begins with a capital and a second letter or digit (but is no constant's name and no
 # usage line), begins with pbrt-v3, or ends with a year. Checked:
 #   1. KEY is an entry of doc/references.md, a line "- **[KEY]**", and WHERE has the form of a place in a source;
 #   2. every entry is used, or says "Background reading"; entries are in alphabetical order, none twice.
-# Prints what is wrong, or one line; exit status 0 only if nothing is.
-top=${1:-.}
+# Prints what is wrong, or one line; exit status 0 only if nothing is. Run from the top.
 export LC_ALL=C
-awk -f "$(dirname "$0")/pieces.awk" $(find "$top/src" "$top/test" -name '*.[ch]' | sort) | awk -F '\t' '
+awk -f test/pieces.awk $(find src test -name '*.[ch]' | sort) | awk -F '\t' '
     function wrong(text) { print text; bad = 1 }
 
     # The key that begins this source: the longest entry that ends at a blank or at the end.
@@ -63,4 +62,4 @@ awk -f "$(dirname "$0")/pieces.awk" $(find "$top/src" "$top/test" -name '*.[ch]'
         if (n_entries == 0) wrong("doc/references.md has no entries")
         if (!bad) print "references: all of " n_entries " keys resolve and are used"
         exit bad
-    }' "$top/doc/references.md" -
+    }' doc/references.md -

@@ -1,15 +1,14 @@
 #!/bin/sh
-# standard.sh [TOP]: TOP's src and test/lab keep to what is the same everywhere:
+# standard.sh: src and test/lab keep to what is the same everywhere:
 #   1. it calls no function of libm that every library rounds in its own way, which would give pictures other bytes on
 #      another machine: base/maths.h has them. What IEEE 754 or C99 defines to the last bit (sqrt, fabs, floor, ceil,
 #      fmin, fmax, fmod, frexp, ldexp, nextafter) may be called;
 #   2. it includes no header that C99 does not have, except in base/os.c and os_thread.c, nor asks there for what
 #      headers may show;
 #   3. it prints messages by say_line() alone (base/error.h), which lets no control character of a file through.
-# Prints what is wrong; exit status 0 only if nothing is.
-top=${1:-.}
+# Prints what is wrong; exit status 0 only if nothing is. Run from the top.
 export LC_ALL=C
-awk -f "$(dirname "$0")/pieces.awk" $(find "$top/src" "$top/test/lab" -name '*.[ch]' | sort) | awk -F '\t' '
+awk -f test/pieces.awk $(find src test/lab -name '*.[ch]' | sort) | awk -F '\t' '
     BEGIN {
         n = split("sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 " \
                   "log10 log1p pow sincos hypot cbrt erf erfc lgamma tgamma fma j0 j1 jn y0 y1 yn", name, " ")

@@ -3,8 +3,7 @@
 #   - the words of each page, without measured tables, against words/limits.txt;
 #   - the words of each sentence (at most 35) and their mean over a page (below 18);
 #   - that no phrase of words/phrases.txt is in a page, or in a comment or a string of src and test/lab.
-# words/exceptions.txt lists what may stay. Prints the words of each row of limits.txt, then what is wrong; exit status
-# 0 only if nothing is.
+# words/exceptions.txt lists what may stay. Prints the words of each row of limits.txt, then what it has found.
 awk=$(cd "$(dirname "$0")/words" && pwd) && lists=$(cd "${2:-$awk}" && pwd) && cd "${1:-.}" || exit 2
 LC_ALL=C
 export LC_ALL

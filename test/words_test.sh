@@ -18,7 +18,8 @@ repeat() { awk -v count="$1" -v text="$2" 'BEGIN { while (count-- > 0) printf "%
 } >"$dir/doc/good.md"
 printf '#include "lamp.h"\n/* A light, `lamp` of lamp.h. */\nchar *lamp = "\\"good", c = %s, lamp;\n' "'\"'" \
     >"$dir/src/good.c"
-words || { echo "words.sh finds something in what is good:"; cat "$dir/told"; exit 1; }
+words
+grep -q ', 0 findings$' "$dir/told" || { echo "words.sh finds something in what is good:"; cat "$dir/told"; exit 1; }
 
 {
     printf '# Lamp\n\nAll can do it but\nfor one.\n\n- '
@@ -30,7 +31,7 @@ repeat 3 "Here $(repeat 16 word)word." >"$dir/doc/mean.md"
 echo 'A word.' >"$dir/other.md"
 printf 'int a; /* a value\n * whoever\n * needs */ char *s = "is %%d lamps";\n' >"$dir/src/bad.c"
 printf 'doc/short.md | lamps | an exception that nobody needs\n' >>"$dir/lists/exceptions.txt"
-words && { echo "words.sh finds nothing in what is bad"; exit 1; }
+words
 cat >"$dir/expected" <<'END'
 doc/mean.md:1: long sentences -> 18.0 words in the mean
 doc/short.md:1: lamp -> light

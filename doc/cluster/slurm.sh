@@ -2,9 +2,9 @@
 # slurm.sh: one picture by a Slurm job array: every task renders a share of the samples of each pixel.
 #
 #     parts=64; scene=room.pbrt; spp=4096; dir=room.parts
-#     mkdir -p $dir
-#     job=$(sbatch --parsable --array=0-$((parts - 1)) slurm.sh $scene $spp $dir)
-#     sbatch --dependency=afterok:$job --wrap "asbdpt merge $dir/*.part -o room.exr"
+#     mkdir -p "$dir"
+#     job=$(sbatch --parsable --array=0-$((parts - 1)) slurm.sh "$scene" $spp "$dir")
+#     sbatch --dependency=afterok:$job --wrap "asbdpt merge '$dir'/*.part -o room.exr"
 #
 # A task that is preempted or whose node fails is put into the queue again (--requeue) and goes on from its checkpoint.
 # Words after the directory are options of asbdpt render, the same for all tasks: --maxdepth 8 -P select=vertices.

@@ -8,12 +8,12 @@
 set -eu
 scene=$1
 shift
+tile=$(mktemp -d) && trap 'rm -rf "$tile"' EXIT
 awk 'BEGIN { for (y = 0; y < 180; y += 16) for (x = 0; x < 320; x += 16)
     print x / 320, (x + 16) / 320, y / 180, (y + 16 > 180 ? 180 : y + 16) / 180 }' |
     while read -r left right top bottom; do
         # shellcheck disable=SC2086
         "${ASBDPT:-asbdpt}" render "$scene" --res 320x180 "$@" --cropwindow $left $right $top $bottom -j 1 \
-            -o "${TMPDIR:-/tmp}/tile.$$.pfm" 2>&1 </dev/null |
+            -o "$tile/x.pfm" 2>&1 </dev/null |
             sed -n 's/.*: \([0-9]*\)x\([0-9]*\), \([0-9]*\) spp.* \([0-9.]*\) us per.*/\1 \2 \3 \4/p'
     done | awk '{ print $1 * $2 * $3 * $4 * 1e-6 }'
-rm -f "${TMPDIR:-/tmp}/tile.$$.pfm"

@@ -2,6 +2,7 @@
 
 #include "base/interrupt.h"
 
+#include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 
@@ -15,6 +16,7 @@ struct temporary {
 };
 
 static volatile sig_atomic_t caught;
+static volatile double caught_at = HUGE_VAL; /* os_wall_seconds */
 static const char *volatile deferred; /* what is to be said; NULL: no signal is kept */
 static struct temporary *volatile first; /* never given back */
 
@@ -31,14 +33,16 @@ static void remove_temporaries(void)
 static void note(int number)
 {
     const char *notice = deferred;
-    if (notice != NULL && (caught == 0 || os_signal_repeats(number))) {
-        if (caught == 0)
-            os_say_at_once(notice);
-        caught = caught != 0 ? caught : number;
-        return;
+    double now = os_wall_seconds();
+    if (notice == NULL || (now - caught_at >= 1 && !os_signal_repeats(number))) {
+        remove_temporaries();
+        _Exit(128 + number);
     }
-    remove_temporaries();
-    _Exit(128 + number);
+    if (caught == 0) {
+        caught_at = now;
+        os_say_at_once(notice);
+        caught = number;
+    }
 }
 
 void interrupt_init(void)

@@ -1,9 +1,10 @@
 /* interrupt.h: what happens when somebody ends the program: signals, and the temporary files that must go.
  *
- * Until interrupt_defer the first SIGINT, SIGTERM, SIGHUP or SIGXCPU (a limit of CPU time) ends the program; after it
- * the first is kept for the work to look at, so that a render can stop and write what there is, and only
- * the second ends the program at once, unless it is a further SIGXCPU, which nobody sends. Whichever way the program
- * ends, short of SIGKILL, temporary files are removed: file.h registers them here.
+ * Until interrupt_defer the first SIGINT, SIGTERM, SIGHUP or SIGXCPU (a limit of CPU time) ends the program. After it
+ * the first is kept for the work to look at, so that a render can stop and write what there is. Whatever follows within
+ * a second is the same wish: a terminal, GNU timeout and batch systems signal a program and its group. A later one ends
+ * the program at once, unless it is a further SIGXCPU, which nobody sends. Whichever way the program ends, except by
+ * SIGKILL, temporary files are removed: file.h registers them here.
  *
  * A signal handler can reach nothing but static variables; those of interrupt.c are the only ones of the program that
  * change. Tests: test/keep.sh. */

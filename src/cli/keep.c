@@ -108,7 +108,8 @@ static void save(struct keep *k)
 }
 
 /* In place of a bar, or without the first character. */
-static const char STOPPING[] = "\rasbdpt: stopping, and writing the image so far; once more to quit without it\n";
+static const char STOPPING[] = "\rasbdpt: stopping, and writing the image so far; "
+                               "again after a second to quit without it\n";
 
 /* Is the time over, and so many seconds more? */
 static bool late(const struct keep *k, double more)

@@ -98,9 +98,13 @@ pictures() {
 
 # verdict DIR N: of N pictures of each side. Status 0: they agree; 3: more pictures may tell.
 verdict() {
-    "$original/asbdpt-lab" verify doc/mini/rooms.pbrt --tile 8 --quiet --files $(seq -f "$1/yours-%g.pfm" "$2") \
-        --against $(seq -f "$shots/original-%g.pfm" "$2") >"$1/verify.txt" 2>&1
-    awk -v before="$(noise "$shots/original")" -v after="$(noise "$1/yours")" '
+    into=$1 n_pictures=$2
+    set -- --files
+    for k in $(seq "$n_pictures"); do set -- "$@" "$into/yours-$k.pfm"; done
+    set -- "$@" --against
+    for k in $(seq "$n_pictures"); do set -- "$@" "$shots/original-$k.pfm"; done
+    "$original/asbdpt-lab" verify doc/mini/rooms.pbrt --tile 8 --quiet "$@" >"$into/verify.txt" 2>&1
+    awk -v before="$(noise "$shots/original")" -v after="$(noise "$into/yours")" '
         /^ratio of the means/ { ratio = $5; error = $7 }
         /^p, smallest/ { place = $0; sub(/^.*tile/, "tile", place) }
         /^verdict:/ { verdict = $2; p = $5 }
@@ -115,7 +119,7 @@ verdict() {
             else if (off > 4) printf "too bright by %.1f %%.\n", 100 * (ratio - 1)
             else print "nearly right as a whole, but not everywhere: see the " place "."
             if (before > 0) printf "Noise: %.2f times that of the original.\n", after / before
-            exit doubtful ? 3 : verdict != "agree" }' "$1/verify.txt"
+            exit doubtful ? 3 : verdict != "agree" }' "$into/verify.txt"
 }
 
 # measure NAME TREE DIR: pictures of the original and of TREE, and in words how they differ: of eight pictures, and of

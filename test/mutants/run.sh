@@ -8,7 +8,7 @@
 set -u
 list=test/mutants/list.txt
 work=build-mutants
-TIMEOUT=900
+TIMEOUT=3600 # of the clock: a busy machine may need long
 limit=$(command -v timeout || command -v gtimeout) && limit="$limit $TIMEOUT" # else there is none
 rest=all
 [ "${WHOLE:-yes}" = no ] && rest=
@@ -47,7 +47,7 @@ verdict() {
 # worker NUMBER: every WORKERS-th mutant in a tree of its own.
 worker() {
     tree=$work/tree$1
-    chosen | awk -v n="$1" -v workers="$workers" 'NR % workers == n' | while read -r name file tests; do
+    chosen | awk -v n="$1" -v workers="$workers" 'NR % workers == n % workers' | while read -r name file tests; do
         cp "$tree/$file" "$tree/saved"
         printf '%-18s %s\n' "$name" "$(verdict "$name" "$tree" "$(echo "$tests" | tr , ' ') $rest" </dev/null)"
         cp "$tree/saved" "$tree/$file"
@@ -65,11 +65,9 @@ cp -Rp Makefile src test scenes ref doc $work/tree0/
 for test in $(chosen | sed 's/.* //' | tr , '\n' | sort -u) $rest; do # one that fails would seem to catch them all
     try $work/tree0 "$test" || { echo "$test fails without any fault: $work/tree0/output.txt"; exit 1; }
 done
-w=0
-while [ $w -lt "$workers" ]; do
-    [ $w -eq 0 ] || { rm -rf $work/tree$w && cp -Rp $work/tree0 $work/tree$w; } || exit
-    worker $w &
-    w=$((w + 1))
+for w in $(seq "$workers"); do # copies of a tree that no fault is ever planted in
+    rm -rf "$work/tree$w" && cp -Rp $work/tree0 "$work/tree$w" || exit
+    worker "$w" &
 done
 wait
 chosen | while read -r name file tests; do

@@ -76,5 +76,4 @@ END {
     for (i = 1; i <= exceptions; i++) if (!used[i]) found("exceptions.txt", i, "an exception without use", excepted[i])
     for (i = 1; i <= n_wrong; i++) print wrong[i]
     print "words: " all[rows] " words to be read, " n_wrong + 0 " findings"
-    exit n_wrong > 0
 }
