@@ -103,7 +103,7 @@ bool results_write(const struct results *r, const char *name, void (*write)(FILE
 /* results_ratio: mean of a[na] over mean of b[nb], both independent and positive on average. The interval is Welch's,
  * on the logarithm of the ratio.
  *   price  variance of that logarithm which seeds do not show, known by three rounds of timing; or 0
- *   doubt  likewise, taken for exact: the sum of both methods' results_doubt; with NaN there is no ratio */
+ *   doubt  more of it, taken for exact: the sum of both methods' results_doubt; with NaN there is no ratio */
 struct interval results_ratio(const double *a, int na, const double *b, int nb, double price, double doubt);
 
 /* results_mean_log: geometric mean of n numbers given by their logarithms, with Student's interval. */
