@@ -164,13 +164,22 @@ struct sides_steps {
     const double *a, *b;
 };
 
-/* Welch's p-value, or more if the darker side may lack but a few samples as large as there are near. */
-static double value_p(struct moments x, struct moments y, struct sides_steps steps, long i)
+/* Welch's p-value, or more if the darker side may lack but a few samples of its step's size. */
+static double rare_p(struct moments x, struct moments y, double step_x, double step_y)
 {
-    double p = welch(x, y), lacks = fabs(x.mean - y.mean);
-    if (steps.a == NULL)
-        return p;
-    return most_of(p, x.mean < y.mean ? missed_p(x, lacks, steps.a[i]) : missed_p(y, lacks, steps.b[i]));
+    double lacks = fabs(x.mean - y.mean);
+    return most_of(welch(x, y), x.mean < y.mean ? missed_p(x, lacks, step_x) : missed_p(y, lacks, step_y));
+}
+
+/* The same of the means over all values: a sample has three channels. */
+static double mean_p(const struct batches *a, const struct batches *b, struct sides_steps steps)
+{
+    double most[2] = {0, 0};
+    for (long i = 0; i < a->n; i++) {
+        most[0] = most_of(most[0], steps.a[i]);
+        most[1] = most_of(most[1], steps.b[i]);
+    }
+    return rare_p(total_moments(a), total_moments(b), 3 * most[0] / (double)a->n, 3 * most[1] / (double)a->n);
 }
 
 /* p-values of all n hypotheses; those between two exact, equal values say nothing and are left out. Returns how many
@@ -184,7 +193,7 @@ static long all_p(const struct batches *a, const struct batches *b, struct sides
             continue;
         if (where != NULL)
             where[n] = i;
-        p[n++] = value_p(x, y, steps, i);
+        p[n++] = steps.a != NULL ? rare_p(x, y, steps.a[i], steps.b[i]) : welch(x, y);
     }
     return n;
 }
@@ -274,7 +283,7 @@ struct verdict verify_batches(const struct batches *a, const struct batches *b, 
         v.bar[int_within(p[i] * VERIFY_BARS, 0, VERIFY_BARS - 1)]++;
     v.uniform = v.n > 0 ? uniform_p(a, b, steps, stats_ks_distance(p, (size_t)v.n), seed) : 1;
     struct moments x = total_moments(a), y = total_moments(b);
-    v.mean = welch(x, y);
+    v.mean = mean_p(a, b, steps);
     v.ratio = x.mean / y.mean;
     v.ratio_error = fabs(v.ratio) * sqrt(x.variance / (x.n * x.mean * x.mean) + y.variance / (y.n * y.mean * y.mean));
     v.p = stats_sidak(least_of(v.smallest, least_of(v.mean, v.uniform)), 3);
