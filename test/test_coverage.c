@@ -91,8 +91,8 @@ static void measure_once(struct rng *r, struct scene_results *s)
         }
 }
 
-/* Of measurements against references of so many samples at most one in ten has an interval without the truth, whether or
- * not there are numbers; against clean ones there are. What references say of their own noise is true. */
+/* Of measurements against references of so many samples at most one in ten has an interval without the truth, whether
+ * or not there are numbers; against clean ones there are. What references say of their own noise is true. */
 static void check(struct test *t, int seeds, int reference_spp, bool clean, const double ratio[N_SQUARES])
 {
     static const struct price price = {0, 1, 0};
@@ -119,8 +119,8 @@ static void check(struct test *t, int seeds, int reference_spp, bool clean, cons
         reference_free(&s->reference);
     }
     for (int k = 0; k < N_SQUARES; k++)
-        CHECK(t, wrong[k] <= TRIALS / 10 && (!clean || told[k] > TRIALS * 9 / 10), "%d seeds, a reference of %d samples: "
-              "%d of %d measurements have %s, %d of them a wrong one", seeds, 2 * BATCHES * reference_spp, told[k],
+        CHECK(t, wrong[k] <= TRIALS / 10 && (!clean || told[k] > TRIALS * 9 / 10), "%d seeds, a reference of %d "
+              "samples: %d of %d measurements have %s, %d of them a wrong one", seeds, 2 * BATCHES * reference_spp, told[k],
               TRIALS, EQUAL_NAMES[k], wrong[k]);
     CHECK(t, noise > real / 1.4 && noise < real * 1.4, "the reference's squared error is %g, not %g", noise, real);
     free(s);

@@ -94,8 +94,8 @@ float *film_alpha(const struct film *f);
 /* film_warn: say on stderr how many contributions were left out and how many values film_develop cut, if any. */
 void film_warn(const struct film *f, long cut);
 
-/* film_standard_error: of each value of film_develop a bound from above; infinite with fewer than two iterations. The film must have been
- * asked to keep errors. */
+/* film_standard_error: of each value of film_develop a bound from above; infinite with fewer than two iterations. The
+ * film must have been asked to keep errors. */
 void film_standard_error(const struct film *f, double scale, float *out);
 
 #endif

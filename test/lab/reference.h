@@ -7,9 +7,9 @@
  *     noise8      X   root mean square of the standard errors of its 8-bit values
  *     noise_relmse X, noise_8x8 X   its own part of these squared errors (compare.h)
  *     mean_error  X   standard error of its mean, relative to the mean
- * are read and the others kept for people, and a picture NAME.error.pfm of its standard errors. Noise that the text does
- * not tell comes from these errors, or is unknown. A reference fits a wanted size when its own is the same or a whole
- * multiple: with a box filter the mean of k x k pixels is exactly the pixel of the smaller picture.
+ * are read and the others kept for people, and a picture NAME.error.pfm of its standard errors. Noise that the text
+ * does not tell comes from these errors, or is unknown. A reference fits a wanted size when its own is the same or a
+ * whole multiple: with a box filter the mean of k x k pixels is exactly the pixel of the smaller picture.
  *
  * Where none is stored, one is rendered: two sides of independent batches (sides.h), their mean, and the errors that
  * follow from how the batches scatter, stored as any other.
