@@ -120,8 +120,8 @@ static void check(struct test *t, int seeds, int reference_spp, bool clean, cons
     }
     for (int k = 0; k < N_SQUARES; k++)
         CHECK(t, wrong[k] <= TRIALS / 10 && (!clean || told[k] > TRIALS * 9 / 10), "%d seeds, a reference of %d "
-              "samples: %d of %d measurements have %s, %d of them a wrong one", seeds, 2 * BATCHES * reference_spp, told[k],
-              TRIALS, EQUAL_NAMES[k], wrong[k]);
+              "samples: %d of %d measurements have %s, %d of them a wrong one", seeds,
+              2 * BATCHES * reference_spp, told[k], TRIALS, EQUAL_NAMES[k], wrong[k]);
     CHECK(t, noise > real / 1.4 && noise < real * 1.4, "the reference's squared error is %g, not %g", noise, real);
     free(s);
 }

@@ -82,8 +82,8 @@ static void test_power(struct test *t)
 enum { RARE_SIDE = 8, RARE_BATCHES = 12, RARE_PIXELS = 16 * RARE_SIDE * RARE_SIDE };
 
 /* Batches of 32x32 pixels, a tile being 4x4, darker to the right. From left to right a pixel's light comes, with
- * growing share, as rare samples: of mean size 1 over `chance`, in that share of pixels. Beyond the middle there is only
- * that.
+ * growing share, as rare samples: of mean size 1 over `chance`, in that share of pixels. Beyond the middle there is
+ * only that.
  *   scale  of one tile of the left half */
 static struct batches rare(struct rng *r, double chance, double scale)
 {
