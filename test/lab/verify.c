@@ -151,7 +151,7 @@ static double *rare_steps(const struct batches *b)
     return out;
 }
 
-/* The probability that a side has missed all samples of this size that bring what its mean lacks. */
+/* The probability that a side has missed all samples of this size that its mean lacks. */
 static double missed_p(struct moments side, double lacks, double step)
 {
     return step > 0 ? m_exp(-lacks * side.n / step) : 0;
