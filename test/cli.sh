@@ -361,6 +361,17 @@ check [ "$(grep -c '^cornell-box,bdpt,.*,2,' equal/runs.csv)" = 2 ]
 prints 'equal-time --seconds 0.01 --methods bdpt,asbdpt:select=pool --seeds 2' \
     "$lab" equal-time "$box" --methods bdpt,asbdpt:select=pool --seconds 0.01 $tiny -o equal
 check [ "$(grep -c '^cornell-box,asbdpt:select=pool,' equal/runs.csv)" = 2 ]
+# Fewer than three seeds need a reference that is stored and says how noisy it is.
+expect 1 'fewer than three seeds need a stored reference whose noise is known; use --seeds 3, or' \
+    "$lab" equal-time "$box" $tiny --res 9x9 --spp 2 -o few
+cp ref/cornell-box.pfm plain.pfm
+expect 1 'fewer than three seeds' "$lab" equal-time "$box" $tiny --spp 2 --reference plain.pfm -o few
+check [ ! -e few ]
+echo 'noise8 0.5' >plain.txt
+prints '^| asbdpt | - |$' "$lab" equal-time "$box" $tiny --spp 2 --seeds 1 --reference plain.pfm -o few
+check awk -F , '{ for (i = 1; i <= NF; i++) at[NR, i] = $i }
+    END { exit NF != 16 || at[1, 8] != "mse8" || at[1, 9] != "relmse" || at[1, 10] != "relmse8x8" || at[2, 9] != "" ||
+          (at[2, 8] - at[2, 6] ^ 2 + 0.25 / 16) ^ 2 > 1e-6 }' few/runs.csv # a pixel is the mean of 4x4 of the reference
 # family: once more, nothing is measured again.
 set -- "$box" "$scenes/veach-ajar.pbrt" --methods bdpt,pt,lvc --quick --spp 2 --res 8x8 --seeds 3 -o family
 expect 0 'cornell-box, lvc:.*, seed' "$lab" family "$@"
@@ -378,7 +389,7 @@ mkdir -p bathroom/ref
 echo 'Film "image" "integer xresolution" 32 "integer yresolution" 32 WorldBegin
 LightSource "point" "point from" [0 0 -3] Shape "sphere" WorldEnd' >bathroom/scene.pbrt
 cp ref/bathroom.pfm ref/bathroom.txt bathroom/ref
-tiny="--seeds 1 --spp 1 --reference-spp 4 --methods bdpt"
+tiny="--seeds 3 --spp 1 --reference-spp 4 --methods bdpt"
 expect 0 'bathroom.pfm.* is of another scene: measured at 32x32 pixels' \
     "$lab" equal-time bathroom/scene.pbrt $tiny -o foreign
 

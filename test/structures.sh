@@ -7,7 +7,7 @@
 # structures.sh draw: structures.svg of structures.txt.
 draw() {
     awk '/^== / { on = $2 == "data" } on && NF == 7 { print $1, $2, $3, $4, "-" }' | sort -t - -k 2,2 -k 1,1n |
-        awk -v title="Squared error (rmse8) in the same CPU time, relative to the better of bdpt and pt" \
+        awk -v title="Squared error (mse8) in the same CPU time, relative to the better of bdpt and pt" \
             -v dot="asbdpt, with its 95 % interval" -v axis="1: as good as the better; lower is better" \
             -v least=0.1 -v most=5 -f doc/tour/dots.awk
 }

@@ -264,6 +264,51 @@ static void test_variance(struct test *t)
     film_free(&film);
 }
 
+/* The sum over all pixels of the variance that renders tell, over that of their scatter over seeds. */
+static double told_variance(struct test *t, const char *path, const char *integrator)
+{
+    enum { SEEDS = 16 };
+    struct error err = {.text = ""};
+    struct scene scene;
+    double told = 0, sum[VALUES] = {0}, squares[VALUES] = {0}, scatter = 0;
+    float value[VALUES], variance[VALUES];
+    if (!scene_from_file(t, path, W, H, &scene))
+        return NAN;
+    for (int seed = 0; seed < SEEDS; seed++) {
+        struct render_options o = {.integrator = integrator, .end = 16, .n_threads = 2, .max_depth = 5,
+                                   .seed = test_seed(t) + (uint64_t)seed};
+        struct film film;
+        film_init(&film, render_crop(&scene), W, H);
+        film_keep_errors(&film);
+        CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
+        film_develop(&film, 1, value);
+        aov_variance(&film, 1, variance);
+        film_free(&film);
+        for (int i = 0; i < VALUES; i++) {
+            told += (double)variance[i] / SEEDS;
+            sum[i] += (double)value[i];
+            squares[i] += (double)value[i] * (double)value[i];
+        }
+    }
+    for (int i = 0; i < VALUES; i++)
+        scatter += (squares[i] - sum[i] * sum[i] / SEEDS) / (SEEDS - 1);
+    scene_free(&scene);
+    return told / scatter;
+}
+
+/* What is told is a bound: never surely below the scatter over seeds, and in the Cornell box, whose light has a sharp
+ * edge, far above, since the samples of a pixel are points of nets. */
+static void test_variance_bound(struct test *t)
+{
+    static const char *const scenes[] = {"scenes/cornell-box.pbrt", "scenes/corridor.pbrt", "scenes/spot.pbrt"};
+    static const char *const methods[] = {"pt", "bdpt", "asbdpt"};
+    for (int i = 0; i < 9; i++) {
+        double ratio = told_variance(t, scenes[i / 3], methods[i % 3]);
+        CHECK(t, ratio > 0.8 && (i >= 3 || ratio > 2), "%s, %s: the variance told is %g times that over seeds",
+              scenes[i / 3], methods[i % 3], ratio);
+    }
+}
+
 /* Who watches, and what they say after so many rows. */
 struct watcher {
     int rows, patience;
@@ -328,5 +373,6 @@ void test_aov(struct test *t)
     test_same(t);
     test_path(t);
     test_variance(t);
+    test_variance_bound(t);
     test_ends(t);
 }

@@ -106,7 +106,7 @@ static void check_ratios(struct test *t, struct results *r)
           near(i.low * i.high, 16), "interval of three seeds each and the price: %g [%g, %g]", i.value, i.low, i.high);
     i = equal_ratio(&r->scene[1], 2, 0, SQUARE_RELMSE);
     CHECK(t, near(log(i.high / i.value), student_quantile(0.05, 4) * sqrt(2 * v)), "Welch's interval: to %g", i.high);
-    struct equal_ends s = equal_ends(r, 1, SQUARE_RMSE8);
+    struct equal_ends s = equal_ends(r, 1, SQUARE_MSE8);
     CHECK(t, near(s.best, 0.5) && near(s.worst, 4), "best %g, worst %g", s.best, s.worst);
     CHECK(t, strcmp(s.best_scene, "a") == 0 && strcmp(s.worst_scene, "b") == 0, "in their scenes");
     int n;
@@ -166,7 +166,7 @@ static void check_claims(struct test *t, struct results *r)
 static void check_tables(struct test *t, struct results *r)
 {
     static const char *const lines[] = {
-        "| method | price | rmse8 | relmse | 8x8 | best | worst | marked in |",
+        "| method | price | mse8 | relmse | 8x8 | best | worst | marked in |",
         "| asbdpt | 1.50 | 1.260 [", "| 0.5 a | 4 b | 0 |\n",
         "| lvc | 0.50 | 0.250 [0.",
         "| method | a, 0x0 | b, 0x0 | c, 0x0 |",
@@ -184,7 +184,7 @@ static void check_tables(struct test *t, struct results *r)
     char *table = written(t, r, family_tables), *csv = written(t, r, results_csv);
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
         CHECK(t, strstr(table, lines[i]) != NULL, "the tables lack %s:\n%s", lines[i], table);
-    CHECK(t, strncmp(csv, "scene,method,seed,spp,seconds,rmse8,mean_error,square8,", 55) == 0, "head of the CSV: %.60s",
+    CHECK(t, strncmp(csv, "scene,method,seed,spp,seconds,rmse8,mean_error,mse8,", 52) == 0, "head of the CSV: %.60s",
           csv);
     free(table);
     free(csv);
@@ -374,7 +374,7 @@ static void check_both_ways(struct test *t)
     double sum[3] = {0, 0, 0}; /* after 4, 8 and 16 samples: each step has pairs of its own */
     ok = plan_set_spp(&p, 4, 16, &err) && measure(&p, &by_pairs, &err);
     for (int i = 0; ok && i < 9 * p.n_seeds; i++)
-        sum[i % 3] += by_pairs.scene[0].run[i / 3 % 3][i / 9][i % 3].square[SQUARE_RMSE8];
+        sum[i % 3] += by_pairs.scene[0].run[i / 3 % 3][i / 9][i % 3].square[SQUARE_MSE8];
     CHECK(t, sum[0] / sum[2] > 2 && sum[0] / sum[2] < 8, "by pairs: %g, %g, %g", sum[0], sum[1], sum[2]);
     results_free(&by_pairs);
     results_free(&by_reference);

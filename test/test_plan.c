@@ -131,6 +131,8 @@ static void test_stored(struct test *t)
     CHECK(t, fabs((double)r.pixels[0] - 2.5) < 1e-6 && fabs((double)r.pixels[9] - 12.5) < 1e-6,
           "means of 2 x 2 pixels");
     CHECK(t, r.noise8 == 0.25 && r.mean_error == 0.001, "noise %g, %g", r.noise8, r.mean_error);
+    CHECK(t, r.noise[SQUARE_MSE8] == 0.0625 && isnan(r.noise[SQUARE_RELMSE]) && isnan(r.noise[SQUARE_BLOCKS]),
+          "what is not known of it: %g, %g", r.noise[SQUARE_RELMSE], r.noise[SQUARE_BLOCKS]);
     reference_free(&r);
     pixels[7] = NAN;
     image_write(path, 4, 4, pixels, &err);

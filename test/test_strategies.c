@@ -150,7 +150,8 @@ static void add_bridges(const struct bridges *made, int n, int i, bool chance, s
 /* Returns the mean of what is made. */
 static double judge_bridges(struct test *t, const char *name, const char *what, struct made_more *sum)
 {
-    const struct batches made = {BRIDGE_BATCHES, 1, sum->made, NULL}, more = {BRIDGE_BATCHES, 1, sum->more, NULL};
+    const struct batches made = {.n_batches = BRIDGE_BATCHES, .n = 1, .value = sum->made};
+    const struct batches more = {.n_batches = BRIDGE_BATCHES, .n = 1, .value = sum->more};
     double all = batches_mean(&made, NULL), error, mean = batches_mean(&more, &error);
     CHECK(t, all > 0, "%s: %s makes no path that another could make", name, what);
     TEST_ACCEPT(t, mean_p(&more, 0), "%s: %s makes %.2f +- %.2f %% more than others do", name, what, 100 * mean / all,
@@ -224,7 +225,7 @@ void test_strategies(struct test *t)
         double plant = 0.02;
         for (int k = 0; k < BRIDGE_BATCHES; k++)
             all[kind].more[k] += plant * all[kind].made[k];
-        const struct batches more = {BRIDGE_BATCHES, 1, all[kind].more, NULL};
+        const struct batches more = {.n_batches = BRIDGE_BATCHES, .n = 1, .value = all[kind].more};
         TEST_REJECT(t, mean_p(&more, 0), "%s makes %g %% more than others do", KIND[kind], 100 * plant);
     }
     test_strategy_numbers(t);

@@ -79,6 +79,57 @@ static void test_power(struct test *t)
     }
 }
 
+enum { RARE_SIDE = 8, RARE_BATCHES = 12, RARE_PIXELS = 16 * RARE_SIDE * RARE_SIDE };
+
+/* Batches of 32x32 pixels, a tile being 4x4, darker to the right. From left to right a pixel's light comes, with
+ * growing share, as rare samples: of mean size 1 over `chance`, in that share of pixels. Beyond the middle there is
+ * only that.
+ *   scale  of one tile of the left half */
+static struct batches rare(struct rng *r, double chance, double scale)
+{
+    struct batches b = batches_new(RARE_BATCHES, 3L * RARE_PIXELS, false);
+    for (int k = 0; k < RARE_BATCHES; k++)
+        for (int i = 0; i < RARE_PIXELS; i++) {
+            int x = i % (4 * RARE_SIDE), y = i / (4 * RARE_SIDE);
+            double share = fmin(1, x / (2.0 * RARE_SIDE)), light = pow(0.6, x / 2.0);
+            double v = (1 - share) * (0.9 + 0.2 * rng_uniform(r)) +
+                       (rng_uniform(r) < chance ? share / chance : 0) * rng_uniform(r) * 2;
+            if (x / 4 == 1 && y / 4 == 4)
+                v *= scale;
+            for (int c = 0; c < 3; c++)
+                b.value[b.n * k + 3 * i + c] = light * v;
+        }
+    struct batches tiles = batches_tiles(&b, 4 * RARE_SIDE, 4 * RARE_SIDE, 4);
+    batches_free(&b);
+    return tiles;
+}
+
+/* Two sides of one expectation, of which one has rare samples, half of a sample in a tile at least: one in a hundred
+ * may DIFFER at the level .001, where Welch's test alone has a quarter of them. A tile that is half as bright again, or
+ * black, is found. */
+static void test_rare(struct test *t)
+{
+    enum { TRIALS = 80, FAULTS = 10 };
+    static const double chance[4] = {0.1, 0.03, 0.01, 0.003};
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 804, 0);
+    int differ = 0, welch = 0, found[2] = {0, 0};
+    for (int i = 0; i < TRIALS; i++) {
+        struct batches a = rare(&r, 0.5, 1), b = rare(&r, chance[i % 4], 1);
+        differ += verify_batches(&a, &b, (uint64_t)i).p < 0.001;
+        welch += batches_smallest_p(&a, &b) < 0.001;
+        batches_free(&b);
+        for (int kind = 0; kind < 2 && i < FAULTS; kind++) {
+            b = rare(&r, 0.5, kind == 0 ? 1.5 : 0);
+            found[kind] += verify_batches(&a, &b, (uint64_t)i).p < 0.001;
+            batches_free(&b);
+        }
+        batches_free(&a);
+    }
+    CHECK(t, differ <= 1 && welch > TRIALS / 4, "equal but for rare samples: %d of %d DIFFER, %d by Welch's test alone",
+          differ, TRIALS, welch);
+    CHECK(t, found[0] == FAULTS && found[1] == FAULTS, "of %d faults %d and %d are found", FAULTS, found[0], found[1]);
+}
+
 /* A picture with its standard errors against batches. */
 static void test_errors(struct test *t)
 {
@@ -285,6 +336,7 @@ void test_verify(struct test *t)
     test_level(t, 0);
     test_level(t, 0.5);
     test_power(t);
+    test_rare(t);
     test_errors(t);
     test_no_numbers(t);
 }

@@ -22,6 +22,7 @@ void test_ellipse(struct test *t);
 void test_sdtree(struct test *t);
 void test_emission(struct test *t);
 void test_equal_time(struct test *t); /* part of test_report */
+void test_coverage(struct test *t); /* part of test_report */
 void test_plan(struct test *t); /* part of test_report */
 void test_far(struct test *t);
 void test_features(struct test *t);

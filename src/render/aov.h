@@ -5,7 +5,7 @@
  *   normal    the shading normal in world space, bump mapping included, turned towards the camera
  *   depth     distance along the camera's axis (z in camera space), the same in all channels
  *   position  in the world of the scene file
- *   variance  of the rendered pixel itself, the mean of its samples: the square of its standard error
+ *   variance  of the rendered pixel itself, a bound from above: that of the mean of as many independent samples
  *
  * The first four are means over the first AOV_SAMPLES samples of a pixel, if the render has so many, through the very
  * points of pixel and lens that it draws, so that their edges are smooth where the picture's are. Depth and position

@@ -1,8 +1,9 @@
 /* halves.h: how noisy is an image? The estimate is from the difference of two halves of its samples.
  *
  * The film sums every other run of iterations on its own. Of the halves A and B the picture is the mean, and (A - B)/2
- * has the variance of that mean, if samples of different runs are independent. Nothing that is in the image is left
- * out: it has splats, and what strategies and neighbouring pixels have in common. A single pixel is a poor estimate.
+ * would have its variance were they independent. As points of the same nets they are not: the mean errs less. Nothing
+ * that is in the image is left out: it has splats, and what strategies and neighbouring pixels have in common. A single
+ * pixel is a poor estimate.
  * The picture is cut into blocks; the noise is the root of the mean, over all values of the picture, of
  *     NOISE_RELATIVE  ((A - B)/2)^2 / (m^2 + 0.01), m being the mean of the block: relative to the brightness around
  *     NOISE_8_BIT     the same difference squared in levels of 8-bit pictures: what `compare` measures as rmse8.

@@ -2,8 +2,8 @@
  *
  * Tile passes fill tiles (tile.h), and the film takes them in. The sums are exact (exact_sum.h): they depend on which
  * values came in, not on their order, and not on how the iterations were cut into blocks or parts. What else is kept on
- * request is summed in a fixed order. Standard errors: eye values of different iterations are independent draws; splats
- * are many rare events, whose variance is the sum of their squares.
+ * request is summed in a fixed order. Standard errors are bounds: those of independent iterations, whose splats are
+ * rare events. Iterations of a pixel are points of nets (sampler.h), and their mean errs less.
  *
  * Tests: test_film.c.
  */
@@ -94,8 +94,8 @@ float *film_alpha(const struct film *f);
 /* film_warn: say on stderr how many contributions were left out and how many values film_develop cut, if any. */
 void film_warn(const struct film *f, long cut);
 
-/* film_standard_error: of each value of film_develop; infinite with fewer than two iterations. The film must have been
- * asked to keep errors. */
+/* film_standard_error: of each value of film_develop a bound from above; infinite with fewer than two iterations. The
+ * film must have been asked to keep errors. */
 void film_standard_error(const struct film *f, double scale, float *out);
 
 #endif

@@ -13,7 +13,7 @@ function over_better(f, m, i,    q, pt) {
     return q !~ /^[0-9]/ ? 0 : least(q) / (pt ~ /[a-z]/ || pt !~ /^[0-9]/ || pt + 0 >= 1 ? 1 : least(pt))
 }
 FNR == 1 { file++; measure = "" }
-/^(rmse8|relmse|8x8): squared/ { measure = $1; sub(/:/, "", measure) }
+/^(mse8|relmse|8x8): squared/ { measure = $1; sub(/:/, "", measure) }
 /^\| method \|.*price/ { measure = "summary" }
 measure == "" { next }
 /^\| method \|/ && measure != "summary" {
@@ -26,7 +26,7 @@ measure == "" { next }
 }
 function bold(s) { sub(/^[^ ]+/, "**&**", s); return s }
 function sizes(    i, f, m, q, line, mean, sum, count) {
-    print "== sizes\n| scene | 16: rmse8 | relmse | 8x8 | 64: rmse8 | relmse | 8x8 |"
+    print "== sizes\n| scene | 16: mse8 | relmse | 8x8 | 64: mse8 | relmse | 8x8 |"
     print "|---|---:|---:|---:|---:|---:|---:|"
     mean = "| **geometric mean** |"
     for (i = 1; i <= n; i++) {
@@ -43,15 +43,15 @@ function sizes(    i, f, m, q, line, mean, sum, count) {
 }
 END {
     if (!n) exit 1
-    split("rmse8 relmse 8x8", name, " ")
-    print "== table\n| scene | pt, rmse8 | asbdpt, rmse8 | asbdpt, relmse | asbdpt, 8x8 |\n|---|---:|---:|---:|---:|"
+    split("mse8 relmse 8x8", name, " ")
+    print "== table\n| scene | pt, mse8 | asbdpt, mse8 | asbdpt, relmse | asbdpt, 8x8 |\n|---|---:|---:|---:|---:|"
     best = 1
     for (i = 1; i <= n; i++) {
-        print "| " scene[i] " | " cell("pt", "rmse8", i) " | " bold(cell("subspaces", "rmse8", i)) " | " \
+        print "| " scene[i] " | " cell("pt", "mse8", i) " | " bold(cell("subspaces", "mse8", i)) " | " \
             cell("subspaces", "relmse", i) " | " cell("subspaces", "8x8", i) " |"
-        q[i] = least(cell("subspaces", "rmse8", i))
+        q[i] = least(cell("subspaces", "mse8", i))
         if (q[i] < q[best]) best = i
-        if ((over = over_better(file, "rmse8", i)) > 0) over = log(over)
+        if ((over = over_better(file, "mse8", i)) > 0) over = log(over)
         better += over; losses += over > 0; rest += log(q[i])
         k = kind[scene[i]]; count[k]++; ours[k] += log(q[i]); betters[k] += over
     }

@@ -1,19 +1,19 @@
 # family.awk: sections of doc/measured from family.md of `asbdpt-lab family`. Of each half, choice and services:
-# HALF, the table of means; HALF-rmse8, HALF-relmse, HALF-8x8, of all scenes; HALF-claims. bring: of each method that
-# can have services, the means of the choice alone and the factor of services, by rmse8 and in 8x8. Rows of services
+# HALF, the table of means; HALF-mse8, HALF-relmse, HALF-8x8, of all scenes; HALF-claims. bring: of each method that
+# can have services, the means of the choice alone and the factor of services, by mse8 and in 8x8. Rows of services
 # that are those of the choice, of methods without services, are left out, but for pt, lt and bins.
 function begin(name) { section = name; open = 0 }
 /^## The choice alone/ { half = "choice" }
 /^## With all services/ { half = "services" }
 /^Squared error over that of/ { begin(half) }
-/^(rmse8|relmse|8x8): squared error over/ { measure = $1; sub(/:/, "", measure); begin(half "-" measure) }
+/^(mse8|relmse|8x8): squared error over/ { measure = $1; sub(/:/, "", measure); begin(half "-" measure) }
 /^Claims:/ { begin(half "-claims") }
 /^What shared techniques contribute/ { begin("bring") }
 /^\|/ && section == "choice" { split($0, cell, / *\| */); alone[cell[2]] = cell[4] " | " cell[6] }
 /^\|/ && section == "bring" {
     split($0, cell, / *\| */)
     if (cell[2] == "method") {
-        print "== bring\n| method | choice alone, rmse8 | 8x8 | techniques, rmse8 | 8x8 |"
+        print "== bring\n| method | choice alone, mse8 | 8x8 | techniques, mse8 | 8x8 |"
         print "|---|---:|---:|---:|---:|"
     } else if (cell[2] in alone && cell[2] !~ /^-/)
         print "| " cell[2] " | " alone[cell[2]] " | " cell[3] " | " cell[5] " |"

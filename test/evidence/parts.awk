@@ -7,7 +7,7 @@ NF > 10 && $2 != "variant" && $2 !~ /^-/ {
     if (change > 1.05) { row[++n] = "| " $12 " | " $4 " | " $6 " | " $8 " | " $10 " |"; by[n] = change }
 }
 END {
-    print "== parts\n| without a part, or with another constant | rmse8 | relmse | CPU time | worst scene, rmse8 |"
+    print "== parts\n| without a part, or with another constant | mse8 | relmse | CPU time | worst scene, mse8 |"
     print "|---|---:|---:|---:|---|"
     for (; n > 0 && !done; done = !best) {
         best = 0

@@ -6,7 +6,7 @@ BEGIN {
     FS = ","
     split("12.706 4.303 3.182 2.776 2.571 2.447 2.365 2.306 2.262 2.228 2.201 2.179 2.160 2.145 2.131 2.120 " \
         "2.110 2.101 2.093 2.086 2.080 2.074 2.069 2.064 2.060 2.056 2.052 2.048 2.045 2.042", t, " ")
-    split("square8 square square8x8", square, " ")
+    split("mse8 relmse relmse8x8", square, " ")
 }
 FNR == 1 { file++ }
 file == 1 && FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
@@ -50,7 +50,7 @@ section ~ /^(choice|services)$/ && /^\| / {
     compare(of, "pt", 1, " " c[3])
     for (k = 1; k <= 3; k++) compare(of, "subspaces", k, " " c[3 + k])
 }
-section == "data" && split($0, c, " ") == 7 { # of structures.awk: asbdpt over the better of bdpt and pt, by rmse8
+section == "data" && split($0, c, " ") == 7 { # of structures.awk: asbdpt over the better of bdpt and pt, by mse8
     b = sum["all", "bdpt", c[1], 1]; p = sum["all", "pt", c[1], 1]; a = sum["all", "asbdpt", c[1], 1]
     better = mark["pt", c[1]] == "" && (p < b || mark["bdpt", c[1]] != "") ? p : b
     compared++

@@ -1,4 +1,4 @@
-# structures.awk: asbdpt over the better of bdpt and pt, by rmse8, in scenes NUMBER-KIND, from equal-time.md of
+# structures.awk: asbdpt over the better of bdpt and pt, by mse8, in scenes NUMBER-KIND, from equal-time.md of
 # `asbdpt-lab equal-time`. A method with a mark, like "misses light", is no better one. Sections: kinds, a row for each;
 # all, in words; data, lines "SCENE RMSE8 LOW HIGH 8x8 LOW HIGH", "-" without a sample.
 # With -v worst= and -v mean=: exit status 1 beyond them, or where asbdpt has a mark.
@@ -8,7 +8,7 @@ function cell(s, measure, method,    part) { # "VALUE [LOW, HIGH]"
     return value ~ /^[0-9]/
 }
 function over(s, measure,    by) {
-    by = !misses[s] && cell(s, "rmse8:", "pt") && (value < 1 || blind[s]) && cell(s, measure, "pt") ? value + 0 : 1
+    by = !misses[s] && cell(s, "mse8:", "pt") && (value < 1 || blind[s]) && cell(s, measure, "pt") ? value + 0 : 1
     if (by == 0) by = 0.0005
     return cell(s, measure, "asbdpt") ? sprintf("%.3f %.3f %.3f", value / by, low / by, high / by) : "- - -"
 }
@@ -23,7 +23,7 @@ function row(kind,    k, text) {
             " - | - |")
     print "| " kind " | " scenes[kind] " |" text
 }
-/^(rmse8|relmse|8x8): squared/ { measure = $1 }
+/^(mse8|relmse|8x8): squared/ { measure = $1 }
 /^\| method \|/ {
     columns = split($0, name, / *\| */) - 1
     for (i in name) { marked = name[i] ~ /\(bdpt: /; sub(/,.*/, "", name[i]); blind[name[i]] = marked }
@@ -35,10 +35,10 @@ function row(kind,    k, text) {
 END {
     for (i = 3; i <= columns; i++) {
         s = name[i]
-        misses[s] = ratio["pt", "rmse8:", s] ~ /[a-z]/
+        misses[s] = ratio["pt", "mse8:", s] ~ /[a-z]/
         missed += misses[s]
-        if (ratio["asbdpt", "rmse8:", s] ~ /[a-z]/) dark = dark (dark ? ", `" : " in `") s "`"
-        line = s " " over(s, "rmse8:") " " over(s, "8x8:")
+        if (ratio["asbdpt", "mse8:", s] ~ /[a-z]/) dark = dark (dark ? ", `" : " in `") s "`"
+        line = s " " over(s, "mse8:") " " over(s, "8x8:")
         data = data line "\n"
         kind = s; sub(/^[0-9]+-/, "", kind)
         if (!scenes[kind]++) order[++kinds] = kind
@@ -47,13 +47,13 @@ END {
         if (part[2] == "-") lost++
         for (k = 1; k <= 4; k += 3)
             if (part[k + 1] != "-") { add(kind, k, part[k + 1] + 0); add("**all**", k, part[k + 1] + 0) }
-        if (worst && (part[2] == "-" || part[3] > worst + 0 || ratio["asbdpt", "rmse8:", s] ~ /[a-z]/)) {
+        if (worst && (part[2] == "-" || part[3] > worst + 0 || ratio["asbdpt", "mse8:", s] ~ /[a-z]/)) {
             bad = 1
-            print "structures: " line, ratio["asbdpt", "rmse8:", s] >"/dev/stderr"
+            print "structures: " line, ratio["asbdpt", "mse8:", s] >"/dev/stderr"
         }
     }
     if (!n["**all**", 1]) exit 1
-    print "== kinds\n| structure | scenes | mean, rmse8 | worst | mean, 8x8 | worst |\n|---|---:|---:|---:|---:|---:|"
+    print "== kinds\n| structure | scenes | mean, mse8 | worst | mean, 8x8 | worst |\n|---|---:|---:|---:|---:|---:|"
     for (j = 1; j <= kinds; j++) row(order[j])
     row("**all**")
     print "\n![Squared error of asbdpt over the better of bdpt and pt, in each generated scene](structures.svg)"

@@ -2,7 +2,7 @@
  *
  * A claim says that the squared error of a method is below so much of another's, after the same CPU time or the same
  * samples, as its paper has it, in all scenes or in those of a name. It is
- *     found        if the 95 % interval of the ratio (equal_mean) lies below, by rmse8, by relmse and by 8x8,
+ *     found        if the 95 % interval of the ratio (equal_mean) lies below, by mse8, by relmse and by 8x8,
  *     not found    if one of the three lies above,
  *     cannot tell  otherwise,
  *     not judged   where what is here is not the paper's method; the ratio is shown all the same.
@@ -30,7 +30,7 @@ struct claim {
 enum verdict_of { CLAIM_FOUND, CLAIM_NOT_FOUND, CLAIM_OPEN, CLAIM_NOT_JUDGED, CLAIM_UNMEASURED };
 
 /* claim_judge: one claim, in one half of the family (methods.h).
- *   ratio  out: by rmse8, relmse, 8x8;  n  out: scenes
+ *   ratio  out: by mse8, relmse, 8x8;  n  out: scenes
  * CLAIM_UNMEASURED where a method or a scene is not among the results. */
 enum verdict_of claim_judge(const struct results *r, const struct claim *c, enum half half,
                             struct interval ratio[N_SQUARES], int *n);

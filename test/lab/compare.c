@@ -75,7 +75,7 @@ void compare_squares(const float *x, const float *y, const float *r, int width, 
     double rmse8 = compare_pixels(x, y, n).rmse8;
     for (int i = 0; i < 3; i++)
         mean[i] = sheet_shrink(picture[i], width, height, k);
-    out[SQUARE_RMSE8] = rmse8 * rmse8;
+    out[SQUARE_MSE8] = rmse8 * rmse8;
     out[SQUARE_RELMSE] = relative_square(x, y, r, n);
     out[SQUARE_BLOCKS] = relative_square(mean[0], mean[1], mean[2], 3L * (width / k) * (height / k));
     for (int i = 0; i < 3; i++)

@@ -33,10 +33,11 @@ int compare_block(int width, int height); /* their side */
  * not, counts as white. */
 double compare_shown_blocks(const float *x, const float *r, int width, int height);
 
-/* compare_squares: squared differences of two pictures: of 8-bit values; relative, of linear values; the same of means
- * over blocks. Half of them are the squared errors of two independent renders of one expectation.
+/* compare_squares: squared differences of two pictures: of 8-bit values, the square of rmse8; relative, of linear
+ * values; the same of means over blocks. Half of them are the squared errors of two independent renders of one
+ * expectation.
  *   r  what they are relative to */
-enum square { SQUARE_RMSE8, SQUARE_RELMSE, SQUARE_BLOCKS, N_SQUARES };
+enum square { SQUARE_MSE8, SQUARE_RELMSE, SQUARE_BLOCKS, N_SQUARES };
 void compare_squares(const float *x, const float *y, const float *r, int width, int height, double out[N_SQUARES]);
 
 /* compare_errors: of each pixel the root mean square of its channels' errors; infinite where it is not finite.

@@ -11,7 +11,7 @@
 
 enum { MOST_SAMPLES = 1 << 20, MOST_SCENES = 64 };
 
-const char *const EQUAL_NAMES[N_SQUARES] = {"rmse8", "relmse", "8x8"};
+const char *const EQUAL_NAMES[N_SQUARES] = {"mse8", "relmse", "8x8"};
 
 /* --- arithmetic -------------------------------------------------------------------------------------- */
 
@@ -46,9 +46,10 @@ static struct interval ratio_at(const struct scene_results *s, int method, int o
 {
     double x[PLAN_MAX_SEEDS], y[PLAN_MAX_SEEDS];
     double price = basis == AT_EQUAL_TIME ? price_variance(s, method) + price_variance(s, over) : 0;
+    double doubt = results_doubt(s, method, 0, which) + results_doubt(s, over, 0, which);
     equal_squares(s, method, which, basis, x);
     equal_squares(s, over, which, basis, y);
-    return results_ratio(x, s->plan->n_seeds, y, s->plan->n_seeds, price);
+    return results_ratio(x, s->plan->n_seeds, y, s->plan->n_seeds, price, doubt);
 }
 
 struct interval equal_ratio(const struct scene_results *s, int method, int over, enum square which)
@@ -85,14 +86,11 @@ double equal_price(const struct results *r, int method)
 
 /* --- means over scenes ------------------------------------------------------------------------------- */
 
-/* Logarithm of a method's ratio to another in one scene. */
+/* Logarithm of a method's ratio to another in one scene; NaN where there is none. */
 static double log_ratio(const struct scene_results *s, int method, int over, enum square which, enum basis basis)
 {
-    double x[PLAN_MAX_SEEDS], y[PLAN_MAX_SEEDS];
-    equal_squares(s, method, which, basis, x);
-    equal_squares(s, over, which, basis, y);
-    double a = sum_of(x, s->plan->n_seeds), b = sum_of(y, s->plan->n_seeds);
-    return a > 0 && b > 0 ? m_log(a / b) : NAN;
+    double ratio = ratio_at(s, method, over, which, basis).value;
+    return isnan(ratio) ? NAN : m_log(ratio);
 }
 
 struct interval equal_mean(const struct results *r, int method, int over, enum square which, enum basis basis,
@@ -133,7 +131,8 @@ struct interval equal_over_best(const struct results *r, int method, const int *
 static void say(FILE *f, const struct results *all, struct interval r, bool marked)
 {
     if (!isfinite(r.value)) {
-        fputs("unknown, as the time is too short for it: more --spp.\n", f);
+        fputs("unknown. The time is too short for a sample (more --spp), or the noise of the reference is unknown or "
+              "too large (more --reference-spp).\n", f);
         return;
     }
     if (!isfinite(r.low)) {

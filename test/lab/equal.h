@@ -27,7 +27,7 @@ long equal_samples(const struct scene_results *s, int method);
  * one sample can be afforded. equal_ratio: their mean at T over that of another method, with the interval of
  * results_ratio. */
 enum basis { AT_EQUAL_TIME, AT_EQUAL_SAMPLES };
-extern const char *const EQUAL_NAMES[N_SQUARES];
+extern const char *const EQUAL_NAMES[N_SQUARES]; /* mse8, relmse, 8x8: as tables call them */
 void equal_squares(const struct scene_results *s, int method, enum square which, enum basis basis, double *out);
 struct interval equal_ratio(const struct scene_results *s, int method, int over, enum square which);
 

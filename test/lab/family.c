@@ -83,8 +83,9 @@ static void summary_table(FILE *f, const struct results *e, enum half half)
     struct view view = view_of(e, half);
     struct table t =
         table_begin(f, "Squared error over that of %s after the same CPU time: geometric mean over %d scene%s with "
-                    "its 95 %% interval, and the ends of relmse; below 1 is a gain. Price: time of a sample over that "
-                    "of %s. Best rival: in each scene the method of others with the least error that has no mark",
+                    "its 95 %% interval, and the ends of relmse. 0.59: the same noise in 59 %% of the time. Price: "
+                    "time of a sample over that of %s. Best rival: in each scene the method of others with the least "
+                    "error that has no mark",
                     label(e, 0), e->plan->n_scenes, e->plan->n_scenes == 1 ? "" : "s", label(e, 0));
     table_column(&t, "method");
     table_column(&t, "price");
@@ -145,10 +146,14 @@ static void write_samples(FILE *f, const struct results *e)
 /* What errors are against, and what the marks mean. */
 static void write_light(FILE *f, const struct results *e)
 {
-    fputs("Errors are against a reference, whose own noise is subtracted as far as it is known. With two seeds or more "
-          "each method's mean and blocks are tested against it. What is significantly darker misses light, what "
-          "differs otherwise is biased. One page in a hundred has a false mark. With three seeds, and no reference "
-          "given, errors of methods without a mark are half the squared differences of pairs of renders. ", f);
+    fputs("With two seeds or more each method's mean and blocks are tested against a reference. What is "
+          "significantly darker misses light, what differs otherwise is biased. One page in a hundred has a false "
+          "mark. With three seeds, and no reference given, errors of methods without a mark are half the squared "
+          "differences of pairs of renders. All other errors are against the reference. Its own noise is "
+          "subtracted, and intervals allow for an error of that subtraction as large as itself. Where the noise is "
+          "unknown, or more than the error that is left, there is no number. Intervals know only what their seeds "
+          "have met: where a few very bright samples carry the error they can be far too narrow. mse8 clips such "
+          "samples. ", f);
     for (const struct scene_results *s = e->scene; s < e->scene + e->plan->n_scenes; s++)
         if (s->lacks)
             fprintf(f, "Perhaps no method finds all light of %s, which has lights that nothing can hit and mirrors or "
@@ -158,9 +163,9 @@ static void write_light(FILE *f, const struct results *e)
 
 static void write_notes(FILE *f, const struct results *e)
 {
-    fputs("rmse8: of the squared error of 8-bit values, which clip what is very bright; relmse: of the relative "
-          "squared error of linear values; 8x8: the same of means over 8x8 pixels, which pixels that err together do "
-          "not hide. ", f);
+    fputs("mse8: of the squared error of 8-bit values, which clip what is very bright, the square of what "
+          "`compare` calls rmse8; relmse: of the relative squared error of linear values; 8x8: the same of means "
+          "over 8x8 pixels, which pixels that err together do not hide. ", f);
     write_light(f, e);
     fputs("Prices were measured by turns with the first method, on one thread, in three rounds, of which the medians "
           "count. Samples are those that the time affords, all that is prepared included.\n\n", f);

@@ -14,7 +14,10 @@
 #include "lab/subject.h"
 #include "lab/timed.h"
 
-enum { REFERENCE_SEED = 100001 };
+enum {
+    REFERENCE_SEED = 100001,
+    CLEANER = 4 /* times as many samples of it, where all errors are against it */
+};
 
 /* How far all is; counted in runs. */
 struct pace {
@@ -139,15 +142,6 @@ static bool read_or_render_run(struct subject *s, int method, int seed)
 
 /* --- errors from pairs ------------------------------------------------------------------------------- */
 
-/* Pairs see all the error of a method that has all light. Where perhaps none has, all are against the reference: few
- * seeds may not tell which of two lacks the same light. */
-static bool by_pairs(const struct scene_results *out, int method)
-{
-    const struct plan *p = out->plan;
-    return plan_seeds(p, method) >= 3 && p->reference == NULL && out->reference.variance != NULL && !out->lacks &&
-           out->mark[method] == MARK_NONE;
-}
-
 static void compare_pairs(struct subject *s, int method, int step)
 {
     struct scene_results *out = s->out;
@@ -178,6 +172,7 @@ static bool make_reference(struct subject *s)
     struct measured m = {.halves = 0};
     bool all;
     const char *by = reference_method(&s->scene, &all);
+    int spp = p->equal && !all ? CLEANER * p->reference_spp : p->reference_spp;
     r->lacks = !all;
     if (r->reference.pixels != NULL)
         return true;
@@ -186,9 +181,9 @@ static bool make_reference(struct subject *s)
     snprintf(m.integrator, sizeof m.integrator, "%s", by);
     snprintf(directory, sizeof directory, "%s/reference", p->directory);
     snprintf(key, sizeof key, "%s %016" PRIx64 " %08lx %dx%d maxdepth=%d %s spp=%d", r->name, s->scene.content,
-             subject_probe(s, 0), r->width, r->height, r->max_depth, m.text, p->reference_spp);
+             subject_probe(s, 0), r->width, r->height, r->max_depth, m.text, spp);
     struct render_options o = subject_options(s, &m, ~p->seed - REFERENCE_SEED, p->n_threads);
-    return reference_make(&s->scene, &o, p->reference_spp, directory, r->name, key, &r->reference, s->err);
+    return reference_make(&s->scene, &o, spp, directory, r->name, key, &r->reference, s->err);
 }
 
 /* Seeds come before methods, so that a machine that slows down in between slows down all alike. */
@@ -214,7 +209,7 @@ static void judge(struct subject *s)
         if (n >= 2 && out->reference.variance != NULL)
             out->mark[v] = mark_of(mark_tests(s->picture[v][plan_last_step(p)], n, &out->reference),
                                    p->methods.n * p->n_scenes);
-        for (int step = 0; by_pairs(out, v) && step < p->n_steps; step++)
+        for (int step = 0; results_by_pairs(out, v) && step < p->n_steps; step++)
             compare_pairs(s, v, step);
     }
 }
@@ -232,6 +227,15 @@ static bool make_directories(const struct plan *p, struct error *err)
     return ok;
 }
 
+/* Errors of fewer than three seeds are against the reference, and one that is made here is as noisy as they are. */
+static bool has_enough(const struct scene_results *s, struct error *err)
+{
+    bool known = s->reference.pixels != NULL && isfinite(s->reference.noise8);
+    return !s->plan->equal || s->plan->n_seeds >= 3 || known ||
+           error_set(err, "%s: fewer than three seeds need a stored reference whose noise is known; use --seeds 3, or "
+                     "--reference NAME.pfm with NAME.error.pfm, or with \"noise8 X\" in NAME.txt", s->path);
+}
+
 static bool measure_scene(struct pace *pace, struct scene_results *out, struct error *err)
 {
     struct subject s = {.plan = out->plan, .out = out, .pace = pace, .err = err};
@@ -239,7 +243,7 @@ static bool measure_scene(struct pace *pace, struct scene_results *out, struct e
         return false;
     out->width = s.scene.width;
     out->height = s.scene.height;
-    bool ok = make_directories(s.plan, err) && make_reference(&s) && measure_methods(&s);
+    bool ok = has_enough(out, err) && make_directories(s.plan, err) && make_reference(&s) && measure_methods(&s);
     if (ok)
         judge(&s);
     for (int v = 0; v < METHODS_MAX; v++) {

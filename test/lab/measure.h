@@ -13,7 +13,8 @@
  *
  * Squared errors (results.h) are those against a reference, stored, given or rendered, which is kept in reference/. At
  * equal time each method is tested against it first (mark.h); errors of those that pass come from pairs, which are less
- * noisy, if there are three seeds or more and the reference was not given.
+ * noisy, if there are three seeds or more and the reference was not given. Fewer seeds are refused without a stored
+ * reference whose noise is known: one made here is as noisy as they are.
  *
  * Tests: test_report.c, test_equal_time.c.
  */

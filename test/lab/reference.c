@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/os.h"
 #include "base/rng.h"
 #include "caustics/caustic.h"
@@ -35,6 +36,8 @@ static void read_line(char *line, struct reference *r)
     sscanf(line, "maxdepth %ld", &r->max_depth);
     sscanf(line, "content %" SCNx64, &r->content);
     sscanf(line, "noise8 %lf", &r->noise8);
+    sscanf(line, "noise_relmse %lf", &r->noise[SQUARE_RELMSE]);
+    sscanf(line, "noise_8x8 %lf", &r->noise[SQUARE_BLOCKS]);
     sscanf(line, "mean_error %lf", &r->mean_error);
     if (strncmp(line, "origin ", 7) == 0)
         snprintf(r->origin, sizeof r->origin, "%.1199s", line + 7);
@@ -44,8 +47,7 @@ static void read_line(char *line, struct reference *r)
 static void read_text(const char *picture, struct reference *r)
 {
     char path[PATH_SIZE], line[2048];
-    memset(r, 0, sizeof *r);
-    r->noise8 = r->mean_error = NAN;
+    *r = (struct reference){.noise8 = NAN, .mean_error = NAN, .noise = {NAN, NAN, NAN}};
     const char *dot = strrchr(picture, '.');
     snprintf(path, sizeof path, "%.*s.txt", (int)(dot != NULL ? dot - picture : (long)strlen(picture)), picture);
     FILE *f = os_open_input(path);
@@ -60,8 +62,8 @@ static void read_text(const char *picture, struct reference *r)
 
 /* --- stored references ------------------------------------------------------------------------------- */
 
-/* What a picture of errors, if there is one, is of the squared errors against the picture: it is shifted by as much,
- * up or down as chance has it. */
+/* The reference's own part of squared errors against it, where its text does not tell: by its picture of errors, if
+ * there is one. It is shifted by as much, up or down as chance has it. */
 static bool read_noise(const char *path, struct reference *r, struct error *err)
 {
     struct image about;
@@ -71,16 +73,19 @@ static bool read_noise(const char *path, struct reference *r, struct error *err)
     snprintf(errors, sizeof errors, "%s.error.pfm", stem);
     float *shifted = image_read_linear(errors, &width, &height, &about, NULL);
     bool ok = shifted == NULL || side_intact(errors, about.content, err);
+    double noise[N_SQUARES] = {NAN, NAN, NAN};
     if (shifted != NULL && width == r->width && height == r->height) {
         r->variance = mem_alloc(3 * (size_t)width * (size_t)height, sizeof *r->variance);
         for (size_t i = 0; i < 3 * (size_t)width * (size_t)height; i++) {
             r->variance[i] = shifted[i] * shifted[i];
             shifted[i] = r->pixels[i] + (hash_mix(i) % 2 == 0 ? shifted[i] : -shifted[i]);
         }
-        compare_squares(shifted, r->pixels, r->pixels, width, height, r->noise);
+        compare_squares(shifted, r->pixels, r->pixels, width, height, noise);
     }
-    if (isfinite(r->noise8)) /* which is known better */
-        r->noise[SQUARE_RMSE8] = r->noise8 * r->noise8;
+    r->noise[SQUARE_MSE8] = sqr(r->noise8);
+    for (int k = 0; k < N_SQUARES; k++)
+        r->noise[k] = isfinite(r->noise[k]) ? r->noise[k] : noise[k];
+    r->noise8 = sqrt(r->noise[SQUARE_MSE8]);
     free(shifted);
     return ok;
 }
@@ -166,7 +171,7 @@ bool reference_find(const char *given, const char *scene_path, const char *name,
         given_path(given, name, path);
         return load(path, STORED, out, err);
     }
-    *out = (struct reference){.noise8 = NAN, .mean_error = NAN};
+    *out = (struct reference){.noise8 = NAN, .mean_error = NAN, .noise = {NAN, NAN, NAN}};
     for (int i = 0; i < N_PLACES; i++) {
         place_path(i, scene_path, name, path);
         if (file_exists(path))

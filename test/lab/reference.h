@@ -5,15 +5,16 @@
  *     files     H H   hashes of NAME.pfm and NAME.error.pfm: a file with another hash is refused
  *     maxdepth    N   it holds paths up to this length
  *     noise8      X   root mean square of the standard errors of its 8-bit values
+ *     noise_relmse X, noise_8x8 X   its own part of these squared errors (compare.h)
  *     mean_error  X   standard error of its mean, relative to the mean
- * are read and the others kept for people, and a picture NAME.error.pfm of its standard errors. It fits a wanted size
- * when its own is the same or a whole multiple: with a box filter the mean of k x k pixels is exactly the pixel of the
- * smaller picture.
+ * are read and the others kept for people, and a picture NAME.error.pfm of its standard errors. Noise that the text
+ * does not tell comes from these errors, or is unknown. A reference fits a wanted size when its own is the same or a
+ * whole multiple: with a box filter the mean of k x k pixels is exactly the pixel of the smaller picture.
  *
- * Where none is stored, one is rendered: two sides of independent batches (sides.h), their weighted mean, and the
- * errors that follow from how the batches scatter, stored as any other.
+ * Where none is stored, one is rendered: two sides of independent batches (sides.h), their mean, and the errors that
+ * follow from how the batches scatter, stored as any other.
  *
- * Tests: test_plan.c.
+ * Tests: test_plan.c, test_coverage.c.
  */
 #ifndef ASBDPT_REFERENCE_H
 #define ASBDPT_REFERENCE_H
@@ -29,7 +30,7 @@ struct reference {
     long max_depth;    /* 0: not said */
     uint64_t content;  /* of the scene; 0: not said */
     double noise8;     /* of its 8-bit values; NaN when unknown */
-    double noise[N_SQUARES]; /* its own part of squared errors against it; 0 when unknown */
+    double noise[N_SQUARES]; /* its own part of squared errors against it; NaN when unknown */
     double mean_error; /* relative standard error of its mean; NaN when unknown */
     const char *kind;  /* "stored picture" or "rendered here" */
     char origin[1200]; /* one sentence for readers */

@@ -66,7 +66,7 @@ void results_csv(FILE *f, const struct results *r)
     fputs("scene,method,seed,spp", f);
     for (int q = 0; q < N_QUANTITIES; q++)
         fprintf(f, ",%s", NAMES[q]);
-    fputs(",square8,square,square8x8,nonfinite,price_before,price_each,mark,label,half\n", f);
+    fputs(",mse8,relmse,relmse8x8,nonfinite,price_before,price_each,mark,label,half\n", f);
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
         for (int v = 0; v < r->plan->methods.n; v++)
             for (int i = 0; i < plan_seeds(r->plan, v); i++)
@@ -119,6 +119,23 @@ void results_pairs(const double *half, int n, double *out)
         out[i] = all + 2.0 * (n - 1) / (n - 2) * (out[i] - all);
 }
 
+bool results_by_pairs(const struct scene_results *s, int method)
+{
+    return plan_seeds(s->plan, method) >= 3 && s->plan->reference == NULL && s->reference.variance != NULL &&
+           !s->lacks && s->mark[method] == MARK_NONE;
+}
+
+double results_doubt(const struct scene_results *s, int method, int step, enum square which)
+{
+    double sum = 0, noise = s->reference.noise[which];
+    int n = plan_seeds(s->plan, method);
+    if (results_by_pairs(s, method))
+        return 0;
+    for (int i = 0; i < n; i++)
+        sum += s->run[method][i][step].square[which] / n;
+    return noise <= sum ? sqr(noise / sum) : NAN;
+}
+
 int results_marked(const struct results *r, int method)
 {
     int n = 0;
@@ -142,18 +159,18 @@ double student_quantile(double p, double dof)
     return 0.5 * (low + high);
 }
 
-struct interval results_ratio(const double *a, int na, const double *b, int nb, double price)
+struct interval results_ratio(const double *a, int na, const double *b, int nb, double price, double doubt)
 {
     struct estimate ea = mean_of(a, na), eb = mean_of(b, nb);
     struct interval out = {ea.mean / eb.mean, NAN, NAN};
-    if (!(ea.mean > 0 && eb.mean > 0)) {
+    if (!(ea.mean > 0 && eb.mean > 0 && doubt >= 0)) {
         out.value = NAN;
         return out;
     }
     if (na < 2 || nb < 2)
         return out;
     /* var ln x = var x / x^2; Welch's degrees of freedom. */
-    double va = sqr(ea.error / ea.mean), vb = sqr(eb.error / eb.mean), v = va + vb + price;
+    double va = sqr(ea.error / ea.mean), vb = sqr(eb.error / eb.mean), v = va + vb + price + doubt;
     double dof = v > 0 ? sqr(v) / (sqr(va) / (na - 1) + sqr(vb) / (nb - 1) + sqr(price) / 2) : 1;
     double factor = m_exp(student_quantile(0.05, dof) * sqrt(v));
     out.low = out.value / factor;
@@ -171,14 +188,15 @@ struct interval results_mean_log(const double *log, int n)
 
 struct interval results_over_first(const struct scene_results *s, int method, int step, bool paid)
 {
-    double x[2][PLAN_MAX_SEEDS];
+    double x[2][PLAN_MAX_SEEDS], doubt = 0;
     int compared[2] = {method, 0}, n[2];
     for (int k = 0; k < 2; k++) {
         n[k] = plan_seeds(s->plan, compared[k]);
         for (int i = 0; i < n[k]; i++) {
             const struct run *r = &s->run[compared[k]][i][step];
-            x[k][i] = paid ? r->square[SQUARE_RMSE8] * r->value[Q_SECONDS] : r->value[Q_RMSE8];
+            x[k][i] = paid ? r->square[SQUARE_MSE8] * r->value[Q_SECONDS] : r->value[Q_RMSE8];
         }
+        doubt += paid ? results_doubt(s, compared[k], step, SQUARE_MSE8) : 0;
     }
-    return results_ratio(x[0], n[0], x[1], n[1], 0);
+    return results_ratio(x[0], n[0], x[1], n[1], 0, doubt);
 }

@@ -67,6 +67,15 @@ void results_free(struct results *r);
  *   half  [n*n] half squared differences, of which those next to the diagonal are read;  out  [n] */
 void results_pairs(const double *half, int n, double *out);
 
+/* results_by_pairs: are a method's squares by pairs? These see all the error of a method that has all light. Where
+ * perhaps none has, all are against the reference: few seeds may not tell which of two lacks the same light. */
+bool results_by_pairs(const struct scene_results *s, int method);
+
+/* results_doubt: variance of the logarithm of a method's mean square that its seeds do not show: the noise of the
+ * reference has been subtracted, and that may be wrong by as much as it is. NaN where the noise is not known, or more
+ * than what is left: then nothing can be told of the square. */
+double results_doubt(const struct scene_results *s, int method, int step, enum square which);
+
 /* results_csv: runs.csv. */
 void results_csv(FILE *f, const struct results *r);
 
@@ -93,8 +102,9 @@ bool results_write(const struct results *r, const char *name, void (*write)(FILE
 
 /* results_ratio: mean of a[na] over mean of b[nb], both independent and positive on average. The interval is Welch's,
  * on the logarithm of the ratio.
- *   price  variance of that logarithm which seeds do not show, known by three rounds of timing; or 0 */
-struct interval results_ratio(const double *a, int na, const double *b, int nb, double price);
+ *   price  variance of that logarithm which seeds do not show, known by three rounds of timing; or 0
+ *   doubt  more of it, taken for exact: the sum of both methods' results_doubt; with NaN there is no ratio */
+struct interval results_ratio(const double *a, int na, const double *b, int nb, double price, double doubt);
 
 /* results_mean_log: geometric mean of n numbers given by their logarithms, with Student's interval. */
 struct interval results_mean_log(const double *log, int n);

@@ -14,9 +14,10 @@
 #include "base/progress.h"
 #include "base/rng.h"
 #include "image/image.h"
-#include "lab/timed.h"
+#include "image/picture.h"
 #include "lab/compare.h"
 #include "lab/files.h"
+#include "lab/timed.h"
 
 enum {
     PIXELS = 1024,    /* of the pictures, unless somebody says otherwise */
@@ -174,7 +175,7 @@ static double total_variance(const struct batches *b)
 }
 
 static bool write_text(const char *name, const struct side *a, const struct side *b, const struct provenance *from,
-                       double weight, double noise8, double mean, struct error *err)
+                       double weight, const double noise[N_SQUARES], double mean, struct error *err)
 {
     char path[4096];
     struct file_output f;
@@ -197,44 +198,88 @@ static bool write_text(const char *name, const struct side *a, const struct side
     fprintf(f.stream, "origin %s\nscene %s\ncontent %016" PRIx64 "\nresolution %dx%d\nmaxdepth %d\n", from->note,
             from->scene_path, from->content, a->width, a->height, from->max_depth);
     fprintf(f.stream, "files %016" PRIx64 " %016" PRIx64 "\n", content[0], content[1]);
-    fprintf(f.stream, "noise8 %.6g\nmean %.9g\nmean_error %.6g\n", noise8, mean,
+    fprintf(f.stream, "noise8 %.6g\nnoise_relmse %.6g\nnoise_8x8 %.6g\n", sqrt(noise[SQUARE_MSE8]),
+            noise[SQUARE_RELMSE], noise[SQUARE_BLOCKS]);
+    fprintf(f.stream, "mean %.9g\nmean_error %.6g\n", mean,
             mean > 0 ? sqrt(sqr(weight * error_a) + sqr((1 - weight) * error_b)) / mean : NAN);
-    fprintf(f.stream, "weights %.6f %.6f of the two methods, by the inverse of the sum of all pixels' variances\n",
-            weight, 1 - weight);
     if (v != NULL)
         fprintf(f.stream,
+                "weights %.6f %.6f of the two methods, by the inverse of the sum of all pixels' variances\n"
                 "agreement p %.3g: smallest of the tiles %.3g, means %.3g, uniform %.3g; "
                 "ratio of the means %.6f +- %.6f\n",
-                v->p, v->smallest, v->mean, v->uniform, v->ratio, v->ratio_error);
+                weight, 1 - weight, v->p, v->smallest, v->mean, v->uniform, v->ratio, v->ratio_error);
     return file_commit(&f, err);
 }
 
+/* On the 8-bit scale, but not rounded: rounding would make a step of 1 of the least of changes. */
+static double level(double linear) { return 255 * srgb_encode(clamp(linear, 0, 1)); }
+
+/* Variance of the level of a mean that consists of `weight` times this side's and of `rest`. Where noise is large the
+ * curve from linear values to levels is far from straight, so each batch is left out once [Efron & Stein 1981]; of a
+ * picture whose errors are known the value is moved both ways. */
+static double shown_variance(const struct batches *b, long i, double weight, double rest)
+{
+    int n = b->n_batches;
+    double mean = batches_moments(b, i).mean, sum = 0, squares = 0;
+    if (b->error != NULL) {
+        double off = weight * b->error[i], value = weight * mean + rest;
+        return sqr((level(value + off) - level(value - off)) / 2);
+    }
+    for (int k = 0; k < n; k++) {
+        double without = mean + (mean - b->value[b->n * k + i]) / (n - 1);
+        double value = level(weight * without + rest);
+        sum += value;
+        squares += sqr(value);
+    }
+    return fmax(squares - sum * sum / n, 0) * (n - 1) / n;
+}
+
+/* The noise of the weighted mean of both sides in each way to measure squared errors. Relative ones divide by values of
+ * the reference itself, so they are measured as those of a render will be: of each side against the other. */
+static void own_noise(const struct side *a, const struct side *b, double weight, double noise[N_SQUARES])
+{
+    long n = a->pixels.n;
+    float *x = mem_alloc((size_t)n, sizeof *x), *y = mem_alloc((size_t)n, sizeof *y);
+    double ways[2][N_SQUARES], shown = 0;
+    for (long i = 0; i < n; i++) {
+        double mean_a = batches_moments(&a->pixels, i).mean, mean_b = batches_moments(&b->pixels, i).mean;
+        shown += shown_variance(&a->pixels, i, weight, (1 - weight) * mean_b) +
+                 shown_variance(&b->pixels, i, 1 - weight, weight * mean_a);
+        x[i] = (float)mean_a;
+        y[i] = (float)mean_b;
+    }
+    compare_squares(x, y, x, a->width, a->height, ways[0]);
+    compare_squares(x, y, y, a->width, a->height, ways[1]);
+    for (int k = 0; k < N_SQUARES; k++)
+        noise[k] = weight * (1 - weight) * (ways[0][k] + ways[1][k]) / 2;
+    noise[SQUARE_MSE8] = shown / (double)n;
+    free(x);
+    free(y);
+}
+
 /* One weight for the whole picture: weights that follow each pixel's own variance would favour pixels that happen to be
- * dark, for they happen to scatter less. */
+ * dark, for they happen to scatter less. So would any weight where both sides are by the same method. */
 bool sides_store(const char *name, const struct side *a, const struct side *b, const struct provenance *from,
                  struct error *err)
 {
     long n = a->pixels.n;
     float *mean = mem_alloc((size_t)n, sizeof *mean), *error = mem_alloc((size_t)n, sizeof *error);
-    float *shifted = mem_alloc((size_t)n, sizeof *shifted);
-    double variance_a = total_variance(&a->pixels), variance_b = total_variance(&b->pixels);
-    double both = variance_a + variance_b, weight = both > 0 ? variance_b / both : 0.5, sum = 0;
+    double variance_a = total_variance(&a->pixels), both = variance_a + total_variance(&b->pixels), sum = 0;
+    double weight = from->verdict != NULL && both > 0 ? 1 - variance_a / both : 0.5, noise[N_SQUARES];
     for (long i = 0; i < n; i++) {
         struct moments x = batches_moments(&a->pixels, i), y = batches_moments(&b->pixels, i);
         mean[i] = (float)(weight * x.mean + (1 - weight) * y.mean);
         error[i] = (float)sqrt(weight * weight * x.variance / x.n + (1 - weight) * (1 - weight) * y.variance / y.n);
-        shifted[i] = mean[i] + error[i];
         sum += (double)mean[i];
     }
-    double noise8 = compare_pixels(shifted, mean, n).rmse8;
+    own_noise(a, b, weight, noise);
     char path[4096], error_path[4096];
     snprintf(path, sizeof path, "%s.pfm", name);
     snprintf(error_path, sizeof error_path, "%s.error.pfm", name);
     bool ok = image_write(path, a->width, a->height, mean, err) &&
               image_write(error_path, a->width, a->height, error, err) &&
-              write_text(name, a, b, from, weight, noise8, sum / (double)n, err);
+              write_text(name, a, b, from, weight, noise, sum / (double)n, err);
     free(mean);
     free(error);
-    free(shifted);
     return ok;
 }

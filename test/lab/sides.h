@@ -52,7 +52,7 @@ struct provenance {
     const char *note, *scene_path;
     uint64_t content; /* of the scene's files */
     int max_depth;
-    const struct verdict *verdict; /* NULL: no test was made */
+    const struct verdict *verdict; /* NULL: no test was made, as both sides are by one method; they count alike */
 };
 
 /* sides_store: the mean of both sides as NAME.pfm, its standard errors as NAME.error.pfm, and NAME.txt, which

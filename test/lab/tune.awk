@@ -15,7 +15,7 @@ FNR == NR {
 }
 END {
     n = split(names, name)
-    print "| variant | scenes | rmse8 squared | +- | relmse | blocks | CPU | product | worst | best | |"
+    print "| variant | scenes | mse8 | +- | relmse | blocks | CPU | product | worst | best | |"
     print "|---|---:|---:|---:|---:|---:|---:|---:|---|---|---|"
     for (i = 2; i <= n; i++)
         row(name[i])

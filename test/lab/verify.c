@@ -14,13 +14,14 @@
 #include "lab/stats.h"
 
 enum {
+    NEAR = 2, /* tiles, along each side: whose largest samples a tile may have missed */
     RESAMPLINGS = 299,
     MANY = 1000 /* instead of the number of batches of a picture whose error is known */
 };
 
 struct batches batches_new(int n_batches, long n, bool with_error)
 {
-    struct batches b = {n_batches, n, NULL, NULL};
+    struct batches b = {.n_batches = n_batches, .n = n};
     b.value = mem_alloc((size_t)n * (size_t)n_batches, sizeof *b.value);
     if (with_error)
         b.error = mem_alloc((size_t)n, sizeof *b.error);
@@ -50,6 +51,7 @@ struct batches batches_tiles(const struct batches *b, int width, int height, int
 {
     long across = (width + side - 1) / side, down = (height + side - 1) / side;
     struct batches out = batches_new(b->n_batches, 3 * across * down, b->error != NULL);
+    out.across = across;
     for (long i = 0; i < out.n; i++) {
         int c = (int)(i % 3), x0 = (int)(i / 3 % across) * side, y0 = (int)(i / 3 / across) * side;
         int x1 = x0 + side < width ? x0 + side : width, y1 = y0 + side < height ? y0 + side : height;
@@ -110,11 +112,79 @@ double batches_mean(const struct batches *b, double *error)
     return m.mean;
 }
 
+/* --- rare samples ------------------------------------------------------------------------------------ */
+
+/* How far value i of a batch is from the mean of all at most; of a picture with errors nobody knows. */
+static double largest_step(const struct batches *b, long i)
+{
+    double mean = batches_moments(b, i).mean, largest = 0;
+    for (int k = 0; k < b->n_batches && b->error == NULL; k++)
+        largest = most_of(largest, fabs(b->value[b->n * k + i] - mean));
+    return largest;
+}
+
+/* The largest of the steps of the tiles near tile (x, y), in channel c. */
+static double largest_near(const double *step, long across, long down, long x, long y, long c)
+{
+    double largest = 0;
+    for (long v = y - NEAR; v <= y + NEAR; v++)
+        for (long u = x - NEAR; u <= x + NEAR; u++)
+            if (u >= 0 && u < across && v >= 0 && v < down)
+                largest = most_of(largest, step[3 * (v * across + u) + c]);
+    return largest;
+}
+
+/* Of each value the largest step that a rare sample has made in it or near it, or anywhere where that is none. To be
+ * freed. */
+static double *rare_steps(const struct batches *b)
+{
+    double *step = mem_alloc((size_t)b->n, sizeof *step), *out = mem_alloc((size_t)b->n, sizeof *out), most = 0;
+    for (long i = 0; i < b->n; i++) {
+        out[i] = step[i] = largest_step(b, i);
+        most = most_of(most, step[i]);
+    }
+    for (long i = 0; i < b->n && b->across > 0; i++)
+        out[i] = largest_near(step, b->across, b->n / 3 / b->across, i / 3 % b->across, i / 3 / b->across, i % 3);
+    for (long i = 0; i < b->n; i++)
+        out[i] = out[i] == 0 ? most : out[i];
+    free(step);
+    return out;
+}
+
+/* The probability that a side has missed all samples of this size that its mean lacks. */
+static double missed_p(struct moments side, double lacks, double step)
+{
+    return step > 0 ? m_exp(-lacks * side.n / step) : 0;
+}
+
 /* --- all of them ------------------------------------------------------------------------------------- */
+
+/* Both sides, and of each value the rare_steps of each; NULL: nothing is rare. */
+struct sides_steps {
+    const double *a, *b;
+};
+
+/* Welch's p-value, or more if the darker side may lack but a few samples of its step's size. */
+static double rare_p(struct moments x, struct moments y, double step_x, double step_y)
+{
+    double lacks = fabs(x.mean - y.mean);
+    return most_of(welch(x, y), x.mean < y.mean ? missed_p(x, lacks, step_x) : missed_p(y, lacks, step_y));
+}
+
+/* The same of the means over all values: a sample has three channels. */
+static double mean_p(const struct batches *a, const struct batches *b, struct sides_steps steps)
+{
+    double most[2] = {0, 0};
+    for (long i = 0; i < a->n; i++) {
+        most[0] = most_of(most[0], steps.a[i]);
+        most[1] = most_of(most[1], steps.b[i]);
+    }
+    return rare_p(total_moments(a), total_moments(b), 3 * most[0] / (double)a->n, 3 * most[1] / (double)a->n);
+}
 
 /* p-values of all n hypotheses; those between two exact, equal values say nothing and are left out. Returns how many
  * were written; where[j] (may be NULL) is the index of the j-th. What is not finite equals nothing. */
-static long all_p(const struct batches *a, const struct batches *b, double *p, long *where)
+static long all_p(const struct batches *a, const struct batches *b, struct sides_steps steps, double *p, long *where)
 {
     long n = 0;
     for (long i = 0; i < a->n; i++) {
@@ -123,7 +193,7 @@ static long all_p(const struct batches *a, const struct batches *b, double *p, l
             continue;
         if (where != NULL)
             where[n] = i;
-        p[n++] = welch(x, y);
+        p[n++] = steps.a != NULL ? rare_p(x, y, steps.a[i], steps.b[i]) : welch(x, y);
     }
     return n;
 }
@@ -158,7 +228,8 @@ static void resample(const struct batches *b, struct rng *r, struct batches *out
 }
 
 /* p-value of a distance: Kolmogorov's, with the scale on which the resamplings' distances have its 90 % quantile. */
-static double uniform_p(const struct batches *a, const struct batches *b, double distance, uint64_t seed)
+static double uniform_p(const struct batches *a, const struct batches *b, struct sides_steps steps, double distance,
+                        uint64_t seed)
 {
     const double quantile = 1.2238; /* stats_kolmogorov_p(1.2238) = 0.1 */
     double found[RESAMPLINGS], *p = mem_alloc((size_t)a->n, sizeof *p);
@@ -168,7 +239,7 @@ static double uniform_p(const struct batches *a, const struct batches *b, double
     for (int i = 0; i < RESAMPLINGS; i++) {
         resample(a, &r, &x);
         resample(b, &r, &y);
-        found[i] = stats_ks_distance(p, (size_t)all_p(&x, &y, p, NULL));
+        found[i] = stats_ks_distance(p, (size_t)all_p(&x, &y, steps, p, NULL));
     }
     batches_free(&x);
     batches_free(&y);
@@ -193,7 +264,7 @@ double batches_smallest_p(const struct batches *a, const struct batches *b)
 {
     long place = 0, *where = mem_alloc((size_t)a->n, sizeof *where);
     double *p = mem_alloc((size_t)a->n, sizeof *p);
-    double smallest = smallest_p(p, all_p(a, b, p, where), NAN, where, &place);
+    double smallest = smallest_p(p, all_p(a, b, (struct sides_steps){NULL, NULL}, p, where), NAN, where, &place);
     free(p);
     free(where);
     return smallest;
@@ -204,16 +275,20 @@ struct verdict verify_batches(const struct batches *a, const struct batches *b, 
     struct verdict v = {0};
     double *p = mem_alloc((size_t)a->n, sizeof *p);
     long *where = mem_alloc((size_t)a->n, sizeof *where);
-    v.n = all_p(a, b, p, where);
+    double *step_a = rare_steps(a), *step_b = rare_steps(b);
+    struct sides_steps steps = {step_a, step_b};
+    v.n = all_p(a, b, steps, p, where);
     v.smallest = smallest_p(p, v.n, a->n > 0 ? 1 : NAN, where, &v.where);
     for (long i = 0; i < v.n; i++)
         v.bar[int_within(p[i] * VERIFY_BARS, 0, VERIFY_BARS - 1)]++;
-    v.uniform = v.n > 0 ? uniform_p(a, b, stats_ks_distance(p, (size_t)v.n), seed) : 1;
+    v.uniform = v.n > 0 ? uniform_p(a, b, steps, stats_ks_distance(p, (size_t)v.n), seed) : 1;
     struct moments x = total_moments(a), y = total_moments(b);
-    v.mean = welch(x, y);
+    v.mean = mean_p(a, b, steps);
     v.ratio = x.mean / y.mean;
     v.ratio_error = fabs(v.ratio) * sqrt(x.variance / (x.n * x.mean * x.mean) + y.variance / (y.n * y.mean * y.mean));
     v.p = stats_sidak(least_of(v.smallest, least_of(v.mean, v.uniform)), 3);
+    free(step_a);
+    free(step_b);
     free(p);
     free(where);
     return v;

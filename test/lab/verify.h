@@ -14,9 +14,16 @@
  * the deviations of the batches from their mean, each batch multiplied by a random sign ("wild bootstrap" [Liu 1988]).
  * Kolmogorov's distribution is stretched until its 90 % quantile is the one found that way.
  *
- * Welch's test takes the means of batches for nearly normal. Where a rare sample has most of the light they are not:
- * in a dark pixel of a Markov chain, or of few samples, all batches may miss it alike, and then even equal expectations
- * DIFFER. Such tiles are others with another --seed, and none with larger tiles or more samples; a bias stays.
+ * Welch's test takes the means of batches for nearly normal. Where rare samples have most of the light they are not:
+ * all batches may miss them alike, look sure, and be too dark. Let the darker side of a tile lack D of the other's
+ * mean. Let a rare sample be as large as the largest step from the mean, c, that a batch of this side has made in this
+ * tile or one near it. Then D n / c samples are missing of n batches, and all of them are with the probability
+ *
+ *     exp(-D n / c).
+ *
+ * If that is more than Welch's p-value it takes its place. Where batches scatter evenly it never is, but in a tile next
+ * to a noisier one a difference must be larger to be seen. Rare samples that no tile near has met are not known: with
+ * less than half of one in a tile equal expectations may DIFFER, in other tiles with another --seed. A bias stays.
  *
  * Tests: test_verify.c.
  */
@@ -29,7 +36,7 @@
 /* One side: n values (tiles * 3 channels, or pixels * 3). */
 struct batches {
     int n_batches; /* 1: `error` says how far the values may be off */
-    long n;
+    long n, across; /* tiles: so many in a row; else 0 */
     double *value; /* [n_batches * n], batch by batch */
     double *error; /* [n] standard errors of a single picture's values, else NULL */
 };
