@@ -246,7 +246,8 @@ static const char THINGS[] =
     "  AreaLightSource \"diffuse\" \"rgb L\" [ 4 3 2 ] Translate 0 1.5 0 Shape \"sphere\" \"float radius\" .2\n"
     "ObjectEnd\n"
     "AttributeBegin Translate -3 0 1 Translate -%s 0 0 ObjectInstance \"o\" AttributeEnd\n"
-    "AttributeBegin Translate 0 1 0 Scale 1 -.7 1.2 Rotate 30 1 1 0 Translate -%s 0 0 ObjectInstance \"o\" AttributeEnd\n"
+    "AttributeBegin Translate 0 1 0 Scale 1 -.7 1.2 Rotate 30 1 1 0 Translate -%s 0 0 ObjectInstance \"o\" "
+    "AttributeEnd\n"
     "AttributeBegin Translate 3 0 1 Rotate 180 0 1 0 Translate -%s 0 0 ObjectInstance \"o\" AttributeEnd\n"
     "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -9 -1 -9 9 -1 -9 9 -1 9 -9 -1 9 ]\n"
     "WorldEnd\n";
