@@ -1,6 +1,5 @@
-/* test_objects.c: objects that instances share (geometry/shape.h): what rays meet is what all their primitives do one
- * by one, surfaces are those of copies, closed surfaces let nothing out, and a scene whose instances share shows what
- * it does when they are copies.
+/* test_objects.c: objects that instances share (geometry/shape.h): rays meet, and scenes show, what they do with
+ * copies.
  */
 #include <stdio.h>
 #include <stdlib.h>
