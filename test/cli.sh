@@ -42,6 +42,8 @@ refuse 'unknown option --sppp; try asbdpt render --help' render "$box" --sppp 3
 refuse 'no integrator has a parameter "selct"; asbdpt help' render "$box" -P selct=bins
 refuse 'delta = "7": give a number' render "$box" -P delta=7 --integrator asbdpt
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
+expect 1 'its film of 800x800 pixels: this needs [0-9.]+ MB more memory, but [0-9.]+ of 10.0 MB are left; --max-mem' \
+    "$program" render "$box" --res 800x800 --spp 1 --max-memory .01 -o x.pfm
 
 # --- parameters
 # A word that a parameter does not have is an error. pbrt's lightsamplestrategy is taken by every integrator.
@@ -176,7 +178,8 @@ last ', 1 spp, pt \(for asbdpt: .* per sample path$' path.pbrt
 last ', 1 spp, bdpt \(for asbdpt: .* per sample path$' bdpt.pbrt
 last ', 1 spp, asbdpt; .* per sample path$' asbdpt.pbrt
 awk 'BEGIN { print "WorldBegin LightSource \"infinite\""
-    for (i = 0; i < 300; i++) print "Shape \"sphere\" \"float a" i % 200 "\" 1"; print "WorldEnd" }' >many.pbrt
+    for (i = 0; i < 300; i++) print "Shape \"sphere\" \"float radius\" " i + 1 " \"float a" i % 200 "\" 1"
+    print "WorldEnd" }' >many.pbrt
 last '; 300 warnings about the scene$' many.pbrt # printed or not
 
 # Bytes of a scene that mean something to a terminal do not reach it.

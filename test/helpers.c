@@ -41,7 +41,8 @@ bool read_exactly(reader *read, const uint8_t *data, size_t n, struct image *out
     uint8_t *copy = mem_alloc(n, 1);
     memcpy(copy, data, n);
     memset(out, 0, sizeof *out);
-    bool ok = read(copy, n, out, err);
+    const struct budget memory = budget_new(256e6, "");
+    bool ok = read(copy, n, &memory, out, err);
     free(copy);
     return ok;
 }
@@ -74,9 +75,10 @@ static void ignore_warning(const struct mesh_task *task, const char *format, ...
     (void)format;
 }
 
-bool shape_fields_mesh(struct shape_fields *f, int room, struct mesh *out, struct error *err)
+bool shape_fields_mesh(struct shape_fields *f, double bytes, struct mesh *out, struct error *err)
 {
-    struct mesh_task task = {.shape = f->row->name, .room = room, .warn = ignore_warning};
+    const struct budget memory = budget_new(bytes, "");
+    struct mesh_task task = {.shape = f->row->name, .memory = &memory, .warn = ignore_warning};
     memset(out, 0, sizeof *out);
     bool ok = f->row->mesh(f->fields, &task, out);
     *err = task.err;
@@ -123,7 +125,7 @@ struct shape_group group_of(int material, int first_light)
 
 struct surface surface_at(const struct geometry *geo, int prim, double b1, double b2)
 {
-    struct hit hit = {0, b1, b2, prim};
+    struct hit hit = {0, b1, b2, prim, 0};
     struct ray ray = {vec(0, 0, 0), vec(0, 0, 1), 0, 1, 0, 0};
     struct surface at;
     shape_surface(geo, &hit, &ray, &at);

@@ -26,7 +26,8 @@ const char *top_directory(char *path, size_t size);
 /* A reader of a picture format (image/formats.h).
  * read_exactly: call it on a copy that ends where its memory ends.
  * accepts: is the file a picture? If not, *err says why. */
-typedef bool reader(const uint8_t *data, size_t size, struct image *out, struct error *err);
+typedef bool reader(const uint8_t *data, size_t size, const struct budget *memory, struct image *out,
+                    struct error *err);
 bool read_exactly(reader *read, const uint8_t *data, size_t n, struct image *out, struct error *err);
 bool accepts(reader *read, const uint8_t *data, size_t n, struct error *err);
 
@@ -46,15 +47,15 @@ bool scene_from_format(struct test *t, struct scene *out, const char *format, ..
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out);
 
 /* What a Shape directive says of a shape of triangles, all zeros at first.
- * shape_fields_set: the field of that name, of so many bytes. shape_fields_mesh: its mesh, with room for so many
- * triangles of subdivided surfaces; releases the fields. */
+ * shape_fields_set: the field of that name, of so many bytes. shape_fields_mesh: its mesh, which may use so many bytes;
+ * releases the fields. */
 struct shape_fields {
     const struct shape_row *row;
     char *fields;
 };
 struct shape_fields shape_fields_of(const char *shape);
 void shape_fields_set(struct shape_fields *f, const char *name, const void *value, size_t size);
-bool shape_fields_mesh(struct shape_fields *f, int room, struct mesh *out, struct error *err);
+bool shape_fields_mesh(struct shape_fields *f, double bytes, struct mesh *out, struct error *err);
 
 /* near3: are two points, or directions, no farther from each other? on_sphere: a direction, uniform. */
 bool near3(vec3 a, vec3 b, double tolerance);

@@ -60,7 +60,7 @@ static double flight(const struct full_path *f, int i, int j, int channel)
     if (s->media.n == 0)
         return 1;
     if (v->prim_id != 0 && v->prim_id != WITHIN_MEDIUM) {
-        const struct shape_group *g = shape_group_of(&s->geo, (int)v->prim_id - 1);
+        const struct shape_group *g = shape_group_of(&s->geo, shape_prim(v->prim_id));
         medium = g->medium[0] != g->medium[1] ? g->medium[dot(v->ng, w) > 0] : medium;
     }
     for (bool first = true, last = false; !last; first = false) {

@@ -14,7 +14,6 @@
 #include "parser/parse.h"
 #include "parser/parser.h"
 #include "parser/scene_files.h"
-#include "parser/symbols.h"
 #include "parser_parts.h"
 
 /* What is no parameter of a shape is none of its material either, of whatever kind that is: no copy is made. What is
@@ -73,7 +72,8 @@ static void check_matrices(struct test *t, struct rng *r)
 }
 
 /* A world of n times `line`, in which "@" stands for another way each to write "", is parsed. */
-static bool parse_repeated(struct test *t, const char *line, int n, struct error *err)
+static bool parse_repeated(struct test *t, const char *line, int n, const struct parse_options *options,
+                           struct error *err)
 {
     char path[TEXT];
     size_t room = 64 + (size_t)n * (strlen(line) + 2 * (size_t)n);
@@ -93,7 +93,7 @@ static bool parse_repeated(struct test *t, const char *line, int n, struct error
     write_bytes(path, text, used);
     free(text);
     struct scene s;
-    bool ok = parse_scene(path, NULL, &s, NULL, err);
+    bool ok = parse_scene(path, options, &s, NULL, err);
     if (ok)
         scene_free(&s);
     return ok;
@@ -111,59 +111,87 @@ static void put_megabyte(struct test *t, const char *name, const char *begin)
     free(text);
 }
 
-/* A megabyte may be read 64 times again; so may what it holds, under whatever name. */
-static void check_repeated(struct test *t)
+static void check_infinite(struct test *t)
 {
-    static const char LIGHTS[] = "more than 4096 infinite lights", AGAIN[] = "more than 64 MB have been read again";
-    static const struct {
-        const char *line;
-        int most;
-        const char *want;
-    } CASE[] = {
-        {"LightSource \"infinite\"", 4096, LIGHTS},
-        {"Include \"text\"", 65, AGAIN},
-        {"Include \"@text\"", 65, AGAIN},
-        {"LightSource \"point\" \"spectrum I\" \"@spectrum\"", 65, AGAIN},
-        {"Shape \"plymesh\" \"string filename\" \"mesh\"", 65, AGAIN},
-        {"Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"@picture\"", 65, AGAIN}};
+    static const char LINE[] = "LightSource \"infinite\"";
+    struct error err = {.text = ""};
+    CHECK(t, parse_repeated(t, LINE, 4096, NULL, &err), "%s", err.text);
+    CHECK(t, !parse_repeated(t, LINE, 4097, NULL, &err) && strstr(err.text, "more than 4096 infinite lights") != NULL,
+          "%s", err.text);
+}
+
+/* All that a file can make large asks for memory, at its place. Of 20 MB the first takes less than all, and twenty
+ * more; 4 GB would do for them. */
+static void check_memory(struct test *t)
+{
+    static const char *const LINE[] = {
+        "Include \"@text\"",
+        "LightSource \"point\" \"spectrum I\" \"@spectrum\"",
+        "Shape \"plymesh\" \"string filename\" \"@mesh\"",
+        "Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"@picture\"",
+        "LightSource \"infinite\" \"string mapname\" \"@map\"",
+        "Translate 1 0 0 Shape \"loopsubdiv\" \"integer levels\" 7 \"integer indices\" [ 0 1 2 ] "
+        "\"point P\" [ 0 0 0 1 0 0 0 1 0 ]",
+        "Translate 1 0 0 Shape \"curve\" \"float width\" 1e-6 \"point P\" [ 0 0 0 1 2 0 1 0 0 0 2 0 ]",
+        "ObjectBegin \"o\" Shape \"loopsubdiv\" \"integer levels\" 8 \"integer indices\" [ 0 1 2 ] "
+        "\"point P\" [ 0 0 0 1 0 0 0 1 0 ] ObjectEnd",
+        "AttributeBegin AreaLightSource \"diffuse\" ObjectBegin \"o\" Shape \"loopsubdiv\" \"integer levels\" 5 "
+        "\"integer indices\" [ 0 1 2 ] \"point P\" [ 0 0 0 1 0 0 0 1 0 ] ObjectEnd AttributeEnd "
+        "ObjectInstance \"o\" Translate 1 0 0 ObjectInstance \"o\" Translate 1 0 0 ObjectInstance \"o\"",
+    };
     put_megabyte(t, "text", "");
     put_megabyte(t, "spectrum", "500 1\n");
     put_megabyte(t, "picture", "P5 1024 1023 255 ");
+    put_megabyte(t, "map", "P5 256 256 255 ");
     put_megabyte(t, "mesh",
                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                  "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0 1 0 0 0 1 0 3 0 1 2 ");
-    for (size_t i = 0; i < sizeof CASE / sizeof CASE[0]; i++) {
+    for (size_t i = 0; i < sizeof LINE / sizeof LINE[0]; i++) {
+        static const struct parse_options little = {.max_memory = 20e6}, much = {.max_memory = 4e9};
         struct error err = {.text = ""};
-        CHECK(t, parse_repeated(t, CASE[i].line, CASE[i].most, &err), "%s: %s", CASE[i].line, err.text);
-        CHECK(t, !parse_repeated(t, CASE[i].line, CASE[i].most + 1, &err), "%s is accepted",
-              CASE[i].line);
-        CHECK(t, strstr(err.text, CASE[i].want) != NULL, "%s: %s", CASE[i].line, err.text);
+        CHECK(t, parse_repeated(t, LINE[i], 1, &little, &err) && parse_repeated(t, LINE[i], 21, &much, &err), "%s: %s",
+              LINE[i], err.text);
+        CHECK(t, !parse_repeated(t, LINE[i], 21, &little, &err) && strstr(err.text, "repeated.pbrt:") != NULL &&
+                     strstr(err.text, "of 20.0 MB are left; --max-memory raises the limit") != NULL,
+              "%s: %s", LINE[i], err.text);
     }
 }
 
-/* Pictures of small files may take so much together, those of large ones anything; what is too much is the end. */
-static void check_unpacked(struct test *t)
+/* A file that is larger than what is left is not read at all. */
+static void check_large_file(struct test *t)
 {
-    uint8_t pixel = 0;
-    uint64_t content = 0;
-    struct scene_files f = {.scene_path = "", .content = &content};
-    struct image small = {.width = 8192, .height = 8192, .channels = 1, .u8 = &pixel, .content = 1};
-    struct image large = small;
-    large.content = 2;
-    large.file_size = 1 << 21;
+    static const struct parse_options little = {.max_memory = 0.9e6};
     struct error err = {.text = ""};
-    bool ok = true;
-    for (int i = 0; i < 3; i++) {
-        small.content = 3 + (uint64_t)i;
-        ok = ok && scene_files_picture(&f, &small, 0, &err);
+    put_megabyte(t, "text", "");
+    CHECK(t, !parse_repeated(t, "Include \"text\"", 1, &little, &err) &&
+                 strstr(err.text, "text: cannot be read: this needs 1.0 MB more memory, but 0.9 of 0.9 MB") != NULL,
+          "%s", err.text);
+}
+
+/* Of many shapes each is known. */
+static void check_twice(struct test *t)
+{
+    enum { SHAPES = 300 };
+    char *text = mem_alloc(SHAPES + 2, 64);
+    struct hearing *heard = mem_alloc(1, sizeof *heard);
+    struct message_sink sink = {hear_message, heard};
+    struct scene s;
+    struct error err = {.text = ""};
+    char path[TEXT];
+    size_t n = (size_t)sprintf(text, "WorldBegin\n");
+    for (int i = 0; i <= SHAPES; i++)
+        n += (size_t)sprintf(text + n, "Shape \"sphere\" \"float radius\" %d\n", i % SHAPES + 1);
+    n += (size_t)sprintf(text + n, "WorldEnd\n");
+    snprintf(path, sizeof path, "%s/twice.pbrt", test_tmp(t));
+    write_bytes(path, text, n);
+    if (CHECK(t, parse_scene(path, NULL, &s, &sink, &err), "%s", err.text)) {
+        CHECK(t, s.geo.n_quadrics == SHAPES && heard->warnings.n == 1 &&
+                     strstr(heard->warnings.text[0], "twice.pbrt:302:1: this shape equals that of line 2, in") != NULL,
+              "%d spheres, and %d warnings: %s", s.geo.n_quadrics, heard->warnings.n, heard->warnings.text[0]);
+        scene_free(&s);
     }
-    ok = ok && scene_files_picture(&f, &large, 0, &err);
-    CHECK(t, ok, "192 MB of pictures: %s", err.text);
-    small.content++;
-    CHECK(t, !scene_files_picture(&f, &small, 0, &err) && strstr(err.text, "more than 192 MB") != NULL, "%s", err.text);
-    CHECK(t, scene_files_path(&f, "a.png", &err) == NULL && strstr(err.text, "a.png: not read") != NULL, "%s",
-          err.text);
-    symbols_free(&f.known);
+    free(heard);
+    free(text);
 }
 
 /* Letters by which a differs from b, by the definition: case apart, one that is changed, left out or put in. */
@@ -231,7 +259,7 @@ static void check_many_errors(struct test *t)
     struct message_sink sink = {hear_message, heard};
     struct error err = {.text = ""};
     char path[TEXT];
-    parse_repeated(t, "Shpae", 1000, &err);
+    parse_repeated(t, "Shpae", 1000, NULL, &err);
     snprintf(path, sizeof path, "%s/repeated.pbrt", test_tmp(t));
     struct scene s;
     CHECK(t, !parse_scene(path, NULL, &s, &sink, &err), "unknown directives are accepted");
@@ -257,7 +285,7 @@ static void check_no_files(struct test *t)
     for (int i = 0; i < 16; i++) {
         struct error err = {.text = ""};
         snprintf(line, sizeof line, LINES[i / 4], NAMES[i % 4][0]);
-        CHECK(t, !parse_repeated(t, line, 1, &err) && strstr(err.text, NAMES[i % 4][1]) != NULL, "%s: %s", line,
+        CHECK(t, !parse_repeated(t, line, 1, NULL, &err) && strstr(err.text, NAMES[i % 4][1]) != NULL, "%s: %s", line,
               err.text);
     }
 }
@@ -327,8 +355,10 @@ void check_parser_limits(struct test *t)
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 0, 0);
     check_copies(t);
     check_matrices(t, &r);
-    check_repeated(t);
-    check_unpacked(t);
+    check_infinite(t);
+    check_memory(t);
+    check_large_file(t);
+    check_twice(t);
     check_near(t, &r);
     check_mistakes(t);
     check_many_errors(t);

@@ -130,24 +130,6 @@ static void check_odd_bytes(struct test *t)
           err.text);
 }
 
-/* What subdivision may make is counted for the whole scene. No fixture: without its first surface it takes seconds. */
-static void check_subdivided(struct test *t)
-{
-    static const char TEXT_OF[] =
-        "WorldBegin\n"
-        "Shape \"loopsubdiv\" \"integer levels\" 0 \"integer indices\" [0 1 2] \"point P\" [0 0 0 1 0 0 0 1 0]\n"
-        "Shape \"loopsubdiv\" \"integer levels\" 11 \"integer indices\" [0 1 2 1 0 3] "
-        "\"point P\" [0 0 0 1 0 0 0 1 0 0 0 1]\nWorldEnd\n";
-    char path[TEXT];
-    snprintf(path, sizeof path, "%s/subdivided.pbrt", test_tmp(t));
-    write_bytes(path, TEXT_OF, sizeof TEXT_OF - 1);
-    struct error err = {.text = ""};
-    struct scene s;
-    static const char WANT[] = ":3:7: 11 levels would make 8.39e+06 triangles of 2; of this scene yet 8388607 are made";
-    CHECK(t, !parse_scene(path, NULL, &s, NULL, &err) && strstr(err.text, WANT) != NULL,
-          "more triangles than a scene may have: %s", err.text);
-}
-
 void check_parser_pieces(struct test *t)
 {
     check_symbols(t);
@@ -155,5 +137,4 @@ void check_parser_pieces(struct test *t)
     check_spectra(t);
     check_cleaning(t);
     check_odd_bytes(t);
-    check_subdivided(t);
 }

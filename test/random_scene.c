@@ -379,6 +379,59 @@ static void surroundings(struct writer *w, vec3 eye, bool walls)
     put(w, "AttributeEnd\n");
 }
 
+/* --- in one place ---------------------------------------------------------------------------------------- */
+
+/* A square or a disk in the plane z = 0, about (x, y). */
+static void flat(struct writer *w, double x, double y, double half, bool disk)
+{
+    put(w, "AttributeBegin Translate ");
+    put_vec(w, vec(x, y, 0));
+    put(w, "Scale ");
+    put_vec(w, vec(half, half, 1));
+    put(w, disk ? "Shape \"disk\"" : "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] "
+           "\"point P\" [ -1 -1 0 1 -1 0 1 1 0 -1 1 0 ]");
+    put(w, " AttributeEnd\n");
+}
+
+/* What comes next shines. Through lamps of which one is to be seen on one side, one on the other, no light goes. */
+static void shining(struct writer *w, bool opaque)
+{
+    vec3 L = within(w, vec(0.3, 0.3, 1), vec(8, 8, 8));
+    put(w, "%s", chance(w, 0.5) ? "ReverseOrientation " : "");
+    put(w, "AreaLightSource \"diffuse\" \"bool twosided\" \"%s\" ", chance(w, 0.5) ? "true" : "false");
+    put_point(w, "rgb", "L", L);
+    if (opaque)
+        put(w, chance(w, 0.3) ? "Material \"none\"\n" : "Material \"matte\" \"rgb Kd\" [ .2 .3 .4 ]\n");
+    else
+        put_material(w, true);
+}
+
+/* Two surfaces in one plane, of which one lies in the other or is the same, or that overlap. The first is a `lamp` or
+ * none, the second as often as not like it. Numbers are such that the plane is the same in float, too; only that of a
+ * disk is not rounded. */
+static void in_one_place(struct writer *w, bool lamp)
+{
+    static const char *const AXES[] = {"0 1 0 0 0 0 1 0 1 0 0 0", "0 0 1 0 1 0 0 0 0 1 0 0", "1 0 0 0 0 1 0 0 0 0 1 0"};
+    bool lamps[2] = {lamp, lamp && chance(w, 0.5)}, same = chance(w, 0.3), later = chance(w, 0.5);
+    vec3 way = direction(w), at = mul(way, between(w, 1.2, 1.5));
+    double x = same ? 0 : between(w, -0.6, 0.6), y = same ? 0 : between(w, -0.6, 0.6);
+    put(w, "AttributeBegin Translate ");
+    put_vec(w, at);
+    put(w, "ConcatTransform [ %s 0 0 0 1 ]\n", AXES[pick(w, 3)]);
+    for (int i = 0; i < 2; i++) {
+        int k = later ? 1 - i : i;
+        put(w, "AttributeBegin ");
+        if (lamps[k])
+            shining(w, lamps[1]);
+        else
+            put_material(w, false);
+        bool disk = lamp && !same && chance(w, 0.3);
+        flat(w, k * x, k * y, k == 0 || same ? 0.7 : 0.5, disk);
+        put(w, "AttributeEnd\n");
+    }
+    put(w, "AttributeEnd\n");
+}
+
 static void anything(struct writer *w, struct random_scene *s)
 {
     struct view v = {.plain = false};
@@ -386,11 +439,12 @@ static void anything(struct writer *w, struct random_scene *s)
     s->max_depth = 1 + pick(w, 4);
     begin(w, &v, s->max_depth);
     put_textures(w);
-    for (int n = 1 + pick(w, 2); n > 0; n--)
+    bool lamp = w->placed && chance(w, 0.75);
+    for (int n = lamp ? 0 : 1 + pick(w, 2); n > 0; n--)
         put_light(w, v.unit);
     bool walls = chance(w, 0.35);
     if (!walls) { /* what no light reaches is not governed by the tails of rough lobes */
-        double L = across(w, 0.02, 0.3);
+        double L = lamp ? 0.02 : across(w, 0.02, 0.3);
         put(w, "AttributeBegin LightSource \"infinite\" ");
         put_rgb(w, "L", L, L, L);
         put(w, "AttributeEnd\n");
@@ -405,6 +459,8 @@ static void anything(struct writer *w, struct random_scene *s)
         put_bound(w);
         put_milk(w);
     }
+    if (w->placed)
+        in_one_place(w, lamp);
 }
 
 static struct random_scene scene_away(uint64_t number, const char *top, bool evil, double away)
@@ -419,6 +475,7 @@ static struct random_scene scene_away(uint64_t number, const char *top, bool evi
     int family = (int)(number % (sizeof FAMILIES / sizeof FAMILIES[0]));
     s.family = FAMILIES[family].name;
     w.media = FAMILIES[family].write == anything && number / 8 % 3 == 1;
+    w.placed = FAMILIES[family].write == anything && number / 8 % 3 == 2;
     w.around = "";
     FAMILIES[family].write(&w, &s);
     put(&w, "WorldEnd\n");
@@ -426,6 +483,7 @@ static struct random_scene scene_away(uint64_t number, const char *top, bool evi
     s.specular |= w.specular;
     s.delta_light |= w.delta_light;
     s.media = w.media;
+    s.placed = w.placed;
     s.fog = w.around[0] != '\0';
     s.known &= !evil;
     return s;

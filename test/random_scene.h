@@ -31,6 +31,7 @@ struct random_scene {
     bool one_ray;     /* family "direct": all rays hit the same place, and path tracing alone has a chance */
     double low, high;
     bool delta_light; /* some light is met by no ray */
+    bool placed;      /* surfaces lie in one place, and most of the light comes from there if they shine */
     bool media, fog;  /* are there any (scene/medium.h), and about the lens as well? Joining a point in fog to a point
                          light, or to the lens, has no variance unless it is weighed against other ways */
     bool specular;    /* some surface reflects or transmits in single directions, so that pt cannot join what is

@@ -22,6 +22,7 @@ struct writer {
     bool specular, delta_light; /* what has been written so far */
     bool media;                 /* there are some, so that every lamp has a material and stands in what is around */
     double away;                /* how far the scene is moved, in its units */
+    bool placed;                /* see random_scene.h */
     const char *around;         /* the medium that the camera is in; "": none */
     bool boxes;                 /* boxes of media lie on the ground: no lamp comes near */
 };

@@ -189,7 +189,7 @@ static char *receiver(uint64_t number, const char *top, bool mirror)
     return w.text;
 }
 
-static bool meet(const struct scene *scene, vec3 from, vec3 to, uint32_t left, struct surface *at)
+static bool meet(const struct scene *scene, vec3 from, vec3 to, uint64_t left, struct surface *at)
 {
     struct ray ray = {from, normalize(sub(to, from)), ray_margin(from), INFINITY, left, 0};
     return scene_intersect(scene, &ray, at);

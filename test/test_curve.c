@@ -7,6 +7,7 @@
 #include "helpers.h"
 #include "tests.h"
 
+enum { ENOUGH = 1 << 23 }; /* triangles */
 enum { RING = 9 }; /* points of a tube's row; the first and the last are one */
 
 /* What a scene file says of a curve; a ribbon if it has normals. */
@@ -19,7 +20,7 @@ struct curve {
 };
 
 /* By the row of "curve", with room for so many triangles. */
-static bool curve_mesh(const struct curve *c, struct mesh *m, int most, struct error *err)
+static bool curve_mesh(const struct curve *c, struct mesh *m, double most, struct error *err)
 {
     struct shape_fields f = shape_fields_of("curve");
     struct field_list P = {c->P, c->n}, N = {c->N, (c->n - 1) / c->degree + 1};
@@ -31,14 +32,14 @@ static bool curve_mesh(const struct curve *c, struct mesh *m, int most, struct e
     shape_fields_set(&f, "type", &type, sizeof type);
     shape_fields_set(&f, "width0", &c->width[0], sizeof c->width[0]);
     shape_fields_set(&f, "width1", &c->width[1], sizeof c->width[1]);
-    return shape_fields_mesh(&f, most, m, err);
+    return shape_fields_mesh(&f, 200 * most, m, err);
 }
 
 static struct mesh mesh_of(struct test *t, const struct curve *c)
 {
     struct mesh m = {0};
     struct error err = {.text = ""};
-    CHECK(t, curve_mesh(c, &m, MESH_MAX_SUBDIVIDED, &err), "%s", err.text);
+    CHECK(t, curve_mesh(c, &m, ENOUGH, &err), "%s", err.text);
     return m;
 }
 
@@ -123,8 +124,8 @@ static void bases(struct test *t)
     struct curve short_one = {P, 3, 3, true, {1, 1}, NULL}, uneven = {P, 6, 3, false, {1, 1}, NULL};
     struct mesh none;
     struct error err;
-    CHECK(t, !curve_mesh(&short_one, &none, MESH_MAX_SUBDIVIDED, &err) && strstr(err.text, "are no curve") != NULL &&
-              !curve_mesh(&uneven, &none, MESH_MAX_SUBDIVIDED, &err) && strstr(err.text, "are no curve") != NULL,
+    CHECK(t, !curve_mesh(&short_one, &none, ENOUGH, &err) && strstr(err.text, "are no curve") != NULL &&
+              !curve_mesh(&uneven, &none, ENOUGH, &err) && strstr(err.text, "are no curve") != NULL,
           "points that make no whole segments: %s", err.text);
 }
 

@@ -52,7 +52,7 @@ static void check_written(struct test *t, const char *name, int width, int heigh
     in_tmp(t, name, path, sizeof path);
     write_bytes(path, "old", 3); /* is to be replaced */
     CHECK(t, image_write(path, width, height, p, &err), "%s", err.text);
-    if (CHECK(t, image_read(path, &img, &err), "%s", err.text)) {
+    if (CHECK(t, image_read(path, NULL, &img, &err), "%s", err.text)) {
         CHECK(t, img.width == width && img.height == height && img.channels == 3, "%s: shape", name);
         int wrong = 0;
         for (int i = 0; i < width * height * 3; i++) {
@@ -170,7 +170,7 @@ static void check_no_read(struct test *t, const char *path, const char *message)
     struct image img;
     struct error err = {.text = ""};
     CHECK(t,
-          !image_read(path, &img, &err) && strstr(err.text, message) != NULL &&
+          !image_read(path, NULL, &img, &err) && strstr(err.text, message) != NULL &&
               strncmp(err.text, path, strlen(path)) == 0,
           "%s: \"%s\" expected, got \"%s\"", path, message, err.text);
     CHECK(t, img.u8 == NULL && img.f32 == NULL, "%s: something is left in the image", path);
@@ -200,7 +200,7 @@ static void test_unreadable(struct test *t)
     static const uint8_t TGA[18 + 3] = {[2] = 2, [12] = 1, [14] = 1, [16] = 24, [18] = 1, [19] = 2, [20] = 200};
     in_tmp(t, "red.TGA", path, sizeof path);
     write_bytes(path, TGA, sizeof TGA);
-    if (CHECK(t, image_read(path, &img, &err), "%s", err.text)) {
+    if (CHECK(t, image_read(path, NULL, &img, &err), "%s", err.text)) {
         CHECK(t, img.decode[img.u8[0]] == (float)srgb_decode(200 / 255.0), "the table decodes bytes");
         image_free(&img);
     }

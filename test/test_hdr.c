@@ -120,7 +120,8 @@ static void check_lower_case(struct test *t, const struct image *picture)
             data[value_of(data, n, "channels") + 18 * c] = (uint8_t)CASES[i].names[c];
         struct image img = {0};
         struct error err = {.text = ""};
-        bool ok = exr_read(data, n, &img, &err);
+        const struct budget memory = budget_new(0, "");
+        bool ok = exr_read(data, n, &memory, &img, &err);
         CHECK(t, ok == (from[0] >= 0), "channels %s: %s", CASES[i].names, err.text);
         for (size_t k = 0; ok && k < image_bytes(&img) / sizeof *img.f32; k++)
             wrong += img.f32[k] != (from[k % 3] < 0 ? 0 : picture->f32[k - k % 3 + 2 - (size_t)from[k % 3]]);
@@ -144,7 +145,7 @@ static void test_fixtures(struct test *t)
     };
     struct image picture;
     struct error err;
-    if (!CHECK(t, image_read(FIXTURES "picture.pfm", &picture, &err), "%s", err.text))
+    if (!CHECK(t, image_read(FIXTURES "picture.pfm", NULL, &picture, &err), "%s", err.text))
         return;
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++)
         check_fixture(t, &picture, CASES[i].name, CASES[i].content);
@@ -255,14 +256,14 @@ static void test_alpha(struct test *t)
     struct error err = {.text = ""};
     size_t n, n_plain;
     uint8_t *data = written(t, "alpha.float.exr", &with, &n);
-    if (CHECK(t, data != NULL && exr_read(data, n, &img, &err), "%s", err.text)) {
+    if (CHECK(t, data != NULL && read_exactly(exr_read, data, n, &img, &err), "%s", err.text)) {
         CHECK(t, memcmp(img.f32, PIXELS, sizeof PIXELS) == 0, "colours change by the side of alpha");
         image_free(&img);
         char *list = (char *)data + 8 + sizeof "channels" + sizeof "chlist" + 4;
         CHECK(t, list[0] == 'A' && list[18] == 'B' && list[36] == 'G' && list[54] == 'R' && list[72] == 'Z', "order");
         list[0] = 'Y'; /* a channel that is read, and three that are not */
         list[18] = list[36] = list[54] = 'x';
-        if (CHECK(t, exr_read(data, n, &img, &err), "%s", err.text)) {
+        if (CHECK(t, read_exactly(exr_read, data, n, &img, &err), "%s", err.text)) {
             CHECK(t, img.channels == 1 && img.f32[0] == ALPHA[0] && img.f32[1] == ALPHA[1], "alpha is %g, %g",
                   (double)img.f32[0], (double)img.f32[1]);
             image_free(&img);
@@ -274,7 +275,7 @@ static void test_alpha(struct test *t)
     CHECK(t, data != NULL && half[2] == EXR_HALF && half[74] == EXR_FLOAT, "types of A and Z, one of which is exact");
     free(data);
     data = written(t, "alpha.png", &with, &n);
-    if (CHECK(t, data != NULL && png_read(data, n, &img, &err), "%s", err.text)) {
+    if (CHECK(t, data != NULL && read_exactly(png_read, data, n, &img, &err), "%s", err.text)) {
         const uint8_t expected[6] = {srgb_byte(0.1f / 0.25), srgb_byte(0.2f / 0.25), srgb_byte(0.05f / 0.25), 0, 0, 0};
         CHECK(t, data[25] == 6 && memcmp(img.u8, expected, sizeof expected) == 0, "colour type %d, %d %d %d", data[25],
               img.u8[0], img.u8[1], img.u8[2]);
@@ -299,13 +300,13 @@ static void test_place(struct test *t)
     struct error err = {.text = ""};
     char path[256];
     snprintf(path, sizeof path, "%s/place.float.exr", test_tmp(t));
-    if (!CHECK(t, image_read(FIXTURES "window.exr", &img, &err), "%s", err.text))
+    if (!CHECK(t, image_read(FIXTURES "window.exr", NULL, &img, &err), "%s", err.text))
         return;
     const struct raster raster = {img.place, img.width, img.height, img.f32, NULL, 0};
     CHECK(t, img.place.x == -7 && img.place.y == 20 && img.place.width == 100 && img.place.height == 80,
           "at %d,%d of %dx%d", img.place.x, img.place.y, img.place.width, img.place.height);
     if (CHECK(t, image_create(path, &file, &err) && image_finish(&file, &raster, &err) &&
-                     image_read(path, &copy, &err), "%s", err.text)) {
+                     image_read(path, NULL, &copy, &err), "%s", err.text)) {
         CHECK(t, memcmp(&copy.place, &img.place, sizeof img.place) == 0 && copy.height == img.height &&
                      memcmp(copy.f32, img.f32, 3 * (size_t)img.width * (size_t)img.height * sizeof *img.f32) == 0,
               "a copy is another picture, at %d,%d of %dx%d", copy.place.x, copy.place.y, copy.place.width,

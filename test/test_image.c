@@ -363,7 +363,7 @@ static void test_ppm(struct test *t)
 static void test_memory(struct test *t)
 {
     enum { N = 3000000 };
-    static const char MESSAGE[] = "too much for a file of this size";
+    static const char MESSAGE[] = "MB more memory, but 256.0 of 256.0 MB are left";
     uint8_t *data = mem_alloc(N, 1);
     struct small_file png = {.n = 0};
     data[2] = 11; /* runs of grey */
@@ -378,11 +378,6 @@ static void test_memory(struct test *t)
     put_checksums(data, N);
     check_no_picture(t, png_read, data, N, MESSAGE);
     free(data);
-    struct error err;
-    const uint64_t each = PICTURE_BYTES_PER_BYTE;
-    CHECK(t, picture_memory_ok(PICTURE_FREE_BYTES, 1, &err) && !picture_memory_ok(PICTURE_FREE_BYTES + 1ull, 1, &err) &&
-                 picture_memory_ok((1 << 24) * each, 1 << 24, &err) &&
-                 !picture_memory_ok((1 << 24) * each + each, 1 << 24, &err), "limits");
 }
 
 void test_image(struct test *t)

@@ -15,202 +15,10 @@
 #include "lab/numbers.h"
 #include "lab/tree.h"
 #include "helpers.h"
+#include "kd_parts.h"
 #include "tests.h"
 
-/* --- geometry ----------------------------------------------------------------------------------------- */
-
-static uint32_t add_vertex(struct mesh *m, vec3 p)
-{
-    m->P = mem_append(m->P, (size_t)m->n_vertices, sizeof *m->P);
-    m->P[m->n_vertices] = p;
-    return (uint32_t)m->n_vertices++;
-}
-
-static void add_face(struct mesh *m, uint32_t a, uint32_t b, uint32_t c)
-{
-    const uint32_t face[3] = {a, b, c};
-    m->index = mem_append(m->index, (size_t)m->n_triangles, sizeof face);
-    memcpy(m->index + 3 * m->n_triangles++, face, sizeof face);
-}
-
-/* A triangle with vertices of its own. */
-static void add_triangle(struct mesh *s, vec3 a, vec3 b, vec3 c)
-{
-    uint32_t ia = add_vertex(s, a), ib = add_vertex(s, b), ic = add_vertex(s, c);
-    add_face(s, ia, ib, ic);
-}
-
-/* Move the mesh into a geometry. */
-static struct geometry geometry_of(struct test *t, struct mesh *s)
-{
-    struct geometry geo = {0};
-    struct transform id = transform_identity();
-    struct error err;
-    if (s->n_triangles > 0)
-        CHECK(t, shape_add_mesh(&geo, s, &id, group_of(0, -1), false, &err) == 0, "%s", err.text);
-    mesh_free(s);
-    return geo;
-}
-
-static vec3 in_cube(struct rng *r)
-{
-    double x = rng_uniform(r), y = rng_uniform(r), z = rng_uniform(r);
-    return vec(2 * x - 1, 2 * y - 1, 2 * z - 1);
-}
-
-static void make_random(struct mesh *s, struct rng *r, int n, double size, vec3 offset)
-{
-    for (int i = 0; i < n; i++) {
-        vec3 c = add(in_cube(r), offset);
-        vec3 e1 = mul(in_cube(r), size), e2 = mul(in_cube(r), size);
-        add_triangle(s, c, add(c, e1), add(c, e2));
-    }
-}
-
-/* Long and thin in every direction, and some of no area at all. */
-static void make_needles(struct mesh *s, struct rng *r, int n)
-{
-    for (int i = 0; i < n; i++) {
-        vec3 a = in_cube(r), b = in_cube(r), w = mul(in_cube(r), 1e-5);
-        add_triangle(s, a, b, i % 10 == 0 ? lerp3(0.5, a, b) : add(b, w));
-    }
-}
-
-/* Axis-aligned squares on integer coordinates: three grids that cross each other, one of them twice. */
-static void make_grids(struct mesh *s, int n)
-{
-    for (int layer = 0; layer < 4; layer++)
-        for (int i = 0; i < n; i++)
-            for (int k = 0; k < n; k++) {
-                double x = i, y = k;
-                vec3 p[4] = {vec(x, y, 2), vec(x + 1, y, 2), vec(x + 1, y + 1, 2), vec(x, y + 1, 2)};
-                for (int c = 0; c < 4; c++)
-                    p[c] = layer == 0   ? vec(p[c].z, p[c].x, p[c].y)
-                           : layer == 1 ? vec(p[c].x, p[c].z, p[c].y)
-                                        : p[c];
-                add_triangle(s, p[0], p[1], p[2]);
-                add_triangle(s, p[0], p[2], p[3]);
-            }
-}
-
-/* The same triangle many times, and a few others. */
-static void make_duplicates(struct mesh *s, struct rng *r, int n)
-{
-    vec3 a = in_cube(r), b = in_cube(r), c = in_cube(r);
-    for (int i = 0; i < n; i++)
-        add_triangle(s, a, b, c);
-    make_random(s, r, 20, 0.5, vec(0, 0, 0));
-}
-
-/* A closed surface: a sphere of rows x columns quads, radius varied a little, vertices shared. */
-static void make_ball(struct mesh *s, struct rng *r, int rows, int columns, double radius, vec3 center)
-{
-    uint32_t south = add_vertex(s, add(center, vec(0, 0, -radius))), first = south + 1;
-    for (int i = 1; i < rows; i++)
-        for (int k = 0; k < columns; k++) {
-            double theta = PI * i / rows, phi = 2 * PI * k / columns, l = radius * (1 + 0.01 * rng_uniform(r));
-            add_vertex(s, add(center, vec(l * sin(theta) * cos(phi), l * sin(theta) * sin(phi), -l * cos(theta))));
-        }
-    uint32_t north = add_vertex(s, add(center, vec(0, 0, radius))), m = (uint32_t)columns;
-    for (uint32_t k = 0; k < m; k++) {
-        uint32_t next = (k + 1) % m, last = first + (uint32_t)(rows - 2) * m;
-        add_face(s, south, first + next, first + k);
-        add_face(s, north, last + k, last + next);
-        for (uint32_t i = 0; i + 2 < (uint32_t)rows; i++) {
-            uint32_t row = first + i * m;
-            add_face(s, row + k, row + next, row + m + next);
-            add_face(s, row + k, row + m + next, row + m + k);
-        }
-    }
-}
-
-static void add_quadrics(struct geometry *geo, struct rng *r, int n)
-{
-    for (int i = 0; i < n; i++) {
-        struct transform move = transform_translate(in_cube(r));
-        struct transform turn = transform_rotate(360 * rng_uniform(r), on_sphere(r));
-        struct transform scale = transform_scale(1, 0.5 + rng_uniform(r), i % 2 == 0 ? -1 : 2);
-        struct quadric q = {.kind = (enum quadric_kind)(i % 6), .radius = 0.2, .inner_radius = 0.05, .zmax = 0.15};
-        q.to_world = transform_compose(move, transform_compose(turn, scale));
-        q.zmin = i % 6 < 3 ? -0.1 : 0;
-        q.phi_max = i % 4 == 0 ? 4 : 2 * PI;
-        q.p1 = vec(0.1, -0.1, -0.1);
-        q.p2 = vec(0.1, 0.2, 0.15);
-        if (q.kind == QUADRIC_DISK)
-            q.zmin = q.zmax = 0.1;
-        shape_add_quadric(geo, q, group_of(0, -1), false, NULL);
-    }
-}
-
-/* --- rays --------------------------------------------------------------------------------------------- */
-
-static int prim_number(const struct geometry *geo, int i)
-{
-    return i < geo->n_triangles ? i : FIRST_QUADRIC + i - geo->n_triangles;
-}
-
-/* A point of the geometry: inside a primitive, a vertex, or the middle of an edge. */
-static vec3 some_point(const struct geometry *geo, struct rng *r)
-{
-    int i = (int)rng_below(r, (uint32_t)geometry_primitives(geo)), kind = (int)rng_below(r, 3);
-    if (i < geo->n_triangles && kind > 0) {
-        float v[9];
-        shape_vertices(geo, i, v);
-        vec3 a = vec(v[0], v[1], v[2]), b = vec(v[3], v[4], v[5]);
-        return kind == 1 ? a : lerp3(0.5, a, b);
-    }
-    struct surface at;
-    double pdf, u1 = rng_uniform(r), u2 = rng_uniform(r);
-    shape_sample(geo, prim_number(geo, i), u1, u2, &at, &pdf);
-    return at.p;
-}
-
-static vec3 axis(int i)
-{
-    double sign = i % 2 == 0 ? 1 : -1;
-    return vec(i / 2 == 0 ? sign : 0, i / 2 == 1 ? sign : 0, i / 2 == 2 ? sign : 0);
-}
-
-static struct ray awkward_ray(const struct geometry *geo, struct rng *r, double size)
-{
-    vec3 p = some_point(geo, r), q = some_point(geo, r), out = mul(on_sphere(r), 2 * size), d = on_sphere(r);
-    vec3 along = axis((int)rng_below(r, 6));
-    const struct {
-        vec3 o, d;
-    } way[] = {{p, along},                        /* from a point, along an axis */
-               {p, sub(q, p)},                    /* from point to point */
-               {add(p, out), neg(out)},           /* from outside, at a point */
-               {sub(p, mul(along, 2 * size)), along}, /* along an axis at it */
-               {p, vec(d.x, d.y, 0)},             /* within a plane */
-               {add(p, out), d},                  /* mostly past everything */
-               {p, d}};
-    uint32_t i = rng_below(r, 7);
-    struct ray ray = {way[i].o, normalize(way[i].d), 0, HUGE_VAL, 0, 0};
-    if (!(length(ray.d) > 0.5))
-        ray.d = vec(0, 0, 1);
-    ray.tmin = rng_below(r, 2) == 0 ? 0 : 1e-6 * size;
-    ray.tmax = rng_below(r, 3) == 0 ? size * rng_uniform(r) : HUGE_VAL;
-    return ray;
-}
-
 /* --- comparison --------------------------------------------------------------------------------------- */
-
-/* see_through: among the primitives without material, else among those with one. */
-static bool brute_closest(const struct geometry *geo, bool see_through, const struct ray *ray, struct hit *hit)
-{
-    bool found = false;
-    for (int i = 0; i < geometry_primitives(geo); i++) {
-        struct hit h;
-        if ((shape_group_of(geo, prim_number(geo, i))->material < 0) != see_through ||
-            !shape_intersect(geo, prim_number(geo, i), ray, &h) || (found && !(h.t < hit->t)))
-            continue;
-        if (geo->opaque != NULL && !geo->opaque(geo->opaque_context, geo, &h))
-            continue;
-        *hit = h;
-        found = true;
-    }
-    return found;
-}
 
 /* Does the tree say the same of this ray as all primitives one by one? *want, *a: what they say. */
 static bool same_as_brute(const struct kdtree *kd, const struct geometry *geo, bool see_through, const struct ray *ray,
@@ -218,7 +26,8 @@ static bool same_as_brute(const struct kdtree *kd, const struct geometry *geo, b
 {
     *want = brute_closest(geo, see_through, ray, a);
     bool got = kd_closest(kd, geo, ray, b);
-    return *want == got && (!*want || a->t == b->t) && kd_occluded(kd, geo, ray) == *want;
+    return *want == got && (!*want || (a->t == b->t && a->prim == b->prim && a->instance == b->instance)) &&
+           kd_occluded(kd, geo, ray, INFINITY) == *want;
 }
 
 /* Are all hits of the ray, and what is a little behind it, those of all primitives one by one, the nearest first? */
@@ -263,11 +72,11 @@ static void compare(struct test *t, const char *name, const struct geometry *geo
         bool want, next = false, same = same_as_brute(&kd, geo, see_through, &ray, &want, &a, &b);
         hits += want;
         if (same && want && geo->opaque == NULL) {
-            ray.from = shape_prim_id(a.prim);
+            ray.from = shape_prim_id(a.prim, a.instance);
             same = same_as_brute(&kd, geo, see_through, &ray, &next, &a, &b);
         }
         if (same && next) {
-            ray.to = shape_prim_id(a.prim);
+            ray.to = shape_prim_id(a.prim, a.instance);
             same = same_as_brute(&kd, geo, see_through, &ray, &next, &a, &b);
         }
         same = same && (i % 8 > 0 || all_as_brute(&kd, geo, see_through, ray));
@@ -332,7 +141,7 @@ static void check_empty(struct test *t)
     struct ray ray = {vec(0, 0, 0), vec(0, 0, 1), 0, HUGE_VAL, 0, 0};
     struct hit hit;
     kd_build(&kd, &geo, KD_SURFACES);
-    CHECK(t, !kd_closest(&kd, &geo, &ray, &hit) && !kd_occluded(&kd, &geo, &ray) && kd.lo[0] > kd.hi[0],
+    CHECK(t, !kd_closest(&kd, &geo, &ray, &hit) && !kd_occluded(&kd, &geo, &ray, INFINITY) && kd.lo[0] > kd.hi[0],
           "a hit in an empty scene, or bounds of nothing that are not inside out");
     kd_free(&kd);
 }
@@ -350,7 +159,7 @@ static void check_nonsense_rays(struct test *t, struct rng *r)
     for (int i = 0; i < 16; i++) {
         struct ray ray = {odd[i / 4], odd[i % 4], 0, HUGE_VAL, 0, 0};
         CHECK(t, !kd_closest(&kd, &geo, &ray, &hit) || isfinite(hit.t), "a hit at no finite distance");
-        kd_occluded(&kd, &geo, &ray);
+        kd_occluded(&kd, &geo, &ray, INFINITY);
     }
     kd_free(&kd);
     geometry_free(&geo);
@@ -374,7 +183,7 @@ static int count_escapes(const struct kdtree *kd, const struct geometry *geo, ve
         if (kind == 3)
             ray.d = axis((int)rng_below(r, 6));
         struct hit hit;
-        bool closed = kd_closest(kd, geo, &ray, &hit) && kd_occluded(kd, geo, &ray);
+        bool closed = kd_closest(kd, geo, &ray, &hit) && kd_occluded(kd, geo, &ray, INFINITY);
         escaped += !closed;
     }
     return escaped;
@@ -383,17 +192,20 @@ static int count_escapes(const struct kdtree *kd, const struct geometry *geo, ve
 /* A ball lets nothing out; the last, which has a hole, does. */
 static void check_watertight(struct test *t, struct rng *r)
 {
-    static const vec3 CENTRE[] = {{0, 0, 0}, {0.3, -0.7, 1e3}, {1e4, 2e4, -3e4}, {0, 0, 0}};
-    for (int i = 0; i < 4; i++) {
+    static const struct {
+        vec3 centre;
+        double radius;
+    } BALL[] = {{{0, 0, 0}, 1}, {{0.3, -0.7, 1e3}, 1}, {{1e4, 2e4, -3e4}, 1000}, {{0, 0, 0}, 1e-21}, {{0, 0, 0}, 1}};
+    const int n = sizeof BALL / sizeof BALL[0];
+    for (int i = 0; i < n; i++) {
         struct mesh s = {0};
         struct kdtree kd;
-        double radius = i == 2 ? 1000 : 1;
-        make_ball(&s, r, 60, 90, radius, CENTRE[i]);
-        s.n_triangles -= i == 3 ? 9 : 0;
+        make_ball(&s, r, 60, 90, BALL[i].radius, BALL[i].centre);
+        s.n_triangles -= i == n - 1 ? 9 : 0;
         struct geometry geo = geometry_of(t, &s);
         kd_build(&kd, &geo, KD_SURFACES);
-        int escaped = count_escapes(&kd, &geo, CENTRE[i], radius, 40000, r);
-        CHECK(t, (escaped > 0) == (i == 3), "ball %d: %d of 40000 rays got out", i, escaped);
+        int escaped = count_escapes(&kd, &geo, BALL[i].centre, BALL[i].radius, 40000, r);
+        CHECK(t, (escaped > 0) == (i == n - 1), "ball %d: %d of 40000 rays got out", i, escaped);
         double cost = tree_figures(&kd).cost;
         CHECK(t, cost < 80 && kd.n_nodes > 1000, "a cost of %g with %d nodes is no good tree", cost, kd.n_nodes);
         kd_free(&kd);
@@ -433,8 +245,8 @@ static void check_alpha(struct test *t, struct rng *r)
         struct ray ray = {in_cube(r), on_sphere(r), 1e-6, HUGE_VAL, 0, 0};
         struct hit a = {0}, b = {0};
         bool want = brute_closest(&geo, false, &ray, &a), got = kd_closest(&kd, &geo, &ray, &b);
-        CHECK(t, want == got && a.t == b.t, "alpha: ray %d hits at %g, not at %g", i, b.t, a.t);
-        CHECK(t, want == kd_occluded(&kd, &geo, &ray), "alpha: a shadow ray and another ray differ");
+        CHECK(t, want == got && (!want || a.t == b.t), "alpha: ray %d hits at %g, not at %g", i, b.t, a.t);
+        CHECK(t, want == kd_occluded(&kd, &geo, &ray, INFINITY), "alpha: a shadow ray and another ray differ");
     }
     CHECK(t, asked > 0, "alpha is asked for");
     kd_free(&kd);

@@ -176,7 +176,8 @@ static void check_fixture(struct test *t, const struct fixture *f)
     struct hearing *heard = mem_alloc(1, sizeof *heard);
     struct message_sink sink = {hear_message, heard};
     head_comment(text, "integrator", 0, integrator);
-    bool ok = parse_scene(path, integrator[0] != '\0' ? integrator : NULL, &s, &sink, &err);
+    const struct parse_options options = {.integrator = integrator[0] != '\0' ? integrator : NULL};
+    bool ok = parse_scene(path, &options, &s, &sink, &err);
     head_comment(text, "expect", 0, expect);
     if (strcmp(expect, "ok") == 0)
         CHECK(t, ok, "%s: refused:\n%s", name, err.text);

@@ -40,7 +40,7 @@ static bool drawn(struct test *t, struct strategy_images *images, struct image *
     char path[512];
     snprintf(path, sizeof path, "%s/pyramid.png", test_tmp(t));
     bool ok = CHECK(t, pyramid_write(test_tmp(t), images, 2, &err), "%s", err.text) &&
-              CHECK(t, image_read(path, out, &err), "%s", err.text);
+              CHECK(t, image_read(path, NULL, out, &err), "%s", err.text);
     strategies_free(images);
     return ok;
 }

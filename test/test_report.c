@@ -223,7 +223,7 @@ static void check_sheet(struct test *t, const struct results *r)
     struct error err = {.text = ""};
     char path[512];
     snprintf(path, sizeof path, "%s/images/cornell-box.png", r->plan->directory);
-    if (!CHECK(t, image_read(path, &img, &err), "%s", err.text))
+    if (!CHECK(t, image_read(path, NULL, &img, &err), "%s", err.text))
         return;
     int k = COLUMN_WIDTH / s->width, column = s->width * k + COLUMN_GAP;
     CHECK(t, img.width == (COMPARED + 1) * column + COLUMN_GAP, "%d columns of %d", COMPARED + 1, column);

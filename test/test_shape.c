@@ -46,7 +46,7 @@ static void check_triangle_hits(struct test *t)
         {{{0.5, 0.25, 3}, {0, 0, -1}, 0, 4, 0, 0}, true, "straight down"},
     };
     struct geometry geo = {0};
-    struct hit hit = {0, 0, 0, -1};
+    struct hit hit = {0, 0, 0, -1, 0};
     add_triangle(t, &geo, false, false, transform_identity(), false);
     for (int i = 0; i < 6; i++)
         CHECK(t, shape_intersect(&geo, 0, &CASES[i].ray, &hit) == CASES[i].hit, "%s", CASES[i].why);
@@ -204,11 +204,11 @@ static void check_quadric_rays(struct test *t, int i, struct rng *r)
                      at.v <= 1 + 1e-9, "quadric %d: (%g, %g) is another point", i, at.u, at.v);
         CHECK(t, at.p.x >= lo[0] && at.p.x <= hi[0] && at.p.y >= lo[1] && at.p.y <= hi[1] && at.p.z >= lo[2] &&
                      at.p.z <= hi[2], "quadric %d: outside its bounds", i);
-        struct ray arrive = {ray.o, ray.d, 0, length(sub(at.p, ray.o)), 0, shape_prim_id(PRIM)};
+        struct ray arrive = {ray.o, ray.d, 0, length(sub(at.p, ray.o)), 0, shape_prim_id(PRIM, 0)};
         CHECK(t, !shape_intersect(&geo, PRIM, &arrive, &again), "quadric %d stands before itself", i);
         double cosine = pow(10, -5 * rng_uniform(r));
         vec3 along = normalize(cross(at.ng, on_sphere(r)));
-        struct ray leave = {at.p, normalize(add(along, mul(at.ng, cosine))), 0, HUGE_VAL, shape_prim_id(PRIM), 0};
+        struct ray leave = {at.p, normalize(add(along, mul(at.ng, cosine))), 0, HUGE_VAL, shape_prim_id(PRIM, 0), 0};
         struct ray beyond = {at.p, leave.d, blur, HUGE_VAL, 0, 0};
         bool met = shape_intersect(&geo, PRIM, &leave, &next);
         CHECK(t, met == shape_intersect(&geo, PRIM, &beyond, &again) && (!met || fabs(next.t - again.t) <= blur),
@@ -276,7 +276,7 @@ static void check_orientation(struct test *t)
         shape_sample(&geo, 0, 0.3, 0.3, &sample, &pdf);
         CHECK(t, sample.ng.z == at.ng.z, "case %d: sampled and hit points face different ways", i);
         shape_add_quadric(&geo, quadric(QUADRIC_SPHERE, place, 1, 0, -1, 1, 2 * PI), group_of(3, 9), reverse, NULL);
-        const struct hit hit = {4, 0, 0, FIRST_QUADRIC};
+        const struct hit hit = {4, 0, 0, FIRST_QUADRIC, 0};
         const struct ray ray = ray_at(vec(0, 0, 5), vec(0, 0, 0));
         shape_surface(&geo, &hit, &ray, &at);
         shape_sample(&geo, FIRST_QUADRIC, 0.2, 0.3, &sample, &pdf);

@@ -297,7 +297,7 @@ static void test_decoding(struct test *t)
         snprintf(path[i], sizeof path[i], "%s/texel%d.ppm", test_tmp(t), i);
         if (i < 2)
             write_bytes(path[i], TEXELS[i], strlen(TEXELS[i]));
-        CHECK(t, texture_load_image(&set, path[i], &err) == (i < 2 ? i : -1), "picture %d: %s", i, err.text);
+        CHECK(t, texture_load_image(&set, path[i], NULL, &err) == (i < 2 ? i : -1), "picture %d: %s", i, err.text);
     }
     CHECK(t, strstr(err.text, path[2]) == err.text, "%s", err.text);
     CHECK(t, set.n_images == 2, "what is no picture leaves nothing behind");

@@ -54,7 +54,6 @@ enum { WINDOWS = 0, BYTES = 0 };
 #undef CLOCK_PROCESS_CPUTIME_ID
 #define CLOCK_PROCESS_CPUTIME_ID CLOCK_MONOTONIC
 #elif !defined _WIN32
-#include <sys/mman.h>
 #include <sys/resource.h>
 #endif
 
@@ -98,48 +97,18 @@ double os_peak_memory(void)
 #endif
 }
 
-#if defined _SC_PHYS_PAGES && defined RLIMIT_DATA
-
-/* Can memory still be had? Not where more than the limit is mapped already, as sanitizers do. */
-static bool can_map(void)
+double os_memory(void)
 {
-    int fd = open("/dev/zero", O_RDWR);
-    void *p = fd >= 0 ? mmap(NULL, 1, PROT_READ | PROT_WRITE, MAP_PRIVATE, fd, 0) : MAP_FAILED;
-    if (fd >= 0)
-        close(fd);
-    return p != MAP_FAILED && munmap(p, 1) == 0;
-}
-
-/* Bytes that the machine can move out of memory; 0 where it does not say. */
-static rlim_t swap_size(void)
-{
-    char line[128];
-    unsigned long kib = 0;
-    FILE *f = fopen("/proc/meminfo", "r");
-    while (f != NULL && fgets(line, sizeof line, f) != NULL && sscanf(line, "SwapTotal: %lu", &kib) != 1)
-        kib = 0;
-    if (f != NULL)
-        fclose(f);
-    return (rlim_t)kib * 1024;
-}
-
-void os_limit_memory(void)
-{
-    struct rlimit old, limit;
+#ifdef _WIN32
+    MEMORYSTATUSEX memory = {.dwLength = sizeof memory};
+    return GlobalMemoryStatusEx(&memory) ? (double)memory.ullTotalPhys : 0;
+#elif defined _SC_PHYS_PAGES
     long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-    if (pages <= 0 || page <= 0 || getrlimit(RLIMIT_DATA, &old) != 0)
-        return;
-    limit = old;
-    limit.rlim_cur = (rlim_t)pages * (rlim_t)page + swap_size();
-    if (old.rlim_cur != RLIM_INFINITY && old.rlim_cur <= limit.rlim_cur)
-        return;
-    if (setrlimit(RLIMIT_DATA, &limit) == 0 && !can_map())
-        setrlimit(RLIMIT_DATA, &old);
-}
-
+    return pages > 0 && page > 0 ? (double)pages * (double)page : 0;
 #else
-void os_limit_memory(void) {}
+    return 0;
 #endif
+}
 
 /* ---- signals ---- */
 

@@ -35,12 +35,8 @@ void os_lock_wake_all(struct os_lock *lock); /* everybody who waits */
 double os_wall_seconds(void); /* a steady clock; only differences mean something */
 double os_cpu_seconds(void);  /* of all threads of this process; does not wrap. On WASI: wall time */
 double os_peak_memory(void);  /* bytes this process has held at most, 0 where that is not told */
+double os_memory(void);       /* bytes of the machine, 0 where that is not told */
 uint64_t os_unique(void);     /* what no other process, and no other moment of this one, is likely to have */
-
-/* os_limit_memory: from now on allocations fail once this process has as much as the machine, swap with it, so that a
- * scene that wants more ends with a message instead of bringing the machine down. A lower limit (ulimit -d) stays.
- * Where the system cannot do that, nothing happens. */
-void os_limit_memory(void);
 
 /* ---- signals ---- */
 

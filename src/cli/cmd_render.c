@@ -238,6 +238,10 @@ static bool render(const struct job_options *o, const struct scene *scene, const
     struct film film;
     struct keep keep;
     const struct planes planes = {o->lights != NULL ? scene->lights.n_groups : 0, o->alpha};
+    struct error why;
+    if (!budget_has(&scene->memory, film_bytes(render_crop(scene), planes), &why))
+        return error_set(err, "%s: its film of %dx%d pixels: %s; --res makes it smaller", o->scene_path, scene->width,
+                         scene->height, why.text);
     film_init(&film, render_crop(scene), scene->width, scene->height);
     film_keep_planes(&film, planes);
     bool ok = parameters_max_depth(scene, o->max_depth, &options.max_depth, err) &&

@@ -35,6 +35,8 @@ const struct option JOB_OPTIONS[] = {
      .help = "pixel filter: box, triangle, gaussian, mitchell or sinc (default: the scene's)"},
     {"--cropwindow", "X0 X1 Y0 Y1", OPTION_WINDOW, AT(crop), 0, 1,
      .help = "render only this part of the film, in fractions from 0 to 1 (default: the scene's)"},
+    {"--max-memory", "GB", OPTION_NUMBER, AT(max_memory), 1e-3, 1e9,
+     .help = "gigabytes that the scene and its film may take (default: three quarters of the machine's memory)"},
     {"--strict", NULL, OPTION_ON, AT(strict), .help = "treat warnings about the scene as errors"},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "print errors and warnings alone"}, {.name = NULL}};
 
@@ -134,7 +136,8 @@ int job_open(struct job_loading *job, struct scene *scene, const struct method *
     const struct job_options *o = job->options;
     struct error err;
     struct message_sink sink = {print_message, job};
-    if (!parse_scene(o->scene_path, o->integrator, scene, &sink, NULL))
+    const struct parse_options options = {o->integrator, 1e9 * o->max_memory};
+    if (!parse_scene(o->scene_path, &options, scene, &sink, NULL))
         return EXIT_JOB;
     job->n_warnings = scene->n_warnings;
     if (apply(o, scene, &err) && (*method = choose_method(scene, job, &err)) != NULL)

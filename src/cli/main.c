@@ -7,6 +7,5 @@ int main(int argc, char **argv)
 {
     os_open_standard();
     interrupt_init();
-    os_limit_memory();
     return command_line(argc, argv);
 }

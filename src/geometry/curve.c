@@ -152,7 +152,7 @@ static bool make(const struct curve *c, int segments, struct mesh_task *task, st
     }
     if (widest == 0)
         return true;
-    if (!mesh_take_room(task, 2 * rows * (columns - 1)))
+    if (!mesh_fits(task, 2 * (double)rows * (columns - 1)))
         return false;
     make_net(m, columns, (int)rows);
     for (int s = 0; s < segments; s++) {

@@ -40,9 +40,11 @@ enum { KD_LANES = 4 };
 /* Up to four triangles, or up to four quadrics. */
 struct kd_block {
     float v[3][3][KD_LANES]; /* corner, axis, lane; zeros for a quadric, NaN for an unused lane */
-    float reach[KD_LANES];   /* 12 times the longest of the triangle's edges, by its largest coordinate */
+    float reach[KD_LANES];   /* 12 times the longest of the triangle's edges, by its largest coordinate, or KD_TINY */
     uint32_t prim[KD_LANES]; /* primitive number, with KD_ALPHA added if its group has an alpha texture */
 };
+
+#define KD_TINY 2e-19f /* a number whose square is more than two of the least normal ones */
 
 #define KD_ALPHA 0x80000000u /* primitive numbers are below 2^31 */
 #define KD_NONE  0xffffffffu /* an unused lane; they are the last ones */

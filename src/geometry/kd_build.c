@@ -14,11 +14,10 @@
 static const double MAX_REFERENCES = 32, MOST_REFERENCES = 1u << 31;
 enum { MOST_NODES = 1 << 30 };
 
-/* Items are the triangles, then the quadrics, numbered without a gap. */
 struct builder {
     const struct geometry *geo;
     struct kdtree *kd;
-    uint32_t *leaf_item; /* the items of the leaves in blocks of KD_LANES, filled up with KD_NONE */
+    uint32_t *leaf_item; /* the primitives of the leaves in blocks of KD_LANES, filled up with KD_NONE */
     size_t n_leaf_items, node_capacity, leaf_capacity;
     int max_depth;
 };
@@ -36,7 +35,7 @@ struct kd_cell {
 static void split_item(const struct geometry *geo, const struct kd_ref *whole, const struct box *cell,
                        const struct kd_plane *p, struct kd_ref half[2], bool filled[2])
 {
-    if (whole->item < (uint32_t)geo->n_triangles) {
+    if (whole->item < FIRST_QUADRIC) {
         float v[9];
         struct box part[2];
         shape_vertices(geo, (int)whole->item, v);
@@ -64,16 +63,16 @@ static void split_items(const struct geometry *geo, const struct kd_cell *cell, 
     }
 }
 
-/* The blocks of a leaf: first those of triangles, then those of quadrics. */
+/* The blocks of a leaf: first those of triangles, then those of quadrics, then those of instances. */
 static void make_leaf(struct builder *b, uint32_t node, const struct kd_cell *cell)
 {
     struct kdtree *kd = b->kd;
     const struct kd_ref *ref = cell->ref;
     size_t first = b->n_leaf_items, n = 0;
-    b->leaf_item = mem_grow(b->leaf_item, &b->leaf_capacity, first + cell->n + 2 * KD_LANES, sizeof *b->leaf_item);
-    for (int quadrics = 0; quadrics < 2; quadrics++) {
+    b->leaf_item = mem_grow(b->leaf_item, &b->leaf_capacity, first + cell->n + 3 * KD_LANES, sizeof *b->leaf_item);
+    for (int kind = 0; kind < 3; kind++) {
         for (size_t i = 0; i < cell->n; i++)
-            if ((ref[i].item >= (uint32_t)b->geo->n_triangles) == quadrics)
+            if ((ref[i].item >= FIRST_QUADRIC) + (ref[i].item >= FIRST_INSTANCE) == kind)
                 b->leaf_item[first + n++] = ref[i].item;
         while (n % KD_LANES != 0)
             b->leaf_item[first + n++] = KD_NONE;
@@ -137,11 +136,6 @@ static void build_cell(struct builder *b, uint32_t node, const struct kd_cell *c
         build_cell(b, child + s, &part[s]);
 }
 
-static int prim_of_item(const struct geometry *geo, uint32_t item)
-{
-    return item < (uint32_t)geo->n_triangles ? (int)item : FIRST_QUADRIC + (int)item - geo->n_triangles;
-}
-
 enum kd_of kd_kind(const struct shape_group *group)
 {
     if (group->material >= 0)
@@ -149,29 +143,40 @@ enum kd_of kd_kind(const struct shape_group *group)
     return group->first_light < 0 && group->medium[0] != group->medium[1] ? KD_INTERFACES : KD_LAMPS;
 }
 
-/* The cell of everything. */
-static struct kd_cell root_cell(const struct geometry *geo, enum kd_of kind)
+/* Add primitives to the cell of everything. */
+static void add_prims(const struct geometry *geo, int first, int n, struct kd_cell *root)
 {
-    size_t most = (size_t)geometry_primitives(geo);
-    struct kd_cell root = {.box = {{1, 1, 1}, {-1, -1, -1}}, .ref = mem_alloc(most, sizeof *root.ref)};
-    for (size_t i = 0; i < most; i++) {
-        int prim = prim_of_item(geo, (uint32_t)i);
-        if (kd_kind(shape_group_of(geo, prim)) != kind)
-            continue;
-        struct box *all = &root.box, *box = &root.ref[root.n].box;
-        root.ref[root.n].item = (uint32_t)i;
-        shape_bounds(geo, prim, box->lo, box->hi);
+    for (int i = 0; i < n; i++) {
+        struct box *all = &root->box, *box = &root->ref[root->n].box;
+        root->ref[root->n].item = (uint32_t)(first + i);
+        shape_bounds(geo, first + i, box->lo, box->hi);
         for (int k = 0; k < 3; k++) {
-            all->lo[k] = root.n == 0 || box->lo[k] < all->lo[k] ? box->lo[k] : all->lo[k];
-            all->hi[k] = root.n == 0 || box->hi[k] > all->hi[k] ? box->hi[k] : all->hi[k];
+            all->lo[k] = root->n == 0 || box->lo[k] < all->lo[k] ? box->lo[k] : all->lo[k];
+            all->hi[k] = root->n == 0 || box->hi[k] > all->hi[k] ? box->hi[k] : all->hi[k];
         }
-        root.n++;
+        root->n++;
     }
+}
+
+/* Of an object, or of the world (NULL). */
+static struct kd_cell root_cell(const struct geometry *geo, enum kd_of kind, const struct object *object)
+{
+    struct kd_cell root = {.box = {{1, 1, 1}, {-1, -1, -1}}};
+    int first = object != NULL ? object->first_group : 0, end = object != NULL ? object->end_group : geo->n_groups;
+    size_t most = (size_t)geo->n_instances;
+    for (int g = first; g < end; g++)
+        most += (size_t)geo->group[g].n_prims;
+    root.ref = mem_alloc(most, sizeof *root.ref);
+    for (int g = first; g < end; g++)
+        if (kd_kind(&geo->group[g]) == kind && geo->group[g].shared == (object != NULL))
+            add_prims(geo, geo->group[g].first_prim, geo->group[g].n_prims, &root);
+    if (kind == KD_SURFACES && object == NULL)
+        add_prims(geo, FIRST_INSTANCE, geo->n_instances, &root);
     root.room = fmin(MAX_REFERENCES * (double)root.n, MOST_REFERENCES);
     return root;
 }
 
-/* n <= KD_LANES primitives, all triangles or all quadrics. */
+/* n <= KD_LANES primitives of one kind. */
 static void fill_block(struct kd_block *b, const struct geometry *geo, const int *prim, int n)
 {
     for (int lane = 0; lane < KD_LANES; lane++) {
@@ -184,6 +189,7 @@ static void fill_block(struct kd_block *b, const struct geometry *geo, const int
                 b->prim[lane] |= KD_ALPHA;
             shape_vertices(geo, prim[lane], v);
         }
+        b->reach[lane] = KD_TINY;
         for (int i = 0; i < 9; i++)
             b->reach[lane] = fmaxf(b->reach[lane], 12 * fabsf(v[i] - v[(i + 3) % 9]));
         for (int i = 0; i < 9; i++)
@@ -199,17 +205,18 @@ static void fill_blocks(struct builder *b)
     for (size_t i = 0; i < b->n_leaf_items; i += KD_LANES) {
         int prim[KD_LANES], n = 0;
         while (n < KD_LANES && b->leaf_item[i + (size_t)n] != KD_NONE) {
-            prim[n] = prim_of_item(b->geo, b->leaf_item[i + (size_t)n]);
+            prim[n] = (int)b->leaf_item[i + (size_t)n];
             n++;
         }
         fill_block(&kd->block[i / KD_LANES], b->geo, prim, n);
     }
 }
 
-void kd_build(struct kdtree *kd, const struct geometry *geo, enum kd_of kind)
+/* The tree of an object, or of the world (NULL). */
+static void build(struct kdtree *kd, const struct geometry *geo, enum kd_of kind, const struct object *object)
 {
     struct builder b = {.geo = geo, .kd = kd};
-    struct kd_cell root = root_cell(geo, kind);
+    struct kd_cell root = root_cell(geo, kind, object);
     struct box bounds = root.box;
     memset(kd, 0, sizeof *kd);
     if (root.n > 0) {
@@ -227,4 +234,15 @@ void kd_build(struct kdtree *kd, const struct geometry *geo, enum kd_of kind)
     memcpy(kd->hi, bounds.hi, sizeof kd->hi);
     for (int k = 0; k < 3; k++)
         kd->reach = fmax(kd->reach, fmax(fabs((double)kd->lo[k]), fabs((double)kd->hi[k])));
+}
+
+void kd_build(struct kdtree *kd, const struct geometry *geo, enum kd_of kind)
+{
+    build(kd, geo, kind, NULL);
+    if (kind != KD_SURFACES)
+        return;
+    kd->n_objects = geo->n_objects;
+    kd->object = mem_alloc((size_t)geo->n_objects, sizeof *kd->object);
+    for (int i = 0; i < geo->n_objects; i++)
+        build(&kd->object[i], geo, kind, &geo->object[i]);
 }

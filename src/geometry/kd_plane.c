@@ -38,8 +38,8 @@ struct axis_bins {
     float lo, hi;         /* bounds of the items */
     float scale;          /* bins per metre */
     int n_bins;
-    int begin[BINS], end[BINS]; /* how many items do so in each bin */
-    int planar_lo, planar_hi;   /* how many lie in the planes at lo, hi */
+    int begin[BINS], end[BINS]; /* weight of the items that do so in each bin */
+    int planar_lo, planar_hi;   /* of those that lie in the planes at lo, hi */
 };
 
 static void axis_start(struct axis_bins *a, int k, const struct box *cell, const struct kd_ref *ref, size_t n)
@@ -74,10 +74,11 @@ static void axis_fill(struct axis_bins *a, const struct kd_ref *ref, size_t n)
     int k = a->number;
     for (size_t i = 0; i < n; i++) {
         float lo = ref[i].box.lo[k], hi = ref[i].box.hi[k];
-        a->begin[(int)((lo - a->lo) * a->scale)]++;
-        a->end[(int)((hi - a->lo) * a->scale)]++;
-        a->planar_lo += hi <= a->lo;
-        a->planar_hi += lo >= a->hi;
+        int weight = kd_weight(&ref[i]);
+        a->begin[(int)((lo - a->lo) * a->scale)] += weight;
+        a->end[(int)((hi - a->lo) * a->scale)] += weight;
+        a->planar_lo += hi <= a->lo ? weight : 0;
+        a->planar_hi += lo >= a->hi ? weight : 0;
     }
 }
 
@@ -124,17 +125,20 @@ static void try_bins(const struct axis_bins *a, size_t n, struct kd_plane *best)
 
 struct kd_plane kd_best_plane(const struct kd_ref *ref, size_t n, const struct box *cell)
 {
-    struct kd_plane best = {-1, 0, false, kd_leaf_cost(n) * kd_half_area(cell)};
+    size_t weight = 0;
+    for (size_t i = 0; i < n; i++)
+        weight += (size_t)kd_weight(&ref[i]);
+    struct kd_plane best = {-1, 0, false, kd_leaf_cost(weight) * kd_half_area(cell)};
     for (int k = 0; k < 3 && n > 0; k++) {
         struct axis_bins a;
         axis_start(&a, k, cell, ref, n);
         if (a.lo == a.hi) {
-            a.planar_lo = a.planar_hi = (int)n;
-            try_ends(&a, n, &best);
+            a.planar_lo = a.planar_hi = (int)weight;
+            try_ends(&a, weight, &best);
         } else if (a.scale < 1e30f) {
             axis_fill(&a, ref, n);
-            try_ends(&a, n, &best);
-            try_bins(&a, n, &best);
+            try_ends(&a, weight, &best);
+            try_bins(&a, weight, &best);
         }
     }
     return best;

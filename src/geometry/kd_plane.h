@@ -9,15 +9,20 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "geometry/shape.h"
+
 struct box {
     float lo[3], hi[3];
 };
 
-/* An item and the bounds of its part within a cell. */
+/* An item, which is a primitive, and the bounds of its part within a cell. */
 struct kd_ref {
     struct box box;
     uint32_t item;
 };
+
+/* How many triangles cost as much to test: an instance is a tree of its own; found by measurement. */
+static inline int kd_weight(const struct kd_ref *r) { return r->item < FIRST_INSTANCE ? 1 : 32; }
 
 struct kd_plane {
     int axis; /* -1: none */
@@ -45,7 +50,7 @@ double kd_half_area(const struct box *b);
  * guesses of the processor; found by measurement. */
 #define KD_VISIT_COST 1.5
 
-/* kd_leaf_cost: the same for a leaf with n items. */
+/* kd_leaf_cost: the same for a leaf with items of weight n. */
 double kd_leaf_cost(size_t n);
 
 /* kd_best_plane: the cheapest cut of a cell with n items, axis -1 if none is cheaper than a leaf. */

@@ -22,6 +22,9 @@ void kd_free(struct kdtree *kd)
 {
     free(kd->node);
     free(kd->block);
+    for (int i = 0; i < kd->n_objects; i++)
+        kd_free(&kd->object[i]);
+    free(kd->object);
     memset(kd, 0, sizeof *kd);
 }
 
@@ -33,43 +36,48 @@ void kd_free(struct kdtree *kd)
  * coordinate in float is off by at most 14 u s, and an edge function by at most 64 u s times the sum S of the six
  * coordinates' absolute values (were S itself below 16 u s, the edge function would be smaller than that). If the ray
  * hits the triangle, the origin of the sheared plane is within it, so that no coordinate exceeds the longest difference
- * of two corners, and S is at most kd_block.reach. So 64 u s times that is the slack that an edge function is given;
- * FLT_MIN covers what underflows. */
+ * of two corners, and S is at most kd_block.reach. So 64 u s times that is the slack that an edge function is given,
+ * and as much again covers what underflows: neither factor is below KD_TINY. */
 
-/* A ray and what the test needs of it. */
+/* What fmax and fmin do, except for NaN, without a call. */
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double smaller(double a, double b) { return a < b ? a : b; }
+
+/* What the loop needs of a ray. The names are those of struct triangle_ray. */
 struct block_ray {
-    struct triangle_ray exact;
-    float ox, oy, oz, sx, sy; /* of exact, in float */
-    float slack;              /* 64 u s */
-    uint32_t from, to;        /* primitive numbers of the triangles it begins and ends on, KD_NONE: on none */
+    float ox, oy, oz, sx, sy;
+    int kx, ky, kz;
+    float slack;       /* 128 u s */
+    uint32_t from, to; /* primitive numbers of the triangles it begins and ends on, KD_NONE: on none */
 };
 
 /* The number of a primitive that is a triangle, KD_NONE of another: quadrics see to themselves. */
-static uint32_t own_triangle(uint32_t id) { return id - 1 < FIRST_QUADRIC ? id - 1 : KD_NONE; }
+static uint32_t own_triangle(uint64_t id) { return id <= FIRST_QUADRIC ? (uint32_t)id - 1 : KD_NONE; }
 
 /* For the scene whose largest absolute coordinate, or the ray's origin's, is `size`. */
-static void prepare_ray(struct block_ray *r, const struct ray *ray, double size)
+static struct block_ray block_ray(const struct triangle_ray *r, double size)
 {
-    r->exact = triangle_ray(ray);
-    r->ox = (float)r->exact.ox;
-    r->oy = (float)r->exact.oy;
-    r->oz = (float)r->exact.oz;
-    r->sx = (float)r->exact.sx;
-    r->sy = (float)r->exact.sy;
-    r->slack = (float)(64 * 0x1p-24 * size);
-    r->from = own_triangle(ray->from);
-    r->to = own_triangle(ray->to);
+    return (struct block_ray){
+        (float)r->ox, (float)r->oy, (float)r->oz, (float)r->sx, (float)r->sy, r->kx, r->ky, r->kz,
+        (float)larger(128 * 0x1p-24 * size, KD_TINY), own_triangle(r->ray->from), own_triangle(r->ray->to)};
 }
 
-/* Which lanes may the ray hit? Sets near[i] to 1 or 0 and returns whether any is 1. A quadric's zeros always may, the
- * NaNs of an unused lane never. The names are those of triangle_hit. */
-static inline bool block_near(const struct kd_block *b, const struct block_ray *r, uint32_t near[KD_LANES])
+/* Lanes by twos, the first of which is the low half. */
+struct lanes {
+    uint64_t pair[KD_LANES / 2];
+};
+
+/* Which lanes may the ray hit? 1 for those that may, else 0. A quadric's zeros always may, the NaNs of an unused lane
+ * never. The names are those of triangle_hit. */
+static inline struct lanes block_near(const struct kd_block *b, const struct block_ray *r)
 {
-    const float *a_x = b->v[0][r->exact.kx], *a_y = b->v[0][r->exact.ky], *a_z = b->v[0][r->exact.kz];
-    const float *b_x = b->v[1][r->exact.kx], *b_y = b->v[1][r->exact.ky], *b_z = b->v[1][r->exact.kz];
-    const float *c_x = b->v[2][r->exact.kx], *c_y = b->v[2][r->exact.ky], *c_z = b->v[2][r->exact.kz];
-    const float ox = r->ox, oy = r->oy, oz = r->oz, sx = r->sx, sy = r->sy, factor = r->slack, *reach = b->reach;
+    uint32_t near[KD_LANES];
+    struct lanes out;
     const uint32_t *prim = b->prim, from = r->from, to = r->to;
+    const float *a_x = b->v[0][r->kx], *a_y = b->v[0][r->ky], *a_z = b->v[0][r->kz];
+    const float *b_x = b->v[1][r->kx], *b_y = b->v[1][r->ky], *b_z = b->v[1][r->kz];
+    const float *c_x = b->v[2][r->kx], *c_y = b->v[2][r->ky], *c_z = b->v[2][r->kz];
+    const float ox = r->ox, oy = r->oy, oz = r->oz, sx = r->sx, sy = r->sy, factor = r->slack, *reach = b->reach;
 #pragma GCC unroll 1 /* else gcc writes the lanes one after the other, and does not put them side by side again */
     for (int i = 0; i < KD_LANES; i++) {
         float az = a_z[i] - oz, bz = b_z[i] - oz, cz = c_z[i] - oz;
@@ -81,56 +89,125 @@ static inline bool block_near(const struct kd_block *b, const struct block_ray *
         least = ec < least ? ec : least;
         most = ec > most ? ec : most;
         float outside = -least < most ? -least : most;
-        near[i] = (outside <= factor * reach[i] + FLT_MIN) & (prim[i] != from) & (prim[i] != to);
+        near[i] = (outside <= factor * reach[i]) & (prim[i] != from) & (prim[i] != to);
     }
-    uint64_t pair[KD_LANES / 2]; /* two lanes at a time */
-    memcpy(pair, near, sizeof pair);
-    return (pair[0] | pair[1]) != 0;
+    memcpy(&out, near, sizeof out);
+    return out;
 }
 
-static bool lane_hit(const struct kd_block *b, int lane, const struct geometry *geo, const struct block_ray *r,
-                     double tmax, struct hit *hit)
+/* --- what a ray meets -------------------------------------------------------------------------------- */
+
+/* A ray in a tree, and what it has met. */
+struct search {
+    const struct kdtree *kd;
+    const struct geometry *geo;
+    struct triangle_ray ray;
+    int instance;    /* of the object whose tree it is; 0: of none */
+    double limit;    /* what lies behind it does not matter */
+    /* of a shadow ray: */
+    double light;    /* from there on only lights count that are in the place of the one where the ray ends */
+    /* else: */
+    double margin;   /* no margin in the world is larger */
+    bool found;
+    struct hit *hit; /* the first so far */
+};
+
+/* Does a come before b, which is near to it? */
+static bool comes_first(const struct search *q, const struct hit *a, const struct hit *b)
+{
+    if (a->prim == b->prim && a->instance == b->instance)
+        return false; /* the same in another cell */
+    const struct ray *ray = q->ray.ray;
+    uint64_t rank[2] = {shape_rank(q->geo, a, ray, neg(ray->d)), shape_rank(q->geo, b, ray, neg(ray->d))};
+    double margin = ray_margin(add(ray->o, mul(ray->d, b->t)));
+    if (!shape_is_light(q->geo, a->prim) && !shape_is_light(q->geo, b->prim))
+        margin = 1e-6 * (margin + ray_margin(ray->o)); /* rounding */
+    if (q->instance > 0)
+        margin /= length(ray->d);
+    return fabs(a->t - b->t) > margin ? a->t < b->t : rank[0] < rank[1];
+}
+
+/* The hit is next to the end of the ray on a light that shines in direction w. Is that light there instead? */
+static bool is_taken(const struct search *q, const struct hit *h, uint64_t light, vec3 w)
+{
+    return shape_rank(q->geo, h, q->ray.ray, w) >= shape_light_rank(q->geo, shape_prim(light));
+}
+
+/* Take note of a hit. Is the search at its end? */
+static inline bool note(struct search *q, bool shadow, const struct hit *h)
+{
+    const struct ray *ray = q->ray.ray;
+    if (h->t <= -ray->tmin && is_taken(q, h, ray->from, ray->d))
+        return false;
+    if (shadow && h->t >= q->light && is_taken(q, h, ray->to, neg(ray->d)))
+        return false;
+    if (shadow)
+        return true;
+    if (q->found && h->t > q->hit->t - q->margin && !comes_first(q, h, q->hit))
+        return false;
+    q->found = true;
+    *q->hit = *h;
+    q->limit = smaller(q->limit, h->t + q->margin);
+    return false;
+}
+
+/* Is there no hole? That a ray does not meet where it begins or ends, block_near did not know. */
+static bool alpha_met(const struct search *q, const struct hit *h)
+{
+    uint64_t id = shape_prim_id(h->prim, 0);
+    return id != q->ray.ray->from && id != q->ray.ray->to && q->geo->opaque(q->geo->opaque_context, q->geo, h);
+}
+
+static bool triangle_met(const struct search *q, const struct kd_block *b, int lane, struct hit *h)
 {
     float v[9];
-    struct hit h;
     for (int i = 0; i < 9; i++)
         v[i] = b->v[i / 3][i % 3][lane];
-    if (!triangle_hit(&r->exact, v, tmax, &h))
+    if (!triangle_hit(&q->ray, v, q->limit, h))
         return false;
-    h.prim = (int)(b->prim[lane] & ~KD_ALPHA);
-    if ((b->prim[lane] & KD_ALPHA) && !geo->opaque(geo->opaque_context, geo, &h))
+    h->prim = (int)(b->prim[lane] & ~KD_ALPHA);
+    h->instance = q->instance;
+    return !(b->prim[lane] & KD_ALPHA) || alpha_met(q, h);
+}
+
+static bool quadric_met(const struct search *q, int prim, struct hit *h)
+{
+    if (!shape_intersect(q->geo, prim, q->ray.ray, h) || !(h->t < q->limit))
         return false;
-    *hit = h;
+    h->instance = q->instance;
     return true;
 }
 
-static bool quadrics_hit(const struct kd_block *b, const struct geometry *geo, const struct ray *ray, double tmax,
-                         struct hit *hit)
+static bool instance_met(const struct search *q, int prim, const double range[2], bool shadow, struct hit *h);
+
+/* Quadrics or instances. */
+static bool note_others(struct search *q, const struct kd_block *b, const double range[2], bool shadow)
 {
     struct hit h;
-    bool found = false;
-    for (int i = 0; i < KD_LANES && b->prim[i] != KD_NONE; i++)
-        if (shape_intersect(geo, (int)b->prim[i], ray, &h) && h.t < tmax) {
-            *hit = h;
-            tmax = h.t;
-            found = true;
-        }
-    return found;
+    for (int i = 0; i < KD_LANES && b->prim[i] != KD_NONE; i++) {
+        int prim = (int)b->prim[i];
+        bool instance = prim >= FIRST_INSTANCE;
+        bool met = instance ? instance_met(q, prim, range, shadow, &h) : quadric_met(q, prim, &h);
+        if (met && ((shadow && instance) || note(q, shadow, &h))) /* else the search there has taken note */
+            return true;
+    }
+    return false;
 }
 
-/* The first hit within (ray->tmin, tmax) among the near lanes, honouring alpha; false, with *hit untouched, if none. */
-static bool block_hit(const struct kd_block *b, const uint32_t near[KD_LANES], const struct geometry *geo,
-                      const struct block_ray *r, double tmax, struct hit *hit)
+/* Take note of what the ray hits in a block, of whose triangles the near ones may be hit, in a stretch of the ray. Is
+ * the search at its end? */
+static inline bool note_block(struct search *q, const struct kd_block *b, struct lanes lanes, const double range[2],
+                              bool shadow)
 {
-    bool found = false;
+    struct hit h;
+    uint32_t near[KD_LANES];
+    memcpy(near, &lanes, sizeof near);
     if ((b->prim[0] & ~KD_ALPHA) >= FIRST_QUADRIC)
-        return quadrics_hit(b, geo, r->exact.ray, tmax, hit);
+        return note_others(q, b, range, shadow);
     for (int i = 0; i < KD_LANES; i++)
-        if (near[i] && lane_hit(b, i, geo, r, tmax, hit)) {
-            tmax = hit->t;
-            found = true;
-        }
-    return found;
+        if (near[i] && triangle_met(q, b, i, &h) && note(q, shadow, &h))
+            return true;
+    return false;
 }
 
 /* --- the way through the tree ------------------------------------------------------------------------ */
@@ -144,9 +221,9 @@ struct kd_visit {
 /* A ray on its way through a tree. */
 struct traversal {
     double o[3], inverse[3]; /* origin; 1/d, finite */
+    double size;             /* largest coordinate of the scene or the origin */
     double slack[3];         /* the half of a slab's width, in t */
     uint32_t near_child[3];  /* 0: the ray goes up the axis, the lower cell comes first; 1: down */
-    struct block_ray ray;
     struct kd_visit cell;
     int waiting;
     struct kd_visit stack[KD_MAX_DEPTH];
@@ -159,36 +236,29 @@ static double inverse_of(double d)
     return 1 / (d + copysign(least, d));
 }
 
-/* What fmax and fmin do, except for NaN, without a call. */
-static inline double larger(double a, double b) { return a > b ? a : b; }
-static inline double smaller(double a, double b) { return a < b ? a : b; }
-
-/* Prepare the traversal; false if the ray misses the bounds. */
-static bool traversal_start(struct traversal *w, const struct kdtree *kd, const struct ray *ray)
+/* Prepare the traversal of a stretch of the ray; false if it misses the bounds. */
+static inline bool traversal_start(struct traversal *w, const struct kdtree *kd, const struct ray *ray, bool bounded,
+                                   double tmin, double tmax)
 {
-    const double o[3] = {ray->o.x, ray->o.y, ray->o.z}, d[3] = {ray->d.x, ray->d.y, ray->d.z};
-    double size = larger(larger(kd->reach, fabs(o[0])), larger(fabs(o[1]), fabs(o[2])));
-    double tmin = ray->tmin, tmax = ray->tmax;
+    const double d[3] = {ray->d.x, ray->d.y, ray->d.z};
+    w->o[0] = ray->o.x;
+    w->o[1] = ray->o.y;
+    w->o[2] = ray->o.z;
+    w->size = larger(larger(kd->reach, fabs(w->o[0])), larger(fabs(w->o[1]), fabs(w->o[2])));
     for (int k = 0; k < 3; k++) {
-        double inverse = inverse_of(d[k]), slack = 1e-14 * size * fabs(inverse);
-        w->o[k] = o[k];
+        double inverse = inverse_of(d[k]), slack = 1e-14 * w->size * fabs(inverse);
         w->inverse[k] = inverse;
         w->slack[k] = slack;
-        w->near_child[k] = inverse < 0;
-        if (ray->tmax < INFINITY) /* most of these lie within the bounds */
+        w->near_child[k] = signbit(inverse) != 0;
+        if (bounded)
             continue;
-        double lo = (kd->lo[k] - o[k]) * inverse, hi = (kd->hi[k] - o[k]) * inverse;
+        double lo = (kd->lo[k] - w->o[k]) * inverse, hi = (kd->hi[k] - w->o[k]) * inverse;
         tmin = larger(tmin, smaller(lo, hi) - slack);
         tmax = smaller(tmax, larger(lo, hi) + slack);
     }
-    w->cell.node = 0;
-    w->cell.tmin = tmin;
-    w->cell.tmax = tmax;
+    w->cell = (struct kd_visit){0, tmin, tmax};
     w->waiting = 0;
-    if (kd->n_nodes == 0 || !(tmin <= tmax))
-        return false;
-    prepare_ray(&w->ray, ray, size);
-    return true;
+    return kd->n_nodes > 0 && tmin <= tmax;
 }
 
 /* Go down to the first leaf of the current cell that the ray comes to, leaving the cells behind it on the stack.
@@ -233,34 +303,81 @@ static inline bool traversal_next(struct traversal *w, double t)
     return false;
 }
 
-/* Both kinds of rays; `shadow` is a constant where this is inlined, so that each has only its own code. */
-static inline bool traverse(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, bool shadow,
-                            struct hit *hit)
+/* Does the ray meet anything from tmin to tmax? Both kinds of rays; `shadow` is a constant where this is inlined, so
+ * that each has only its own code. */
+static inline bool traverse(struct search *q, const struct ray *ray, double tmin, double tmax, bool shadow)
 {
     struct traversal w;
-    if (!traversal_start(&w, kd, ray))
+    double range[2];
+    q->found = false;
+    if (!traversal_start(&w, q->kd, ray, ray->tmax < INFINITY && q->instance == 0, tmin, tmax))
         return false;
-    double nearest = ray->tmax, range[2];
-    uint32_t near[KD_LANES];
-    bool found = false;
+    q->ray = triangle_ray(ray);
+    const struct block_ray r = block_ray(&q->ray, w.size);
     do {
-        struct kd_node leaf = traversal_to_leaf(&w, kd->node, range);
-        const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
-        for (; block < end; block++)
-            if (block_near(block, &w.ray, near) &&
-                block_hit(block, near, geo, &w.ray, nearest, hit)) {
-                if (shadow)
-                    return true;
-                nearest = hit->t;
-                found = true;
-            }
-    } while (traversal_next(&w, nearest));
-    return found;
+        struct kd_node leaf = traversal_to_leaf(&w, q->kd->node, range);
+        const struct kd_block *block = q->kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
+        for (; block < end; block++) {
+            struct lanes near = block_near(block, &r);
+            if ((near.pair[0] | near.pair[1]) != 0 && note_block(q, block, near, range, shadow))
+                return true;
+        }
+    } while (traversal_next(&w, q->limit));
+    return q->found;
+}
+
+static bool meets_first(struct search *q, const struct ray *ray, double tmin, double tmax)
+{
+    return traverse(q, ray, tmin, tmax, false);
+}
+
+static bool meets_any(struct search *q, const struct ray *ray, double tmin, double tmax)
+{
+    return traverse(q, ray, tmin, tmax, true);
+}
+
+/* In the object's space the ray is another one, but t is the same. What it meets in other cells of the world is found
+ * there. */
+static bool instance_met(const struct search *q, int prim, const double range[2], bool shadow, struct hit *h)
+{
+    const struct instance *place = &q->geo->instance[prim - FIRST_INSTANCE];
+    const struct ray *ray = q->ray.ray;
+    const int number = prim - FIRST_INSTANCE + 1;
+    double slack = 1e-9 * (fabs(range[1]) + q->kd->reach);
+    double tmin = larger(ray->tmin, range[0] - slack), tmax = smaller(q->limit, range[1] + slack);
+    struct search in = *q;
+    struct ray r = *ray;
+    in.kd = &q->kd->object[place->object];
+    in.instance = number;
+    in.hit = h;
+    r.o = transform_point_back(&place->to_world, ray->o);
+    r.d = transform_vector_back(&place->to_world, ray->d);
+    r.from = shape_own_id(ray->from, number);
+    r.to = shape_own_id(ray->to, number);
+    return shadow ? meets_any(&in, &r, tmin, tmax) : meets_first(&in, &r, tmin, tmax);
 }
 
 bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit)
 {
-    return traverse(kd, geo, ray, false, hit);
+    struct search q;
+    q.kd = kd;
+    q.geo = geo;
+    q.instance = 0;
+    q.limit = ray->tmax;
+    q.margin = 3e-7 * kd->reach;
+    q.hit = hit;
+    return meets_first(&q, ray, ray->tmin, ray->tmax);
+}
+
+bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, double light)
+{
+    struct search q;
+    q.kd = kd;
+    q.geo = geo;
+    q.instance = 0;
+    q.limit = ray->tmax;
+    q.light = light;
+    return meets_any(&q, ray, ray->tmin, ray->tmax);
 }
 
 /* The hits of a ray so far. */
@@ -299,7 +416,9 @@ int kd_all(const struct kdtree *kd, const struct geometry *geo, const struct ray
     struct hits all = {.hit = NULL};
     double range[2];
     int n = 0;
-    for (bool more = traversal_start(&w, kd, ray); more; more = traversal_next(&w, ray->tmax)) {
+    bool bounded = ray->tmax < INFINITY;
+    for (bool more = traversal_start(&w, kd, ray, bounded, ray->tmin, ray->tmax); more;
+         more = traversal_next(&w, ray->tmax)) {
         struct kd_node leaf = traversal_to_leaf(&w, kd->node, range);
         const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);
         double slack = 1e-9 * (range[1] + kd->reach); /* what is found in two leaves is dropped below */
@@ -315,10 +434,4 @@ int kd_all(const struct kdtree *kd, const struct geometry *geo, const struct ray
             all.hit[n++] = all.hit[i];
     *hits = all.hit;
     return n;
-}
-
-bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray)
-{
-    struct hit hit;
-    return traverse(kd, geo, ray, true, &hit);
 }

@@ -19,7 +19,8 @@ struct kd_block; /* up to four triangles, see kd_block.h */
 struct kdtree {
     struct kd_node *node;   /* [n_nodes], root first, owned */
     struct kd_block *block; /* [n_blocks] what the leaves refer to, owned */
-    int n_nodes, n_blocks;
+    struct kdtree *object;  /* [n_objects], owned: a tree for each object of the geometry */
+    int n_nodes, n_blocks, n_objects;
     float lo[3], hi[3]; /* bounds of everything; lo > hi for an empty tree */
     double reach;       /* largest absolute coordinate of the bounds */
 };
@@ -33,13 +34,19 @@ enum kd_of kd_kind(const struct shape_group *group);
 void kd_build(struct kdtree *kd, const struct geometry *geo, enum kd_of kind);
 void kd_free(struct kdtree *kd);
 
-/* kd_closest: the first hit in (tmin, tmax), honouring alpha. Returns false if there is none. Thread-safe.
+/* Where surfaces lie in one place, it is the same one for all rays (shape_rank). Next to a light where a ray ends or
+ * begins, nothing counts except a light that is there instead. So it is for walks: a light comes before what they meet
+ * up to ray_margin (surface.h) before it. Of other surfaces, those that rounding alone tells apart are in one place.
+ *
+ * kd_closest: the first hit in (tmin, tmax), honouring alpha. Returns false if there is none. Thread-safe. tmin is
+ * below 0 where the ray begins on a light, whose place extends to -tmin.
  * kd_all: how many hits are there? *hits: all, the nearest first, to be given to free(); NULL if there are none. Here
  * tmin may be below 0. */
 bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit);
 int kd_all(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit **hits);
 
-/* kd_occluded: is anything hit in (tmin, tmax)? Thread-safe. */
-bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray);
+/* kd_occluded: is anything hit in (tmin, tmax)? Thread-safe.
+ *   light  where on the ray the place of the light begins that it ends on; INFINITY: it ends on none */
+bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, double light);
 
 #endif

@@ -5,16 +5,14 @@
 #ifndef ASBDPT_MESH_H
 #define ASBDPT_MESH_H
 
+#include "base/budget.h"
 #include "base/field.h"
 #include "geometry/shape.h"
-
-/* Triangles that subdivided surfaces, curves and the like may have in all of a scene. */
-enum { MESH_MAX_SUBDIVIDED = 1 << 23 };
 
 /* Who wants a mesh. */
 struct mesh_task {
     const char *shape; /* what its row is called */
-    int room;          /* of MESH_MAX_SUBDIVIDED, what is left; makers take from it */
+    const struct budget *memory; /* that may be used */
     const char *about; /* the parameter that messages are about; NULL: all of the shape */
     struct error err;  /* why there is no mesh */
     void (*warn)(const struct mesh_task *task, const char *format, ...); /* and what is no reason for that */
@@ -37,7 +35,7 @@ extern const struct shape_row *const shape_rows[];
  * warning. */
 void mesh_triangles(struct field_list P, struct field_list indices, struct mesh_task *task, struct mesh *out);
 
-/* mesh_take_room: so many triangles of the task's room; false with a message if there are none. */
-bool mesh_take_room(struct mesh_task *task, int64_t triangles);
+/* mesh_fits: is there memory to make so many triangles, and to place them? False with a message if not. */
+bool mesh_fits(struct mesh_task *task, double triangles);
 
 #endif

@@ -33,6 +33,8 @@ void geometry_free(struct geometry *geo)
     free(geo->index);
     free(geo->group_of_triangle);
     free(geo->quadric);
+    free(geo->object);
+    free(geo->instance);
     free(geo->group);
     memset(geo, 0, sizeof *geo);
 }
@@ -118,6 +120,7 @@ int shape_add_mesh(struct geometry *geo, const struct mesh *m, const struct tran
     for (int i = 0; i < m->n_triangles; i++)
         geo->group_of_triangle[geo->n_triangles + i] = geo->n_groups;
     group.first_prim = geo->n_triangles;
+    group.n_prims = m->n_triangles;
     group.flip = reverse_orientation != transform_swaps_handedness(to_world);
     group.has_n = m->N != NULL;
     group.has_s = m->S != NULL;
@@ -138,14 +141,64 @@ int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group
                   lo.z, hi.x, hi.y, hi.z);
         return -1;
     }
+    if (geo->n_quadrics >= FIRST_INSTANCE - FIRST_QUADRIC) {
+        error_set(err, "the scene has more than 2^29 quadrics");
+        return -1;
+    }
     q.group = geo->n_groups;
     group.first_prim = FIRST_QUADRIC + geo->n_quadrics;
+    group.n_prims = 1;
     group.flip = reverse_orientation;
     group.has_n = group.has_s = false;
     group.has_uv = true;
     geo->quadric = mem_append(geo->quadric, (size_t)geo->n_quadrics, sizeof *geo->quadric);
     geo->quadric[geo->n_quadrics++] = q;
     return add_group(geo, group);
+}
+
+int shape_make_object(struct geometry *geo, int first_group)
+{
+    struct object o = {first_group, geo->n_groups, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (struct shape_group *g = geo->group + first_group; g < geo->group + geo->n_groups; g++) {
+        g->shared = true;
+        for (int i = 0; i < g->n_prims; i++) {
+            float lo[3], hi[3];
+            shape_bounds(geo, g->first_prim + i, lo, hi);
+            o.lo = vec(fmin(o.lo.x, (double)lo[0]), fmin(o.lo.y, (double)lo[1]), fmin(o.lo.z, (double)lo[2]));
+            o.hi = vec(fmax(o.hi.x, (double)hi[0]), fmax(o.hi.y, (double)hi[1]), fmax(o.hi.z, (double)hi[2]));
+        }
+    }
+    geo->object = mem_append(geo->object, (size_t)geo->n_objects, sizeof *geo->object);
+    geo->object[geo->n_objects] = o;
+    return geo->n_objects++;
+}
+
+static void instance_bounds(const struct geometry *geo, const struct instance *in, vec3 *lo, vec3 *hi)
+{
+    const struct object *o = &geo->object[in->object];
+    *lo = vec(INFINITY, INFINITY, INFINITY);
+    *hi = neg(*lo);
+    for (int i = 0; i < 8; i++) {
+        vec3 p = vec(i & 1 ? o->hi.x : o->lo.x, i & 2 ? o->hi.y : o->lo.y, i & 4 ? o->hi.z : o->lo.z);
+        p = transform_point(&in->to_world, p);
+        *lo = vec(fmin(lo->x, p.x), fmin(lo->y, p.y), fmin(lo->z, p.z));
+        *hi = vec(fmax(hi->x, p.x), fmax(hi->y, p.y), fmax(hi->z, p.z));
+    }
+}
+
+bool shape_add_instance(struct geometry *geo, int object, const struct transform *to_world, struct error *err)
+{
+    const struct instance in = {*to_world, object};
+    vec3 lo, hi;
+    if (geo->n_instances >= FIRST_INSTANCE - FIRST_QUADRIC)
+        return error_set(err, "the scene has more than 2^29 instances");
+    instance_bounds(geo, &in, &lo, &hi);
+    if (!is_place(lo) || !is_place(hi))
+        return error_set(err, "this instance is (%g, %g, %g) to (%g, %g, %g) from the camera: places go up to 1e12",
+                         lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
+    geo->instance = mem_append(geo->instance, (size_t)geo->n_instances, sizeof *geo->instance);
+    geo->instance[geo->n_instances++] = in;
+    return true;
 }
 
 const struct shape_group *shape_group_of(const struct geometry *geo, int prim)
@@ -169,7 +222,13 @@ static void load_corners(const float *v, const uint32_t index[3], vec3 corner[3]
         corner[i] = load3(v, index[i]);
 }
 
-static inline void load_triangle(const struct geometry *geo, const struct shape_group *group, int prim,
+/* Where an instance places it. */
+static const struct transform *transform_of(const struct geometry *geo, int instance)
+{
+    return &geo->instance[instance - 1].to_world;
+}
+
+static inline void load_triangle(const struct geometry *geo, const struct shape_group *group, int prim, int instance,
                                  struct triangle *tri)
 {
     static const double default_uv[3][2] = {{0, 0}, {1, 0}, {1, 1}};
@@ -186,13 +245,27 @@ static inline void load_triangle(const struct geometry *geo, const struct shape_
     tri->has_s = group->has_s;
     tri->flip = group->flip;
     tri->skip_partials = group->skip_partials;
+    if (instance == 0)
+        return;
+    const struct transform *t = transform_of(geo, instance);
+    tri->flip = tri->flip != transform_swaps_handedness(t);
+    for (int i = 0; i < 3; i++) {
+        tri->p[i] = transform_point(t, tri->p[i]);
+        if (group->has_n)
+            tri->n[i] = transform_normal(t, tri->n[i]);
+        if (group->has_s)
+            tri->s[i] = transform_vector(t, tri->s[i]);
+    }
 }
 
 void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3])
 {
     if (is_quadric(prim)) {
         vec3 low, high;
-        quadric_bounds(quadric_of(geo, prim), &low, &high);
+        if (prim >= FIRST_INSTANCE)
+            instance_bounds(geo, &geo->instance[prim - FIRST_INSTANCE], &low, &high);
+        else
+            quadric_bounds(quadric_of(geo, prim), &low, &high);
         double l[3] = {low.x, low.y, low.z}, h[3] = {high.x, high.y, high.z};
         for (int k = 0; k < 3; k++) {
             lo[k] = float_below(l[k]);
@@ -210,7 +283,7 @@ void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]
 
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit)
 {
-    bool begins = ray->from == shape_prim_id(prim), ends = ray->to == shape_prim_id(prim);
+    bool begins = ray->from == shape_prim_id(prim, 0), ends = ray->to == shape_prim_id(prim, 0);
     if (is_quadric(prim)) {
         if (!quadric_intersect(quadric_of(geo, prim), ray, begins, ends, &hit->t))
             return false;
@@ -225,6 +298,7 @@ bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray
             return false;
     }
     hit->prim = prim;
+    hit->instance = 0;
     return true;
 }
 
@@ -232,19 +306,38 @@ void shape_surface(const struct geometry *geo, const struct hit *hit, const stru
 {
     const struct shape_group *group = shape_group_of(geo, hit->prim);
     if (is_quadric(hit->prim)) {
-        const struct quadric *q = quadric_of(geo, hit->prim);
-        vec3 p = transform_point_back(&q->to_world, add(ray->o, mul(ray->d, hit->t)));
-        quadric_surface_at(q, group->flip, group->skip_uv, p, out);
+        struct quadric q = *quadric_of(geo, hit->prim);
+        if (hit->instance > 0)
+            q.to_world = transform_compose(*transform_of(geo, hit->instance), q.to_world);
+        vec3 p = transform_point_back(&q.to_world, add(ray->o, mul(ray->d, hit->t)));
+        quadric_surface_at(&q, group->flip, group->skip_uv, p, out);
     } else {
         struct triangle tri;
-        load_triangle(geo, group, hit->prim, &tri);
+        load_triangle(geo, group, hit->prim, hit->instance, &tri);
         triangle_place(&tri, hit->b1, hit->b2, out);
         if (!group->skip_uv)
             triangle_partials(&tri, hit->b1, hit->b2, out);
     }
     out->material = group->material;
-    out->prim_id = shape_prim_id(hit->prim);
+    out->prim_id = shape_prim_id(hit->prim, hit->instance);
     out->light = group->first_light >= 0 ? group->first_light + hit->prim - group->first_prim : -1;
+}
+
+bool shape_is_light(const struct geometry *geo, int prim) { return shape_group_of(geo, prim)->first_light >= 0; }
+
+uint64_t shape_light_rank(const struct geometry *geo, int prim)
+{
+    return (uint64_t)(shape_group_of(geo, prim)->material >= 0) << 61 | shape_prim_id(prim, 0);
+}
+
+uint64_t shape_rank(const struct geometry *geo, const struct hit *hit, const struct ray *ray, vec3 w)
+{
+    struct surface at;
+    if (!shape_is_light(geo, hit->prim))
+        return (uint64_t)1 << 62 | shape_prim_id(hit->prim, hit->instance);
+    shape_surface(geo, hit, ray, &at);
+    bool shines = shape_group_of(geo, hit->prim)->two_sided || dot(at.ng, w) > 0;
+    return (uint64_t)!shines << 60 | shape_light_rank(geo, hit->prim);
 }
 
 double shape_area(const struct geometry *geo, int prim)
@@ -267,7 +360,7 @@ bool shape_sample(const struct geometry *geo, int prim, double u1, double u2, st
     }
     struct triangle tri;
     struct hit hit = {.prim = prim};
-    load_triangle(geo, group, prim, &tri);
+    load_triangle(geo, group, prim, 0, &tri);
     warp_triangle(u1, u2, &hit.b1, &hit.b2);
     *pdf_a = 2 / triangle_place(&tri, hit.b1, hit.b2, out);
     return group->alpha < 0 || geo->opaque == NULL || geo->opaque(geo->opaque_context, geo, &hit);

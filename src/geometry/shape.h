@@ -1,8 +1,9 @@
-/* shape.h: the geometry of a scene: triangles and quadrics in flat arrays, in world space.
+/* shape.h: the geometry of a scene: triangles and quadrics in flat arrays, in world space, or in that of an object,
+ * which instances then place.
  *
- * Primitives are numbered: triangle i is primitive i, quadric i is primitive FIRST_QUADRIC + i, so that a number given
- * out stays valid when more shapes are added. Every primitive belongs to a group (what one Shape directive made),
- * which carries material, alpha textures and area light. A Shape inside an object instance is copied per instance.
+ * Primitives are numbered: triangle i is primitive i, quadric i is primitive FIRST_QUADRIC + i, instance i as a whole
+ * FIRST_INSTANCE + i, so that a number given out stays valid when more shapes are added. Every triangle and quadric
+ * belongs to a group (what one Shape directive made), which carries material, alpha textures and area light.
  *
  * Tests: test_shape.c.
  */
@@ -19,15 +20,18 @@
 #include "geometry/quadric.h"
 #include "geometry/surface.h"
 
-enum { FIRST_QUADRIC = 1 << 30 };
+enum { FIRST_QUADRIC = 1 << 30, FIRST_INSTANCE = FIRST_QUADRIC + (1 << 29) };
 
 /* What the primitives of one Shape directive have in common. */
 struct shape_group {
     int material;     /* index into scene->materials; -1: none, rays pass through */
     int alpha;        /* float texture, -1 if none: a hole where it is 0 */
     int first_light;  /* area light of primitive first_prim, the others follow; -1 if none */
-    int first_prim;   /* first primitive of the group */
+    int first_prim;   /* first primitive of the group, the others follow */
+    int n_prims;
+    bool shared;      /* it belongs to an object */
     int medium[2];    /* against its normal, and along it (scene/medium.h); if they differ it bounds them */
+    bool two_sided;   /* its lights are; else they shine along the normal */
     bool flip;        /* quadric: ReverseOrientation; triangle without N: whether its normal is negated, which is that
                        * xor the transform swaps handedness */
     bool has_n;       /* vertex normals given (already negated under ReverseOrientation): they orient ng as well */
@@ -35,6 +39,17 @@ struct shape_group {
     bool has_uv;
     bool skip_partials; /* leave partial derivatives zero: nobody reads them (scene_prepare finds out) */
     bool skip_uv;       /* leave all of these and u and v as they are */
+};
+
+/* Neighbouring groups that are not in the world, but wherever an instance places them. */
+struct object {
+    int first_group, end_group;
+    vec3 lo, hi; /* their bounds */
+};
+
+struct instance {
+    struct transform to_world;
+    int object;
 };
 
 struct geometry {
@@ -47,7 +62,9 @@ struct geometry {
     int32_t *group_of_triangle; /* [n_triangles] */
     struct quadric *quadric;    /* [n_quadrics] */
     struct shape_group *group;  /* [n_groups] */
-    int n_vertices, n_triangles, n_quadrics, n_groups;
+    struct object *object;      /* [n_objects] */
+    struct instance *instance;  /* [n_instances] */
+    int n_vertices, n_triangles, n_quadrics, n_groups, n_objects, n_instances;
     size_t vertex_capacity, tangent_capacity, triangle_capacity;
 
     /* Alpha textures: asked at a hit of a group with alpha >= 0. Returns true where the surface is there. Set by
@@ -80,9 +97,16 @@ int shape_add_mesh(struct geometry *geo, const struct mesh *m, const struct tran
                    struct shape_group group, bool reverse_orientation, struct error *err);
 
 /* shape_add_quadric: append one quadric as a group of its own (q.group is filled in, the parameters are clamped
- * as pbrt does). Returns the group's number, or -1 with a message when its bounds are no places (vec.h). */
+ * as pbrt does). Returns the group's number, or -1 with a message when its bounds are no places (vec.h) or there
+ * would be more than 2^29 quadrics. */
 int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group group, bool reverse_orientation,
                       struct error *err);
+
+/* shape_make_object: take the groups from this one on out of the world. Returns the object's number.
+ * shape_add_instance: place it. False with a message when some of it would be at no place (vec.h) or there would be
+ * more than 2^29 instances. */
+int shape_make_object(struct geometry *geo, int first_group);
+bool shape_add_instance(struct geometry *geo, int object, const struct transform *to_world, struct error *err);
 
 void geometry_free(struct geometry *geo);
 
@@ -92,18 +116,34 @@ static inline int geometry_primitives(const struct geometry *geo) { return geo->
 /* shape_group_of: the group a primitive belongs to. */
 const struct shape_group *shape_group_of(const struct geometry *geo, int prim);
 
+/* shape_is_light: has its group lights? shape_rank: of surfaces in one place that which has the least is there, for all
+ * who are in direction w of it: a see-through light rather than another, a light that shines there rather than one that
+ * does not, any light rather than what does not shine, and then that of the lower number.
+ * shape_light_rank: that of a light that shines there. */
+bool shape_is_light(const struct geometry *geo, int prim);
+uint64_t shape_rank(const struct geometry *geo, const struct hit *hit, const struct ray *ray, vec3 w);
+uint64_t shape_light_rank(const struct geometry *geo, int prim);
+
 /* shape_vertices: the three corners of a triangle, x y z of each. */
 void shape_vertices(const struct geometry *geo, int triangle, float v[9]);
 
-/* shape_bounds: world bounding box of one primitive, never inside out, conservative in float. */
+/* shape_bounds: bounding box of one primitive, which may be an instance, never inside out, conservative in float. */
 void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3]);
 
 /* shape_intersect: does the ray meet this primitive within (tmin, tmax), unless it begins or ends on it? Fills
  * *hit if so. Double precision, edges shared by two triangles leave no gap. Alpha is not looked at here. */
 bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray, struct hit *hit);
 
-/* shape_prim_id: the number, not 0, by which rays and points name the primitive they begin, end or lie on. */
-static inline uint32_t shape_prim_id(int prim) { return (uint32_t)prim + 1; }
+/* shape_prim_id: the number, not 0, by which rays and points name the primitive of an instance (0: of none) that they
+ * begin, end or lie on. shape_prim: its primitive. */
+static inline uint64_t shape_prim_id(int prim, int instance) { return (uint64_t)instance << 32 | ((uint32_t)prim + 1); }
+static inline int shape_prim(uint64_t id) { return (int)((uint32_t)id - 1); }
+
+/* shape_own_id: that of the same primitive for rays in the object's own space, if it is in this instance; else 0. */
+static inline uint64_t shape_own_id(uint64_t id, int instance)
+{
+    return id >> 32 == (uint64_t)instance ? (uint32_t)id : 0;
+}
 
 /* shape_surface: the full surface point of a hit (position from the barycentric coordinates for triangles,
  * refined onto the surface for quadrics). Shading normal and partials as pbrt-v3 defines them. */

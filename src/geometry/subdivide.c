@@ -286,11 +286,8 @@ struct loopsubdiv {
 /* Put the surface in the place of its control mesh. */
 static bool subdivide(struct mesh *m, int levels, struct mesh_task *task)
 {
-    double triangles = m->n_triangles * m_pow(4, levels);
-    if (triangles > task->room)
-        return error_set(&task->err, "%d levels would make %.3g triangles of %d; %s%d are made: lower the levels",
-                         levels, triangles, m->n_triangles,
-                         task->room < MESH_MAX_SUBDIVIDED ? "of this scene yet " : "at most ", task->room);
+    if (!mesh_fits(task, m->n_triangles * m_pow(4, levels)))
+        return false;
     struct level l = control_level(m);
     struct ring ring = {0};
     bool ok = join_edges(&l, &task->err);
@@ -302,7 +299,6 @@ static bool subdivide(struct mesh *m, int levels, struct mesh_task *task)
     if (ok) {
         mesh_free(m);
         *m = limit_mesh(&l, &ring);
-        task->room -= m->n_triangles;
     }
     level_free(&l);
     free(ring.p);

@@ -10,7 +10,7 @@
 struct ray {
     vec3 o, d;
     double tmin, tmax; /* tmin >= 0; tmax may be HUGE_VAL */
-    uint32_t from, to; /* primitives that the segment begins and ends on, as shape_prim_id numbers them; 0: none
+    uint64_t from, to; /* primitives that the segment begins and ends on, as shape_prim_id numbers them; 0: none
                         * known. A line meets a triangle once and a quadric twice, so these meetings are left out. */
 };
 
@@ -23,6 +23,7 @@ struct hit {
     double t;      /* distance along the ray */
     double b1, b2; /* triangle: barycentric coordinates of vertices 1 and 2; quadric: unused, 0 */
     int prim;      /* primitive number */
+    int instance;  /* in which it is, from 1; 0: none */
 };
 
 /* A point on a surface with everything that shading needs to know about it. */
@@ -34,7 +35,7 @@ struct surface {
     vec3 dndu, dndv; /* partial derivatives of ns; zero where the shape does not define them */
     double u, v;     /* texture coordinates */
     int material;    /* index into scene->materials, or -1 */
-    uint32_t prim_id; /* the primitive it is on, see shape_prim_id */
+    uint64_t prim_id; /* the primitive it is on, see shape_prim_id */
     int light;       /* index into scene->lights of the area light that sits here, or -1 */
 };
 

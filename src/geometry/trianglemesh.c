@@ -56,13 +56,14 @@ void mesh_triangles(struct field_list P, struct field_list indices, struct mesh_
                    task->shape);
 }
 
-bool mesh_take_room(struct mesh_task *task, int64_t triangles)
+bool mesh_fits(struct mesh_task *task, double triangles)
 {
-    if (triangles > task->room)
-        return error_set(&task->err, "curves and other subdivided surfaces have more than %d triangles in all; leave "
-                         "some out", MESH_MAX_SUBDIVIDED);
-    task->room -= (int)triangles;
-    return true;
+    const double bytes = 200; /* of a triangle and its corners */
+    struct error why;
+    if (triangles <= FIRST_QUADRIC && budget_has(task->memory, bytes * triangles, &why))
+        return true;
+    return error_set(&task->err, "%.4g triangles: %s", triangles,
+                     triangles <= FIRST_QUADRIC ? why.text : "there can be 2^30");
 }
 
 static bool mesh(const void *fields, struct mesh_task *task, struct mesh *out)

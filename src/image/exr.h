@@ -39,6 +39,7 @@ struct exr {
     struct exr_channel *channel; /* [n_channels], at least one; owned */
     size_t n_channels, capacity;
     size_t pixel_bytes; /* of all channels */
+    const struct budget *memory;
     struct error *err;
 };
 

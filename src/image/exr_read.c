@@ -217,7 +217,7 @@ static bool read_blocks(const struct exr *e, const struct exr_channel *const *co
     bool grey = colour[RED] == NULL && colour[GREEN] == NULL && colour[BLUE] == NULL, ok = true;
     size_t pixels = e->width * e->rows;
     uint64_t blocks = 2 * (uint64_t)pixels * e->pixel_bytes;
-    if (!picture_memory_ok(blocks + (uint64_t)e->width * e->height * 3 * sizeof *out->f32, e->size, e->err))
+    if (!budget_has(e->memory, (double)(blocks + (uint64_t)e->width * e->height * 3 * sizeof *out->f32), e->err))
         return false;
     uint8_t *bytes = mem_alloc(pixels, e->pixel_bytes), *scratch = mem_alloc(pixels, e->pixel_bytes);
     picture_alloc_f32(out, e->width, e->height, grey ? 1 : 3);
@@ -262,9 +262,9 @@ static struct placement place_of(const struct exr *e)
     return place;
 }
 
-bool exr_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
+bool exr_read(const uint8_t *data, size_t size, const struct budget *memory, struct image *out, struct error *err)
 {
-    struct exr e = {.data = data, .size = size, .err = err};
+    struct exr e = {.data = data, .size = size, .memory = memory, .err = err};
     bool ok = read_picture(&e, out);
     if (ok)
         out->place = place_of(&e);

@@ -13,7 +13,7 @@
 struct format {
     const char *extension;
     bool (*matches)(const uint8_t *data, size_t size); /* by content; NULL where the format has no signature */
-    bool (*read)(const uint8_t *data, size_t size, struct image *out, struct error *err);
+    bool (*read)(const uint8_t *data, size_t size, const struct budget *memory, struct image *out, struct error *err);
     void (*write)(FILE *f, const struct raster *r); /* NULL where it is not written */
     bool is_8_bit, keeps_place;
 };
@@ -46,25 +46,27 @@ static const struct format *format_by_content(const uint8_t *data, size_t size)
     return NULL;
 }
 
-static bool read_bytes(const char *path, const uint8_t *data, size_t size, struct image *out, struct error *err)
+static bool read_bytes(const char *path, const uint8_t *data, size_t size, const struct budget *memory,
+                       struct image *out, struct error *err)
 {
     const struct format *format = format_by_content(data, size);
     if (format == NULL)
         format = format_by_name(path);
     if (format == NULL)
         return error_set(err, "unknown image format; convert it to PFM, OpenEXR, PNG, PPM or TGA");
-    return format->read(data, size, out, err);
+    return format->read(data, size, memory, out, err);
 }
 
-bool image_read(const char *path, struct image *out, struct error *err)
+bool image_read(const char *path, const struct budget *memory, struct image *out, struct error *err)
 {
+    const struct budget usual = budget_new(0, "");
     uint8_t *data;
     size_t size;
     memset(out, 0, sizeof *out);
     if (!file_read(path, &data, &size, err))
         return false;
     struct error reason;
-    bool ok = read_bytes(path, data, size, out, &reason);
+    bool ok = read_bytes(path, data, size, memory != NULL ? memory : &usual, out, &reason);
     out->content = hash_content(data, size);
     out->file_size = size;
     free(data);
@@ -140,7 +142,7 @@ static float *read_floats(const char *path, bool decode, int *width, int *height
                           struct error *err)
 {
     struct image img;
-    if (!image_read(path, &img, err))
+    if (!image_read(path, NULL, &img, err))
         return NULL;
     size_t pixels = (size_t)img.width * (size_t)img.height;
     float *out = mem_alloc(pixels * 3, sizeof *out);

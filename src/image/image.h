@@ -8,15 +8,17 @@
 
 #include <stdbool.h>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "image/picture.h"
 
 /* image_read: read a picture; the format is recognised by content where it has a signature, else by the
  * name's extension (upper or lower case).
- *   out  filled on success, to be released with image_free (picture.h); empty on failure
- * Returns false with a message "PATH: what is wrong" on a missing, truncated, absurdly large or unknown file. */
-bool image_read(const char *path, struct image *out, struct error *err);
+ *   memory  that may be used for it; nothing is taken; NULL: what is usual (budget.h)
+ *   out     filled on success, to be released with image_free (picture.h); empty on failure
+ * Returns false with a message "PATH: what is wrong" on a missing, truncated, too large or unknown file. */
+bool image_read(const char *path, const struct budget *memory, struct image *out, struct error *err);
 
 /* image_read_linear: any picture as linear RGB floats [height*width*3], top row first, to be freed; what is not linear
  * is decoded from sRGB. NULL with a message. image_read_values: the same without decoding: sRGB values are from 0 to 1.

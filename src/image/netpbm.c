@@ -64,8 +64,9 @@ static bool last_word(struct netpbm *r, char *word, size_t room)
     return n > 0 && end_header(r);
 }
 
-bool pfm_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
+bool pfm_read(const uint8_t *data, size_t size, const struct budget *memory, struct image *out, struct error *err)
 {
+    (void)memory; /* pixels take what the file does */
     if (!pfm_matches(data, size))
         return error_set(err, "not a PFM file: it does not begin with PF or Pf");
     struct netpbm r = {data, size, 2};
@@ -141,8 +142,9 @@ static bool read_samples(struct netpbm *r, bool text, unsigned long most, struct
     return true;
 }
 
-bool ppm_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
+bool ppm_read(const uint8_t *data, size_t size, const struct budget *memory, struct image *out, struct error *err)
 {
+    (void)memory; /* pixels take twice what the file does, at most */
     if (!ppm_matches(data, size))
         return error_set(err, "not a PPM file: it does not begin with P2, P3, P5 or P6");
     struct netpbm r = {data, size, 2};

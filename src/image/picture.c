@@ -19,13 +19,6 @@ bool picture_size_ok(uint64_t width, uint64_t height, struct error *err)
     return true;
 }
 
-bool picture_memory_ok(uint64_t bytes, size_t file_size, struct error *err)
-{
-    return bytes <= PICTURE_FREE_BYTES || bytes / PICTURE_BYTES_PER_BYTE <= file_size ||
-           error_set(err, "its pixels would take %.0f MB of memory, too much for a file of this size; store it as PFM",
-                     (double)bytes / 1e6);
-}
-
 bool picture_truncated(unsigned long width, unsigned long height, struct error *err)
 {
     return error_set(err, "the file is truncated: %lu x %lu pixels do not fit in it", width, height);

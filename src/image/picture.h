@@ -50,15 +50,12 @@ struct image {
     float decode[256]; /* sRGB byte -> linear light, for readers of u8 */
 };
 
-/* More pixels than PICTURE_MAX_PIXELS, 16384 x 16384, are taken for a damaged or hostile header. A small file may
- * announce a large picture: reading it takes at most PICTURE_FREE_BYTES of memory, or PICTURE_BYTES_PER_BYTE for each
- * of the file. */
-enum { PICTURE_MAX_PIXELS = 1 << 28, PICTURE_FREE_BYTES = 1 << 28, PICTURE_BYTES_PER_BYTE = 32 };
+/* More pixels than PICTURE_MAX_PIXELS, 16384 x 16384, are taken for a damaged or hostile header. */
+enum { PICTURE_MAX_PIXELS = 1 << 28 };
 
-/* picture_size_ok: may a picture, or a film, be this large? picture_memory_ok: may reading it take this much? False
- * with a message. picture_truncated: the message that a file is too short for the pixels it announces; false. */
+/* picture_size_ok: may a picture, or a film, be this large? False with a message. picture_truncated: the message that a
+ * file is too short for the pixels it announces; false. */
 bool picture_size_ok(uint64_t width, uint64_t height, struct error *err);
-bool picture_memory_ok(uint64_t bytes, size_t file_size, struct error *err);
 bool picture_truncated(unsigned long width, unsigned long height, struct error *err);
 
 /* picture_alloc_u8 / picture_alloc_f32: black pixels of a size that picture_size_ok accepts, to be released with

@@ -60,6 +60,7 @@ struct png {
     size_t n_palette;
     uint8_t *packed; /* [n_packed] the zlib stream; owned */
     size_t n_packed, packed_capacity;
+    const struct budget *memory;
     struct error *err;
 };
 
@@ -207,7 +208,7 @@ static bool read_pixels(const struct png *p, struct image *out)
     if (total / INFLATE_MAX_RATIO > p->n_packed)
         return picture_truncated(p->width, p->height, p->err);
     uint64_t samples = (uint64_t)p->width * p->height * 3;
-    if (!picture_memory_ok(total + samples * (p->depth == 16 ? sizeof *out->f32 : 1), p->size, p->err))
+    if (!budget_has(p->memory, (double)(total + samples * (p->depth == 16 ? sizeof *out->f32 : 1)), p->err))
         return false;
     uint8_t *bytes = mem_alloc(total, 1), *zeros = mem_alloc(row_bytes(p), 1);
     bool ok = inflate_zlib(p->packed, p->n_packed, bytes, total, p->err);
@@ -220,11 +221,11 @@ static bool read_pixels(const struct png *p, struct image *out)
     return ok;
 }
 
-bool png_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
+bool png_read(const uint8_t *data, size_t size, const struct budget *memory, struct image *out, struct error *err)
 {
     if (!png_matches(data, size))
         return error_set(err, "not a PNG file: its signature is missing");
-    struct png p = {.data = data, .size = size, .at = sizeof SIGNATURE, .err = err};
+    struct png p = {.data = data, .size = size, .at = sizeof SIGNATURE, .memory = memory, .err = err};
     bool ok = read_header(&p) && read_chunks(&p) && read_pixels(&p, out);
     free(p.packed);
     return ok;

@@ -102,7 +102,7 @@ static bool read_pixels(struct tga *t, struct image *out)
     return true;
 }
 
-bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error *err)
+bool tga_read(const uint8_t *data, size_t size, const struct budget *memory, struct image *out, struct error *err)
 {
     struct tga t = {.data = data, .size = size};
     if (!read_header(&t, err))
@@ -110,7 +110,7 @@ bool tga_read(const uint8_t *data, size_t size, struct image *out, struct error 
     size_t left = t.size - t.at, most = t.run_length ? left / (1 + t.depth) * 128 + 128 : left / t.depth;
     if (most < t.width * t.height)
         return picture_truncated(t.width, t.height, err);
-    if (!picture_memory_ok((uint64_t)t.width * t.height * 3, size, err))
+    if (!budget_has(memory, (double)t.width * (double)t.height * 3, err))
         return false;
     picture_alloc_u8(out, t.width, t.height, t.kind == TGA_GREY ? 1 : 3);
     if (read_pixels(&t, out))

@@ -35,10 +35,10 @@ int texture_add_space(struct texture_set *set, struct transform current)
     return set->n_spaces++;
 }
 
-int texture_load_image(struct texture_set *set, const char *path, struct error *err)
+int texture_load_image(struct texture_set *set, const char *path, const struct budget *memory, struct error *err)
 {
     struct image img;
-    if (!image_read(path, &img, err))
+    if (!image_read(path, memory, &img, err))
         return -1;
     image_mend(&img, false);
     set->image = mem_append(set->image, (size_t)set->n_images, sizeof *set->image);

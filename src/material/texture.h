@@ -90,10 +90,10 @@ int texture_add_constant(struct texture_set *set, rgb value);
 /* texture_add_space: append a texture's current transform; returns its number. */
 int texture_add_space(struct texture_set *set, struct transform current);
 
-/* texture_load_image: the number of an image that is read from this file; -1 with a message.
+/* texture_load_image: the number of an image that is read from this file, which may use this memory; -1 with a message.
  * texture_load_table: the same of a table of a material.
  * texture_set_free: releases all images, textures and transforms; the set is empty and usable again. */
-int texture_load_image(struct texture_set *set, const char *path, struct error *err);
+int texture_load_image(struct texture_set *set, const char *path, const struct budget *memory, struct error *err);
 int texture_load_table(struct texture_set *set, const char *path, struct error *err);
 void texture_set_free(struct texture_set *set);
 

@@ -132,7 +132,8 @@ int parse_named_texture(struct parser *p, const char *name, bool is_float)
 bool parse_picture(struct params *q, struct source_position at, const struct image *image, bool is_new, uint64_t tables,
                    struct error *why)
 {
-    if (image == NULL || (is_new && !scene_files_picture(q->files, image, tables, why)))
+    double bytes = image != NULL ? (double)(image_bytes(image) + tables) : 0;
+    if (image == NULL || (is_new && !scene_files_count(q->files, image->content, bytes, why)))
         return params_fail(q, at, "%s", why->text);
     if (image->replaced > 0)
         source_warn(q->messages, at, "%ld numbers of this image are not finite, or negative light; 0 instead",

@@ -64,7 +64,7 @@ struct saved_state {
     int n_float_textures, n_spectrum_textures, n_materials; /* named so far */
 };
 
-/* One Shape directive; stored where it belongs to an object, to be added once per instance. */
+/* One Shape directive; stored where it belongs to an object, to be added where instances place it. */
 struct shape_item {
     bool is_mesh;
     struct mesh mesh;       /* owned */
@@ -78,6 +78,9 @@ struct shape_item {
 struct shape_list {
     struct shape_item *item; /* [n], owned with their meshes */
     int n;
+    int n_instances;
+    int shared;  /* those of them that instances share: the number of that object; -1: there are none yet */
+    vec3 origin; /* of its space in the object's */
 };
 
 enum { MAX_INCLUDE_DEPTH = 32 };
@@ -130,10 +133,10 @@ struct parser {
         struct source_position bare_light_at; /* an area light without a material; no file: there is none */
     } media;
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
-    uint64_t copied_bytes; /* of all instances */
+    struct symbols places; /* hashes of shapes and instances in the world -> their lines */
+    int64_t n_copied;    /* triangles and quadrics of all instances that are copies */
     int n_infinite;        /* lights, */
     int infinite_group;    /* all of one group */
-    int n_subdivided;      /* triangles of all subdivision surfaces and curves, at most MESH_MAX_SUBDIVIDED */
 
     bool texture_is_float; /* of the Texture directive being carried out */
     int n_sought;          /* names that were none, for which near ones were looked for */

@@ -78,7 +78,8 @@ static void map(struct parser *p, struct light_frame *l)
     struct error inner;
     char *path = params_file(q, "mapname", &at);
     if (path != NULL && !q->failed) {
-        int known = symbols_find(&p->maps, path), id = known >= 0 ? known : light_read_map(lights, path, &inner);
+        int known = symbols_find(&p->maps, path);
+        int id = known >= 0 ? known : light_read_map(lights, path, q->files->memory, &inner);
         const struct envmap *env = l->env = id >= 0 ? lights->map[id] : NULL;
         if (known < 0 && id >= 0)
             symbols_add(&p->maps, path, id);

@@ -33,7 +33,7 @@ int parse_fourier_table(struct parser *p, const char *field)
         const struct fourier_table *read = known < 0 && table >= 0 ? &set->table[table] : NULL;
         if (read != NULL)
             symbols_add(&p->tables, path, table);
-        if (table < 0 || (read != NULL && !scene_files_count(q->files, read->content, read->file_size, &inner)))
+        if (table < 0 || (read != NULL && !scene_files_count(q->files, read->content, (double)read->file_size, &inner)))
             params_fail(q, at, "%s", inner.text);
     }
     free(path);

@@ -1,5 +1,5 @@
-/* parse_shape.c: shapes, with pbrt-v3's parameters and defaults [pbrt-v3 shapes/], and objects, which each of their
- * instances copies [pbrt-v3 core/api.cpp]. See parse.h. */
+/* parse_shape.c: shapes, with pbrt-v3's parameters and defaults [pbrt-v3 shapes/], and objects and their instances
+ * [pbrt-v3 core/api.cpp]. See parse.h. */
 #include "parser/parse.h"
 
 #include <stdarg.h>
@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bits.h"
 #include "geometry/mesh.h"
 
 /* --- quadrics ----------------------------------------------------------------------------------------- */
@@ -146,15 +147,14 @@ static void shadow_alpha(struct parser *p, struct shape_group *group, int textur
 
 static bool count_file(struct params *q, const struct mesh *m, struct error *err)
 {
-    return m->file_size == 0 || scene_files_count(q->files, m->content, m->file_size, err);
+    return m->file_size == 0 || scene_files_count(q->files, m->content, (double)m->file_size, err);
 }
 
 static void mesh(struct parser *p, struct shape_item *item)
 {
     const struct shape_row *row = shape_rows[p->type.kind - N_QUADRICS];
     struct params *q = &p->params;
-    struct mesh_task task = {
-        .shape = row->name, .room = MESH_MAX_SUBDIVIDED - p->n_subdivided, .warn = warn, .context = p};
+    struct mesh_task task = {.shape = row->name, .memory = &p->scene->memory, .warn = warn, .context = p};
     void *fields = mem_alloc(1, row->size);
     item->is_mesh = true;
     if (!row->may_shine)
@@ -162,7 +162,6 @@ static void mesh(struct parser *p, struct shape_item *item)
     parse_fields(p, fields);
     if (!q->failed && (!row->mesh(fields, &task, &item->mesh) || !count_file(q, &item->mesh, &task.err)))
         params_fail(q, place_of(q, task.about), "%s", task.err.text);
-    p->n_subdivided = MESH_MAX_SUBDIVIDED - task.room;
     free(fields);
     if (field_find(row->fields, "alpha") != NULL) {
         item->group.alpha = alpha(p, "alpha");
@@ -195,16 +194,33 @@ static void add_lights(struct scene *s, int group, int n, const struct area_ligh
     }
 }
 
+/* What a shape takes. */
+static double bytes_of(const struct shape_item *item)
+{
+    const struct mesh *m = &item->mesh;
+    double vertex = sizeof(vec3) + 5 * sizeof(float), triangle = 3 * sizeof(uint32_t);
+    return sizeof *item + (item->is_mesh ? vertex * m->n_vertices + triangle * m->n_triangles : 0);
+}
+
+/* About what it takes in the world in addition: its part of the kd-tree, and its lights. */
+static double bytes_more(const struct shape_item *item)
+{
+    const double primitive = 110, light = 200;
+    return (item->is_mesh ? item->mesh.n_triangles : 1) * (primitive + (item->area.on ? light : 0));
+}
+
 /* Add one shape to the scene. A mesh inside the item stays the caller's. */
-static bool add_shape(struct parser *p, const struct shape_item *item, struct transform place,
+static bool add_shape(struct parser *p, const struct shape_item *item, struct transform to_world,
                       struct source_position at)
 {
-    struct transform to_world = parse_to_world(p, place);
     struct scene *s = p->scene;
     struct shape_group group = item->group;
     group.first_light = item->area.on ? s->lights.n : -1;
+    group.two_sided = item->area.two_sided;
     struct error inner;
     int id, n = 1;
+    if (!budget_take(&s->memory, bytes_of(item) + bytes_more(item), &inner))
+        return source_error(&p->messages, at, "%s", inner.text);
     if (item->is_mesh) {
         n = item->mesh.n_triangles;
         id = shape_add_mesh(&s->geo, &item->mesh, &to_world, group, item->reverse, &inner);
@@ -222,6 +238,39 @@ static bool add_shape(struct parser *p, const struct shape_item *item, struct tr
     return true;
 }
 
+static uint64_t hash_transform(const struct transform *t) { return hash_content(t->m, sizeof t->m); }
+
+/* A hash of a shape, of where it is, and of all by which another in its place would be seen with it. */
+static uint64_t hash_shape(const struct shape_item *item)
+{
+    const struct mesh *m = &item->mesh;
+    const struct quadric *q = &item->quadric;
+    const double size[] = {q->kind, q->radius, q->inner_radius, q->zmin, q->zmax, q->phi_max, q->p1.x, q->p1.y, q->p1.z,
+                           q->p2.x, q->p2.y, q->p2.z};
+    const struct shape_group *g = &item->group;
+    const int kind[] = {item->is_mesh, item->reverse, item->area.on, item->area.two_sided, g->alpha,
+                        g->material == MATERIAL_NONE, g->medium[0], g->medium[1]};
+    uint64_t h = hash_combine(hash_transform(&item->place), hash_content(kind, sizeof kind));
+    if (!item->is_mesh)
+        return hash_combine(h, hash_content(size, sizeof size));
+    h = hash_combine(h, hash_content(m->P, (size_t)m->n_vertices * sizeof *m->P));
+    return hash_combine(h, hash_content(m->index, 3 * (size_t)m->n_triangles * sizeof *m->index));
+}
+
+/* Has the world got this already? Then there is a warning. */
+static bool is_there(struct parser *p, uint64_t key, const char *what)
+{
+    char name[24];
+    snprintf(name, sizeof name, "%016llx", (unsigned long long)key);
+    int line = symbols_find(&p->places, name);
+    if (line < 0)
+        symbols_add(&p->places, name, p->directive.position.line);
+    else
+        source_warn(&p->messages, p->directive.position,
+                    "this %s equals that of line %d, in the same place; it is left out", what, line);
+    return line >= 0;
+}
+
 void shape_list_free(struct shape_list *list)
 {
     for (int i = 0; i < list->n; i++)
@@ -232,13 +281,19 @@ void shape_list_free(struct shape_list *list)
 /* Into the object that is open, else into the scene. Takes over its mesh. */
 static bool place_shape(struct parser *p, struct shape_item *item)
 {
+    struct error inner;
     if (p->current_object >= 0) {
         struct shape_list *list = &p->object[p->current_object];
+        if (!budget_take(&p->scene->memory, bytes_of(item), &inner)) {
+            mesh_free(&item->mesh);
+            return directive_error(p, "%s", inner.text);
+        }
         list->item = mem_append(list->item, (size_t)list->n, sizeof *list->item);
         list->item[list->n++] = *item;
         return true;
     }
-    bool ok = add_shape(p, item, item->place, p->params.position);
+    bool ok = is_there(p, hash_shape(item), "shape") ||
+              add_shape(p, item, parse_to_world(p, item->place), p->params.position);
     mesh_free(&item->mesh);
     return ok;
 }
@@ -294,7 +349,7 @@ static bool object_begin(struct parser *p)
         source_warn(&p->messages, name.position, "objects do not nest: as in pbrt-v3, \"%.60s\" ends the one before it",
                     name.text);
     p->object = mem_append(p->object, (size_t)p->objects.n, sizeof *p->object);
-    memset(&p->object[p->objects.n], 0, sizeof *p->object);
+    p->object[p->objects.n] = (struct shape_list){.shared = -1};
     p->current_object = p->objects.n;
     symbols_add(&p->objects, name.text, p->current_object);
     return parse_open_block(p, BLOCK_OBJECT);
@@ -306,21 +361,56 @@ static bool object_end(struct parser *p)
     return parse_close_block(p, BLOCK_OBJECT);
 }
 
-/* Instances are copies: a few lines could ask for more than any machine has. */
-static const uint64_t MAX_COPIED_BYTES = (uint64_t)1 << 29;
+/* Rays meet copies faster than what instances share, unless there are many. So instances are copies until those of a
+ * scene have MOST_COPIED triangles, and of each object the first one is. */
+static const int64_t MOST_COPIED = 1 << 18;
 
-/* What an instance of the object adds to the scene: some 32 bytes for a triangle, and a light for each that shines. */
-static uint64_t instance_bytes(const struct shape_list *object)
+static int64_t triangles_of(const struct shape_list *object)
 {
-    const uint64_t vertex = 8 * sizeof(float), triangle = 3 * sizeof(uint32_t) + sizeof(int32_t);
-    uint64_t sum = (uint64_t)object->n * sizeof(struct shape_group);
-    for (int i = 0; i < object->n; i++) {
-        const struct mesh *m = &object->item[i].mesh;
-        uint64_t n = object->item[i].is_mesh ? (uint64_t)m->n_triangles : 1;
-        sum += object->item[i].is_mesh ? (uint64_t)m->n_vertices * vertex + n * triangle : sizeof(struct quadric);
-        sum += object->item[i].area.on ? n * sizeof(struct light) : 0;
+    int64_t n = 0;
+    for (int i = 0; i < object->n; i++)
+        n += object->item[i].is_mesh ? object->item[i].mesh.n_triangles : 1;
+    return n;
+}
+
+/* Lights and bounds of media are always copies. */
+static bool may_be_shared(const struct shape_item *item)
+{
+    return item->group.material != MATERIAL_NONE && !item->area.on;
+}
+
+/* Make what instances of the object share. The origin of its space is a point of it, for vertices are floats
+ * (scene_set_origin). */
+static bool make_shared(struct parser *p, struct shape_list *list, struct source_position at)
+{
+    struct geometry *geo = &p->scene->geo;
+    int first_group = geo->n_groups;
+    for (int i = 0; i < list->n; i++) {
+        const struct shape_item *item = &list->item[i];
+        if (!may_be_shared(item))
+            continue;
+        if (geo->n_groups == first_group)
+            list->origin = transform_point(&item->place, item->is_mesh ? item->mesh.P[0] : vec(0, 0, 0));
+        if (!add_shape(p, item, transform_compose(transform_translate(neg(list->origin)), item->place), at))
+            return false;
     }
-    return sum;
+    if (geo->n_groups > first_group)
+        list->shared = shape_make_object(geo, first_group);
+    return true;
+}
+
+/* Place it once more. */
+static bool place_shared(struct parser *p, struct shape_list *list, struct source_position at)
+{
+    struct error inner;
+    if (list->shared < 0 && !make_shared(p, list, at))
+        return false;
+    struct transform to_world =
+        parse_to_world(p, transform_compose(p->place.ctm, transform_translate(list->origin)));
+    return list->shared < 0 ||
+           (budget_take(&p->scene->memory, 2 * sizeof(struct instance), &inner) &&
+            shape_add_instance(&p->scene->geo, list->shared, &to_world, &inner)) ||
+           source_error(&p->messages, at, "%s", inner.text);
 }
 
 static bool object_instance(struct parser *p)
@@ -334,23 +424,23 @@ static bool object_instance(struct parser *p)
     int i = parse_named(p, &name, &p->objects, "object", "this instance is left out");
     if (i < 0)
         return false;
-    const struct shape_list *list = &p->object[i];
+    struct shape_list *list = &p->object[i];
     if (list->n > 0 && !parse_placed(p))
         return false;
-    p->copied_bytes += instance_bytes(list);
-    if (p->copied_bytes > MAX_COPIED_BYTES)
-        return source_error(&p->messages, name.position,
-                            "with this instance they take more than %.0f MB, for each is a copy; use fewer",
-                            (double)MAX_COPIED_BYTES / 1e6);
+    if (list->n > 0 && is_there(p, hash_combine((uint64_t)i, hash_transform(&p->place.ctm)), "instance"))
+        return true;
+    bool shared = list->n_instances++ > 0 && p->n_copied + triangles_of(list) > MOST_COPIED;
+    p->n_copied += shared ? 0 : triangles_of(list);
     for (int k = 0; k < list->n; k++) {
         struct transform place = transform_compose(p->place.ctm, list->item[k].place);
         if (!transform_is_usable(&place))
             return source_error(&p->messages, name.position,
                                "the object's transform and this instance's together are infinite or singular");
-        if (!add_shape(p, &list->item[k], place, name.position))
+        if (!(shared && may_be_shared(&list->item[k])) &&
+            !add_shape(p, &list->item[k], parse_to_world(p, place), name.position))
             return false;
     }
-    return true;
+    return !shared || place_shared(p, list, name.position);
 }
 
 const struct directive SHAPE_DIRECTIVES[] = {{"Shape", IN_WORLD, shape, NULL},

@@ -70,7 +70,7 @@ static void imagemap(struct parser *p, void *object)
     if (!q->failed) {
         struct error inner;
         int known = symbols_find(&p->images, path);
-        t->image = known >= 0 ? known : texture_load_image(set, path, &inner);
+        t->image = known >= 0 ? known : texture_load_image(set, path, q->files->memory, &inner);
         if (known < 0 && t->image >= 0)
             symbols_add(&p->images, path, t->image);
         const struct image *image = t->image < 0 ? NULL : &set->image[t->image];

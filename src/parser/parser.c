@@ -167,6 +167,7 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     p->named.scene_path = path;
     p->named.content = &s->content;
     symbols_add(&p->named.paths, path, 0);
+    p->named.memory = &s->memory;
     p->phase = BEFORE_WORLD;
     parse_state_reset(p);
     p->current_object = -1;
@@ -188,7 +189,7 @@ static void finish(struct parser *p)
     for (int i = 0; i < p->objects.n; i++)
         shape_list_free(&p->object[i]);
     struct symbols *const tables[] = {&p->float_textures, &p->spectrum_textures, &p->materials, &p->systems,
-                                      &p->media.known,    &p->objects,           &p->named.known,
+                                      &p->media.known,    &p->objects,           &p->places,
                                       &p->named.paths,    &p->images,            &p->tables,    &p->maps};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         symbols_free(tables[i]);
@@ -203,13 +204,16 @@ static void finish(struct parser *p)
     free(p);
 }
 
-bool parse_scene(const char *path, const char *integrator, struct scene *out, const struct message_sink *sink,
-                 struct error *err)
+bool parse_scene(const char *path, const struct parse_options *options, struct scene *out,
+                 const struct message_sink *sink, struct error *err)
 {
+    static const struct parse_options none;
     struct parser *p = mem_alloc(1, sizeof *p); /* too large for a small stack: tables of names */
     struct error first;
     scene_init(out);
-    p->integrator = integrator;
+    options = options != NULL ? options : &none;
+    p->integrator = options->integrator;
+    out->memory = budget_new(options->max_memory, "; --max-memory raises the limit");
     start(p, path, out, sink, err != NULL ? err : &first);
     if (enter_file(p, path, p->messages.err))
         run(p);

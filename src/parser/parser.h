@@ -11,13 +11,19 @@
 #include "parser/source_position.h" /* struct message_sink */
 #include "scene/scene.h"
 
+/* What the user says of a scene before it is read; all zeros: nothing. */
+struct parse_options {
+    const char *integrator; /* before the scene's own it says whether media are seen */
+    double max_memory;      /* see budget_new */
+};
+
 /* parse_scene: read a file and everything it includes.
- *   integrator  that the user names, or NULL; before the scene's own it says whether media are seen
+ *   options  may be NULL
  *   out   initialised by this function; on success to be released with scene_free; not yet prepared
  *   sink  may be NULL; receives warnings and errors as they are found
  *   err   may be NULL; the first error
  * Returns false after an error; *out is then empty and needs no release. */
-bool parse_scene(const char *path, const char *integrator, struct scene *out, const struct message_sink *sink,
-                 struct error *err);
+bool parse_scene(const char *path, const struct parse_options *options, struct scene *out,
+                 const struct message_sink *sink, struct error *err);
 
 #endif

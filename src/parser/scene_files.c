@@ -49,58 +49,32 @@ static char *find(const struct scene_files *f, const char *name)
 
 char *scene_files_path(struct scene_files *f, const char *name, struct error *err)
 {
-    if (f->full) {
-        error_set(err, "%s: not read after too many or too large files", name);
-        return NULL;
-    }
     char *path = find(f, name);
     enum os_kind kind = os_kind_of(path);
+    struct error why;
+    bool fits = kind != OS_FILE || budget_has(f->memory, (double)length_of(path), &why);
     if (symbols_find(&f->paths, path) < 0)
         symbols_add(&f->paths, path, 0);
-    if (kind == OS_FILE || kind == OS_NOTHING) /* that there is nothing, reading will say */
+    if (fits && (kind == OS_FILE || kind == OS_NOTHING)) /* that there is nothing, reading will say */
         return path;
-    error_set(err, "%s: cannot be read: scenes name files, not %s", path,
-              kind == OS_DIRECTORY ? "directories" : "devices or pipes");
+    if (fits)
+        error_set(&why, "scenes name files, not %s", kind == OS_DIRECTORY ? "directories" : "devices or pipes");
+    error_set(err, "%s: cannot be read: %s", path, why.text);
     free(path);
     return NULL;
 }
 
-/* A file costs its size where it is new, else what it takes. */
-static bool count(struct scene_files *f, uint64_t content, uint64_t size, uint64_t taken, struct error *err)
+bool scene_files_count(struct scene_files *f, uint64_t content, double bytes, struct error *err)
 {
-    char name[24];
-    snprintf(name, sizeof name, "%016llx", (unsigned long long)content);
     *f->content = hash_combine(*f->content, content);
-    bool known = symbols_find(&f->known, name) >= 0;
-    if (!known)
-        symbols_add(&f->known, name, 0);
-    *(known ? &f->again : &f->first) += known ? taken : size;
-    f->full |= f->again > MAX_READ_AGAIN && f->again / READ_AGAIN_PER_BYTE > f->first;
-    return !f->full || error_set(err, "with this file, more than %d MB have been read again; use ObjectInstance",
-                     MAX_READ_AGAIN >> 20);
-}
-
-bool scene_files_count(struct scene_files *f, uint64_t content, uint64_t size, struct error *err)
-{
-    return count(f, content, size, size, err);
+    return budget_take(f->memory, bytes, err);
 }
 
 char *scene_files_read(struct scene_files *f, const char *path, size_t *size, struct error *err)
 {
     char *text = text_read(path, size, err);
-    if (text == NULL || scene_files_count(f, hash_content(text, *size), *size, err))
+    if (text == NULL || scene_files_count(f, hash_content(text, *size), (double)*size, err))
         return text;
     free(text);
     return NULL;
-}
-
-bool scene_files_picture(struct scene_files *f, const struct image *img, uint64_t tables, struct error *err)
-{
-    uint64_t taken = image_bytes(img) + tables, paid = (uint64_t)img->file_size * PICTURE_BYTES_PER_BYTE;
-    f->unpacked += taken > paid ? taken - paid : 0;
-    f->full |= f->unpacked > MAX_UNPACKED;
-    if (f->full)
-        return error_set(err, "this and other images of so small files take more than %d MB; store them as PFM",
-                         MAX_UNPACKED >> 20);
-    return count(f, img->content, img->file_size, taken, err);
 }

@@ -17,7 +17,7 @@ struct symbol {
     int older; /* next entry of the chain, -1 at its end */
 };
 
-enum { SYMBOL_CHAINS = 1 << 12 }; /* of a million names each has some 250 */
+enum { SYMBOL_CHAINS = 1 << 16 }; /* of a million names each has some 16 */
 
 struct symbols {
     struct symbol *entry; /* [n], in the order they were added, owned */

@@ -73,20 +73,12 @@ static void build_tables(struct envmap *e)
     free(luminance);
 }
 
-bool envmap_size_ok(int width, int height, size_t file_size, struct error *err)
-{
-    size_t texels = (size_t)width * (size_t)height;
-    return texels <= ENVMAP_FREE_TEXELS || texels / ENVMAP_TEXELS_PER_BYTE <= file_size ||
-           error_set(err, "%d x %d are too many for an environment map from a file of this size; store it as PFM "
-                     "(convert --linear)", width, height);
-}
-
-struct envmap *envmap_load(const char *path, struct error *err)
+struct envmap *envmap_load(const char *path, const struct budget *memory, struct error *err)
 {
     struct error reason;
     struct envmap *e = mem_alloc(1, sizeof *e);
-    bool read = image_read(path, &e->image, err);
-    bool ok = read && envmap_size_ok(e->image.width, e->image.height, e->image.file_size, &reason);
+    bool read = image_read(path, memory, &e->image, err);
+    bool ok = read && budget_has(memory, (double)image_bytes(&e->image) + (double)envmap_bytes(e), &reason);
     if (read && !ok)
         error_set(err, "%s: %s", path, reason.text);
     if (!ok) {

@@ -25,22 +25,17 @@ struct envmap {
     rgb mean;                  /* average radiance over the sphere */
 };
 
-/* A texel takes 44 bytes in addition to the image's. A map may have ENVMAP_FREE_TEXELS, or ENVMAP_TEXELS_PER_BYTE for
- * each byte of its file. */
-enum { ENVMAP_FREE_TEXELS = 1 << 22, ENVMAP_TEXELS_PER_BYTE = 2, ENVMAP_BYTES_PER_TEXEL = 44 };
-
-/* envmap_size_ok: may a map of this size be made of this file? Returns false with a message. */
-bool envmap_size_ok(int width, int height, size_t file_size, struct error *err);
-
 /* envmap_load: read a picture, whose numbers are taken as they are stored, 8-bit ones too, as in pbrt-v3. Returns NULL
- * with a message. Release with envmap_free. */
-struct envmap *envmap_load(const char *path, struct error *err);
+ * with a message. Release with envmap_free.
+ *   memory  that may be used for it; nothing is taken */
+struct envmap *envmap_load(const char *path, const struct budget *memory, struct error *err);
 void envmap_free(struct envmap *e);
 
 /* envmap_lookup: radiance from unit direction w of light space, bilinear. */
 rgb envmap_lookup(const struct envmap *e, vec3 w);
 
-/* envmap_bytes: what its tables take. */
+/* envmap_bytes: what its tables take, 44 for a texel. */
+enum { ENVMAP_BYTES_PER_TEXEL = 44 };
 static inline size_t envmap_bytes(const struct envmap *e)
 {
     return (size_t)e->image.width * (size_t)e->image.height * ENVMAP_BYTES_PER_TEXEL;

@@ -14,6 +14,13 @@ static size_t film_splat_sums(const struct film *f)
     return (size_t)(1 + f->planes.lights) * rect_pixels(f->rect) * 3;
 }
 
+double film_bytes(struct pixel_rect rect, struct planes planes)
+{
+    size_t sums = 3 * (size_t)plane_count(planes) * sizeof(struct exact_sum);
+    size_t floats = 3 * (size_t)(1 + plane_count(planes) + 2) * sizeof(float); /* splats, pictures, what is written */
+    return (double)rect_pixels(rect) * (double)(sums + floats + sizeof(bool));
+}
+
 void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_height)
 {
     memset(f, 0, sizeof *f);

@@ -33,9 +33,9 @@ int light_group(struct light_set *set, const char *name, enum light_kind kind)
     return set->n_groups++;
 }
 
-int light_read_map(struct light_set *set, const char *path, struct error *err)
+int light_read_map(struct light_set *set, const char *path, const struct budget *memory, struct error *err)
 {
-    struct envmap *added = envmap_load(path, err);
+    struct envmap *added = envmap_load(path, memory, err);
     if (added == NULL)
         return -1;
     set->map = mem_append(set->map, (size_t)set->n_maps, sizeof *set->map);
@@ -198,7 +198,7 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
             return false;
         out->p = at.p;
         out->n = at.ng;
-        out->prim_id = shape_prim_id(l->prim);
+        out->prim_id = shape_prim_id(l->prim, 0);
         break;
     }
     case LIGHT_POINT:

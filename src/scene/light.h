@@ -113,8 +113,8 @@ int light_add(struct light_set *set, struct light l, const struct light_frame *f
  * the first LIGHT_MAX_GROUPS groups alone: if there are more, no film keeps any. */
 int light_group(struct light_set *set, const char *name, enum light_kind kind);
 
-/* light_read_map: the number of a map that is read from this file; -1 with a message. */
-int light_read_map(struct light_set *set, const char *path, struct error *err);
+/* light_read_map: the number of a map that is read from this file, which may use this memory; -1 with a message. */
+int light_read_map(struct light_set *set, const char *path, const struct budget *memory, struct error *err);
 
 /* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);
@@ -141,7 +141,7 @@ static inline bool light_at_infinity(const struct light *l)
 struct light_point {
     int light, cell;
     vec3 p, n, w;
-    uint32_t prim_id;
+    uint64_t prim_id;
     double pdf_cell, pdf;
 };
 

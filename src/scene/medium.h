@@ -29,7 +29,7 @@ struct medium_set {
 /* medium_before: the medium before a surface that a ray of direction d comes to; -1 if its shape does not bound any. */
 static inline int medium_before(const struct geometry *geo, const struct surface *at, vec3 d)
 {
-    const int *medium = shape_group_of(geo, (int)(at->prim_id - 1))->medium;
+    const int *medium = shape_group_of(geo, shape_prim(at->prim_id))->medium;
     return medium[0] == medium[1] ? -1 : medium[!(dot(at->ng, d) > 0)];
 }
 

@@ -10,7 +10,7 @@ static struct passage begin(const struct scene *s, const struct ray *ray, vec3 n
 {
     struct passage p = {rgb_grey(1), {1, 1}, around};
     if (ray->from != 0 && ray->from != WITHIN_MEDIUM) {
-        const int *medium = shape_group_of(&s->geo, (int)(ray->from - 1))->medium;
+        const int *medium = shape_group_of(&s->geo, shape_prim(ray->from))->medium;
         p.medium = medium[0] == medium[1] ? around : medium[dot(ng, ray->d) > 0];
     }
     return p;

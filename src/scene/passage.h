@@ -15,7 +15,7 @@
 #include "scene/scene.h"
 
 /* Where a ray begins or ends, or a surface is, that is a point within a medium, instead of a primitive. */
-#define WITHIN_MEDIUM UINT32_MAX
+#define WITHIN_MEDIUM UINT64_MAX
 
 /* A straight way. */
 struct passage {

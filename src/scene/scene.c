@@ -195,40 +195,45 @@ bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surfa
 
 bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end)
 {
-    if (s->kd_lamps.n_nodes == 0)
-        return false;
+    double distance = length(sub(end->p, ray->o));
+    if (s->kd_lamps.n_nodes == 0 || distance <= -ray->tmin)
+        return distance <= -ray->tmin;
     struct ray before = *ray;
-    before.tmax = length(sub(end->p, ray->o)) - ray_margin(end->p);
-    return kd_occluded(&s->kd_lamps, &s->geo, &before);
+    before.tmax = distance - ray_margin(end->p);
+    return kd_occluded(&s->kd_lamps, &s->geo, &before, INFINITY);
 }
 
-/* Is a surface on the ray, or, if the light is `emitted`, a see-through light? */
-static bool blocked(const struct scene *s, const struct ray *ray, bool emitted)
-{
-    return kd_occluded(&s->kd, &s->geo, ray) ||
-           (emitted && s->kd_lamps.n_nodes > 0 && kd_occluded(&s->kd_lamps, &s->geo, ray));
-}
-
-static bool segment_free(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to, bool emitted)
+/* The segment from a to b without what lies next to a, and so much farther. */
+static struct ray between(vec3 a, uint64_t from, vec3 b, uint64_t to, double farther)
 {
     vec3 d = sub(b, a);
     double distance = length(d);
-    struct ray ray = {a, mul(d, 1 / distance), ray_margin(a), distance - ray_margin(b), from, to};
-    return !(ray.tmin < ray.tmax) || !blocked(s, &ray, emitted);
+    return (struct ray){a, mul(d, 1 / distance), ray_margin(a), distance + farther, from, to};
 }
 
-bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to)
+bool scene_visible(const struct scene *s, vec3 a, uint64_t from, vec3 b, uint64_t to)
 {
-    return segment_free(s, a, from, b, to, false);
+    struct ray ray = between(a, from, b, to, -ray_margin(b));
+    return !(ray.tmin < ray.tmax) || !kd_occluded(&s->kd, &s->geo, &ray, INFINITY);
 }
 
-bool scene_lit(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to)
+/* Does light that is emitted pass? */
+static bool passes(const struct scene *s, const struct ray *ray, double light)
 {
-    return segment_free(s, a, from, b, to, true);
+    return !kd_occluded(&s->kd, &s->geo, ray, light) &&
+           (s->kd_lamps.n_nodes == 0 || !kd_occluded(&s->kd_lamps, &s->geo, ray, light));
 }
 
-bool scene_lit_from(const struct scene *s, vec3 a, uint32_t from, vec3 w)
+bool scene_lit(const struct scene *s, vec3 a, uint64_t from, vec3 b, uint64_t to)
+{
+    double margin = ray_margin(b);
+    struct ray ray = between(a, from, b, to, to != 0 ? margin : -margin);
+    double light = to != 0 ? ray.tmax - 2 * margin : ray.tmax;
+    return !(ray.tmin < light) || passes(s, &ray, light);
+}
+
+bool scene_lit_from(const struct scene *s, vec3 a, uint64_t from, vec3 w)
 {
     struct ray ray = {a, w, ray_margin(a), INFINITY, from, 0};
-    return !blocked(s, &ray, true);
+    return passes(s, &ray, INFINITY);
 }

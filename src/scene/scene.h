@@ -16,6 +16,7 @@
 
 #include <stdbool.h>
 
+#include "base/budget.h"
 #include "geometry/kdtree.h"
 #include "geometry/shape.h"
 #include "material/material.h"
@@ -53,6 +54,7 @@ struct scene {
     int n_files;
     uint64_t content;       /* hash of these files */
     long n_warnings;        /* that were given while it was loaded */
+    struct budget memory;   /* for it and its film */
 };
 
 /* scene_init: an empty scene with pbrt's defaults (1280x720 film, box filter of radius 0.5, fov 90). */
@@ -86,16 +88,17 @@ bool scene_intersect(const struct scene *s, const struct ray *ray, struct surfac
  * touches that surface shines before it, as it does for scene_lit, whose segment ends short of the light. */
 bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surface *end, struct surface *out);
 
-/* scene_lamp_stops: is there a see-through light along a light's ray before the surface at *end? One that touches that
- * surface does not count, as it does not for scene_lit, whose segment begins short of the surface. */
+/* scene_lamp_stops: is there a see-through light along a light's ray before the surface at *end, or another light in
+ * the place of this one? One that touches the surface does not count, as it does not for scene_lit, whose segment
+ * begins short of the surface. */
 bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end);
 
 /* scene_visible: does light that is scattered at b reach a: is the open segment between them free of surfaces?
  *   from, to  the primitives a and b are on, see shape_prim_id; 0: none */
-bool scene_visible(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to);
+bool scene_visible(const struct scene *s, vec3 a, uint64_t from, vec3 b, uint64_t to);
 
 /* scene_lit: does light that is emitted at b reach a? scene_lit_from: the same from infinity, in unit direction w. */
-bool scene_lit(const struct scene *s, vec3 a, uint32_t from, vec3 b, uint32_t to);
-bool scene_lit_from(const struct scene *s, vec3 a, uint32_t from, vec3 w);
+bool scene_lit(const struct scene *s, vec3 a, uint64_t from, vec3 b, uint64_t to);
+bool scene_lit_from(const struct scene *s, vec3 a, uint64_t from, vec3 w);
 
 #endif

@@ -25,7 +25,7 @@ static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, en
  * of c's value. The densities of the passage are factors of the densities of both ends, and so of the sums (5) of
  * mis.h. */
 static inline void pass_media(const struct scene *scene, const struct mis_counts *counts, const struct vertex *a,
-                              vec3 w, double distance, uint32_t to, struct connection *c, double *side_a,
+                              vec3 w, double distance, uint64_t to, struct connection *c, double *side_a,
                               double *side_b)
 {
     if (scene->media.n == 0)

@@ -161,7 +161,7 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
         if (mode == RADIANCE)
             lamp = meet_lamp(w, &path[n - 1], &from, met ? &at : NULL);
         else if (n == 1 && met && scene_lamp_stops(w->scene, &from.ray, &at))
-            break; /* emitted light does not pass see-through lights */
+            break; /* emitted light does not pass see-through lights, or is not there at all */
         if (!met) {
             if (mode == RADIANCE && escape(w, &path[n], &path[n - 1], &from, lamp))
                 n++;
@@ -226,7 +226,7 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
     vertex_light_end(w->scene, w->counts, &at, &path[0]);
     path[0].beta = light_Le(&w->scene->lights, &at, from.ray.d);
     from.beta = rgb_scale(emitted, 1 / (at.pdf * pdf)); /* alpha_2 of [V97 eq. 10.6] */
-    from.ray.tmin = ray_margin(from.ray.o);
+    from.ray.tmin = ray_margin(from.ray.o) * (at.prim_id != 0 ? -1 : 1);
     return walk_on(w, from, path, 1, max_vertices, IMPORTANCE);
 }
 

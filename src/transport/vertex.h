@@ -56,7 +56,7 @@ struct vertex {
     enum eye_end eye_end;
     int light, cell;
     vec3 p, ng;
-    uint32_t prim_id;
+    uint64_t prim_id;
     double length;
     vec3 wo; /* unit */
     rgb beta;

@@ -54,7 +54,8 @@ static char *put_file(const char *directory, const char *name, const void *data,
 
 /* --- pictures ------------------------------------------------------------------------------------------- */
 
-typedef bool (*picture_reader)(const uint8_t *data, size_t size, struct image *out, struct error *err);
+typedef bool (*picture_reader)(const uint8_t *data, size_t size, const struct budget *memory, struct image *out,
+                               struct error *err);
 
 /* What reads can be used: every sample is there, and it can be written by every format. */
 static void read_picture(picture_reader read, const uint8_t *data, size_t size, const char *directory)
@@ -63,7 +64,8 @@ static void read_picture(picture_reader read, const uint8_t *data, size_t size, 
     struct image img;
     struct error err = {.text = ""};
     memset(&img, 0, sizeof img);
-    if (!read(data, size, &img, &err)) {
+    const struct budget memory = budget_new(256e6, "");
+    if (!read(data, size, &memory, &img, &err)) {
         if (err.text[0] == '\0' || img.u8 != NULL || img.f32 != NULL)
             broken("a picture is refused without a message, or something is left of it");
         return;
@@ -77,7 +79,7 @@ static void read_picture(picture_reader read, const uint8_t *data, size_t size, 
     for (size_t i = 0; pixels != NULL && i < sizeof FORMATS / sizeof FORMATS[0]; i++) {
         char *path = path_in(directory, FORMATS[i]);
         struct image again;
-        if (!image_write(path, img.width, img.height, pixels, &err) || !image_read(path, &again, &err))
+        if (!image_write(path, img.width, img.height, pixels, &err) || !image_read(path, NULL, &again, &err))
             broken(err.text);
         if (again.width != img.width || again.height != img.height)
             broken("a picture written has another size when it is read");

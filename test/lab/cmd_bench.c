@@ -98,7 +98,8 @@ static double ray_rate(const struct scene *s, const struct ray *rays, int n, boo
     while (n > 0 && seconds < enough) {
         for (int i = 0; i < n; i++) {
             struct hit hit;
-            hits += any ? kd_occluded(&s->kd, &s->geo, &rays[i]) : kd_closest(&s->kd, &s->geo, &rays[i], &hit);
+            hits += any ? kd_occluded(&s->kd, &s->geo, &rays[i], INFINITY)
+                        : kd_closest(&s->kd, &s->geo, &rays[i], &hit);
         }
         done += n;
         seconds = os_cpu_seconds() - start;

@@ -187,7 +187,7 @@ static bool write_text(const char *name, const struct side *a, const struct side
     for (int i = 0; i < 2; i++) {
         struct image picture;
         snprintf(path, sizeof path, "%s%s.pfm", name, i == 0 ? "" : ".error");
-        if (!image_read(path, &picture, err))
+        if (!image_read(path, NULL, &picture, err))
             return false;
         content[i] = picture.content;
         image_free(&picture);

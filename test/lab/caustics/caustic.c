@@ -49,12 +49,12 @@ static void find_middles(const struct geometry *geo, struct caster *caster)
 static double classify(const struct scene *scene, struct arena *arena, const struct shape_group *group,
                        struct caster *c)
 {
-    const struct hit hit = {0, 1.0 / 3, 1.0 / 3, group->first_prim};
+    const struct hit hit = {0, 1.0 / 3, 1.0 / 3, group->first_prim, 0};
     const struct ray ray = {c->middle, vec(0, 0, 1), 0, INFINITY, 0, 0};
     struct surface at;
     struct bsdf bsdf;
     double reflects = 0;
-    if (group->material < 0)
+    if (group->material < 0 || group->shared)
         return 0;
     shape_surface(&scene->geo, &hit, &ray, &at);
     c->curved = length2(specular_normal_change(&scene->geo, &at, frame_from_normal(at.ng).s)) > 0;
@@ -256,7 +256,7 @@ static bool in_psi(const struct caustics *all, const struct pixel_sample *sample
         p[i] = z[(i + 1) * step].p;
     const struct vertex *x = &z[step];
     vec3 next = k > 1 ? sub(p[1], p[0]) : q.parallel ? y->w : sub(y->p, p[0]);
-    int group = (int)(shape_group_of(&q.scene->geo, (int)(x->prim_id - 1)) - q.scene->geo.group);
+    int group = (int)(shape_group_of(&q.scene->geo, shape_prim(x->prim_id)) - q.scene->geo.group);
     bool through = dot(x->ng, next) * dot(x->ng, sub(z->p, p[0])) < 0;
     int n = through ? psi_through(all, &q, found) : psi_mirror(all, &q, group, found);
     for (int i = 0; i < n && q.k == k; i++)

@@ -36,7 +36,7 @@ struct lamp_way lamp_way(const struct scene *scene, vec3 p, const struct light_p
     return way;
 }
 
-bool lamp_seen(const struct scene *scene, vec3 p, uint32_t prim_id, const struct light_point *at)
+bool lamp_seen(const struct scene *scene, vec3 p, uint64_t prim_id, const struct light_point *at)
 {
     return light_at_infinity(&scene->lights.light[at->light]) ? scene_lit_from(scene, p, prim_id, at->w)
                                                               : scene_lit(scene, p, prim_id, at->p, at->prim_id);

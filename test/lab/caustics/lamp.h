@@ -28,6 +28,6 @@ struct lamp_way {
 struct lamp_way lamp_way(const struct scene *scene, vec3 p, const struct light_point *at);
 
 /* lamp_seen: does light from there come to a point of a primitive? */
-bool lamp_seen(const struct scene *scene, vec3 p, uint32_t prim_id, const struct light_point *at);
+bool lamp_seen(const struct scene *scene, vec3 p, uint64_t prim_id, const struct light_point *at);
 
 #endif

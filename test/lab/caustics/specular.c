@@ -6,14 +6,14 @@
 
 int specular_group(const struct scene *scene, const struct surface *at)
 {
-    return (int)(shape_group_of(&scene->geo, (int)(at->prim_id - 1)) - scene->geo.group);
+    return (int)(shape_group_of(&scene->geo, shape_prim(at->prim_id)) - scene->geo.group);
 }
 
 static vec3 along(const struct surface *at, double u, double v) { return add(mul(at->dndu, u), mul(at->dndv, v)); }
 
 vec3 specular_normal_change(const struct geometry *geo, const struct surface *at, vec3 dp)
 {
-    int prim = (int)(at->prim_id - 1);
+    int prim = shape_prim(at->prim_id);
     double u, v, b1, b2;
     if (prim >= FIRST_QUADRIC) { /* `at` may lack derivatives, see struct shape_group */
         const struct quadric *q = &geo->quadric[prim - FIRST_QUADRIC];
@@ -98,6 +98,8 @@ bool specular_trace(const struct quest *q, vec3 w, struct specular_chain *c)
         struct ray ray = {c->p, c->d, ray_margin(c->p), INFINITY, c->prim_id, 0};
         struct surface at;
         if (!scene_intersect(q->scene, &ray, &at) || at.material < 0 || dot(at.ng, c->d) == 0)
+            return false;
+        if (q->scene->geo.group[specular_group(q->scene, &at)].shared) /* its normals are in another space */
             return false;
         if (q->group >= 0 && specular_group(q->scene, &at) != q->group)
             return false;

@@ -44,7 +44,7 @@ struct specular_chain {
     vec3 w;                 /* unit, in which z was left */
     vec3 at[SPECULAR_LONGEST];
     vec3 p, d, dp[2], dd[2]; /* the last edge, and its derivatives */
-    uint32_t prim_id;
+    uint64_t prim_id;
     double length; /* from z to p */
     rgb kappa;
     double choice; /* probability that a walk takes these lobes, either way */
