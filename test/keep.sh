@@ -199,6 +199,9 @@ rm -f state
 stopped '143|129' 'TERM HUP' '[ -e state ]' \
     'stopped by SIG(TERM|HUP), at 0 of 16 samples per pixel, [0-9.]+ % of the pixels at 1$' \
     --integrator bdpt --res 1000x1000 --spp 16 --checkpoint state --interval 0.05
+rm -f state
+stopped 143 TERM '[ -e state ]' 'stopped by SIGTERM, at 0 of 16 samples per pixel, [0-9.]+ % of the pixels at 1$' \
+    --integrator bdpt --res 1000x1000 --spp 16 --checkpoint state --interval 0.05
 # Of a checkpoint that ends within a block merge makes what the render wrote, if it is asked to.
 expect 1 'state: ends in the middle of a block of samples; --resume it first, or take --partial' \
     "$program" merge state -o early.pfm
@@ -274,7 +277,7 @@ expect 0 'at 0 of 64 samples per pixel, [0-9.]+ % of the pixels at 1$' \
 awk 'BEGIN { print "LookAt 0 0 -4 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 1"
     print "WorldBegin LightSource \"infinite\""
     print "MakeNamedMedium \"a\" \"string type\" \"homogeneous\" MediumInterface \"a\" \"\" Material \"\""
-    while (i++ < 30000) print "Shape \"sphere\""; print "WorldEnd" }' >slow.pbrt
+    while (i++ < 30000) printf "Shape \"sphere\" \"float radius\" %.8f\n", 1 + i / 1e8; print "WorldEnd" }' >slow.pbrt
 expect 0 'stopped after [0-9.]* s, when the samples that had begun were complete, at 0 of 9 samples' \
     "$program" render slow.pbrt --integrator bdpt --res 1x1 --spp 9 --maxdepth 4 -j 1 --time 0.01 -o caught.pfm
 check grep -q 'the image is black: no sample is complete$' stderr.txt

@@ -73,16 +73,17 @@ same() { cmp -s "$1" "$2" || fault "$1 and $2 differ"; } # one method by two pro
 
 {
     mini 2-paths "" 24; mini 3-direct "" 4; mini 5-bdpt bdpt 1; mini 6-choice pool 2
-    mini 4-light lt 4
+    mini 4-light lt 24
 } &
 {
-    mini asbdpt pt 4; mini asbdpt bdpt 4; mini asbdpt pool 2; mini asbdpt vertices 2
+    mini asbdpt pt 4; mini asbdpt bdpt 8; mini asbdpt pool 2; mini asbdpt vertices 2
     mini asbdpt subspaces 1
-    SEEDS="$SEEDS 9 10 11 12 13 14 15 16" mini asbdpt bins 3 # whose bias is small
+    # The bias of bins is small.
+    SEEDS="$SEEDS 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32" mini asbdpt bins 3
     SEEDS=8
-    mini 4-light pt 4; mini 6-choice bdpt 4; mini 7-vertices pool 2; mini 7-vertices vertices 2
+    mini 4-light pt 4; mini 6-choice bdpt 8; mini 7-vertices pool 2; mini 7-vertices vertices 2
 } &
-main bdpt 3 --integrator bdpt
+main bdpt 12 --integrator bdpt
 main bins 3 --integrator asbdpt -P select=bins
 wait
 compare 2-paths-pt main-bdpt agree 32 # of so few finds the means of small squares are no normal numbers

@@ -102,8 +102,8 @@ while IFS="$(printf '\t')" read -r file text; do
     LC_ALL=C awk -v text="$text" -v more='\033[31m\007\302\233' '
         (at = index($0, text)) > 0 && !done++ { at += length(text); $0 = substr($0, 1, at - 1) more substr($0, at) }
         { print }' "$file" >features/marked.pbrt
-    for command in "$lab info" "$lab trace" "$program render --spp 1 --stats -"; do
-        $command features/marked.pbrt --res 2x2
+    for command in info trace "render --spp 1 --stats -"; do
+        "$lab" $command features/marked.pbrt --res 2x2
     done
 done <texts >printed.txt 2>&1
 check [ "$(LC_ALL=C tr -d '\n -~' <printed.txt | wc -c)" = 0 ]

@@ -207,7 +207,7 @@ static void test_unevenness(struct test *t)
     static const struct {
         const char *path;
         double unevenness;
-    } cases[] = {{"scenes/veach-ajar.pbrt", 4.78}, {"scenes/corridor.pbrt", 6.39}};
+    } cases[] = {{"scenes/veach-ajar.pbrt", 4.78}, {"scenes/corridor.pbrt", 6.05}};
     for (int i = 0; i < 2; i++) {
         struct scene scene;
         struct watcher w = {.patience = INFINITY};
