@@ -162,8 +162,35 @@ static void test_regions(struct test *t)
     regions_free(&r);
 }
 
+/* A point in a medium may be as close to a surface as rounding lets it be. Walks meet that surface, and connections at
+ * either end are stopped by it; a point on a surface sees nothing so close. */
+static void test_close(struct test *t)
+{
+    static const char wall[] =
+        "LookAt 0 0 0 0 0 1 0 1 0 Camera \"perspective\" WorldBegin LightSource \"infinite\" Shape \"trianglemesh\" "
+        "\"integer indices\" [ 0 1 2 ] \"point P\" [ -9999 -9999 1000 9999 -9999 1000 0 9999 1000 ] WorldEnd";
+    struct scene scene;
+    if (!scene_from_text(t, wall, &scene))
+        return;
+    for (int back = 0; back < 2; back++) {
+        double side = back ? 1 : -1;
+        struct vertex z = {.kind = VERTEX_MEDIUM, .prim_id = WITHIN_MEDIUM, .p = {0, 0, 1000 + side * 3e-5}};
+        vec3 far = {0, 0, 1000 - 10 * side}, w = {0, 0, -side};
+        struct surface at;
+        struct ray ray = {z.p, w, end_margin(z.p, z.prim_id), INFINITY, z.prim_id, 0};
+        CHECK(t, scene_intersect(&scene, &ray, &at), "a walk passes a wall next to where it was scattered");
+        CHECK(t, !scene_visible(&scene, z.p, WITHIN_MEDIUM, far, WITHIN_MEDIUM), "a connection from there passes it");
+        CHECK(t, !scene_visible(&scene, far, WITHIN_MEDIUM, z.p, WITHIN_MEDIUM), "a connection to there passes it");
+        CHECK(t, !scene_lit_from(&scene, z.p, WITHIN_MEDIUM, w), "light from infinity passes it");
+        CHECK(t, !scene_lit(&scene, z.p, WITHIN_MEDIUM, far, 0), "light of a point passes it");
+        CHECK(t, scene_visible(&scene, z.p, 7, far, WITHIN_MEDIUM), "a point on a surface sees what is next to it");
+    }
+    scene_free(&scene);
+}
+
 void test_medium(struct test *t)
 {
+    test_close(t);
     test_regions(t);
     test_furnace(t);
     test_once(t);

@@ -110,6 +110,7 @@ static void departures(struct test *t, const char *scale)
         struct vertex v = path[1];
         bool fog = i % 2 == 1;
         v.kind = fog ? VERTEX_MEDIUM : v.kind;
+        v.prim_id = fog ? WITHIN_MEDIUM : v.prim_id;
         v.beta = rgb_grey(pow(10, (double)(i % 41) - 20));
         if (!CHECK(t, walk_leave(&w, &v, RADIANCE, &out), "throughput: a walk of beta %g ends", v.beta.g))
             continue;

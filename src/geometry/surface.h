@@ -14,9 +14,14 @@ struct ray {
                         * known. A line meets a triangle once and a quadric twice, so these meetings are left out. */
 };
 
+/* Where a ray begins or ends, or a surface is, that is a point within a medium, instead of a primitive. */
+#define WITHIN_MEDIUM UINT64_MAX
+
 /* ray_margin: how far from a point p of a surface, which is not met again (`from`, `to`), a ray meets others.
- * Corners are floats: surfaces nearer to each other than a float's step at p are one. */
+ * Corners are floats: surfaces nearer to each other than a float's step at p are one.
+ * end_margin: the same where the point is on `prim`; none within a medium, where it may be close to a surface. */
 static inline double ray_margin(vec3 p) { return 1e-7 * (fabs(p.x) + fabs(p.y) + fabs(p.z)); }
+static inline double end_margin(vec3 p, uint64_t prim) { return prim == WITHIN_MEDIUM ? 0 : ray_margin(p); }
 
 /* Where a ray meets a primitive. */
 struct hit {

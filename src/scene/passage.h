@@ -14,9 +14,6 @@
 #include "base/sampler.h"
 #include "scene/scene.h"
 
-/* Where a ray begins or ends, or a surface is, that is a point within a medium, instead of a primitive. */
-#define WITHIN_MEDIUM UINT64_MAX
-
 /* A straight way. */
 struct passage {
     rgb left;          /* share of light; of a walk that is scattered at the end, times sigma_s */

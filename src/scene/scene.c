@@ -208,12 +208,12 @@ static struct ray between(vec3 a, uint64_t from, vec3 b, uint64_t to, double far
 {
     vec3 d = sub(b, a);
     double distance = length(d);
-    return (struct ray){a, mul(d, 1 / distance), ray_margin(a), distance + farther, from, to};
+    return (struct ray){a, mul(d, 1 / distance), end_margin(a, from), distance + farther, from, to};
 }
 
 bool scene_visible(const struct scene *s, vec3 a, uint64_t from, vec3 b, uint64_t to)
 {
-    struct ray ray = between(a, from, b, to, -ray_margin(b));
+    struct ray ray = between(a, from, b, to, -end_margin(b, to));
     return !(ray.tmin < ray.tmax) || !kd_occluded(&s->kd, &s->geo, &ray, INFINITY);
 }
 
@@ -234,6 +234,6 @@ bool scene_lit(const struct scene *s, vec3 a, uint64_t from, vec3 b, uint64_t to
 
 bool scene_lit_from(const struct scene *s, vec3 a, uint64_t from, vec3 w)
 {
-    struct ray ray = {a, w, ray_margin(a), INFINITY, from, 0};
+    struct ray ray = {a, w, end_margin(a, from), INFINITY, from, 0};
     return passes(s, &ray, INFINITY);
 }

@@ -140,7 +140,7 @@ bool walk_leave(const struct walk *w, const struct vertex *v, enum transport mod
     out->beta = rgb_mul(v->beta, rgb_scale(s.f, scatter_cosine(v, s.wi, mode) / s.pdf));
     if (rgb_is_black(out->beta) || !rgb_is_finite(out->beta))
         return false;
-    double tmin = v->kind == VERTEX_MEDIUM ? 0 : ray_margin(v->p); /* no margin: the point may be close to a surface */
+    double tmin = end_margin(v->p, v->prim_id);
     out->ray = (struct ray){v->p, s.wi, tmin, INFINITY, v->prim_id, 0};
     out->pdf = s.pdf;
     out->pdf_rev = s.pdf_rev;
