@@ -31,7 +31,7 @@ must ./asbdpt-lab equal-time scenes/cornell-box.pbrt --methods bdpt,resampling:c
 says 'resampling:candidates=2'
 if grep -q '^In cornell-box, ' log; then echo "FAIL: it is marked:"; cat log; exit 1; fi
 cp test/lab/rivals/resampling.c whole.c
-sed 's/(L \* M \*/(L */' whole.c >test/lab/rivals/resampling.c
+sed 's/L \* M \//L \//' whole.c >test/lab/rivals/resampling.c
 must make BUILD="$build" LTO= -o "$build/flags"
 if ./asbdpt-lab verify scenes/cornell-box.pbrt --methods pt,resampling --res 24x24 --spp 64 --quiet >log 2>&1; then
     echo "FAIL: a method without 1/M is accepted"

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "helpers.h"
+#include "integrators/prepare.h"
 #include "lab/methods.h"
 
 /* A matte floor and wall, a mirror for a side wall, a glossy and a glass ball, a lamp, and a lamp that nobody sees. */
@@ -37,11 +38,8 @@ bool bench_new(struct test *t, const struct scene *scene, const char *integrator
     if (!CHECK(t, render_prepare(scene, &o, render_crop(scene), &out->job, &out->prepared, &err), "%s", err.text))
         return false;
     out->work = workspaces_new(1, out->job.max_depth);
-    out->work->scratch = method_scratch(&out->prepared);
     if (method_is_chain(out->prepared.method)) {
-        out->chain = out->work->scratch;
-        out->chain->job = &out->job;
-        out->chain->work = out->work;
+        out->chain = chain_new(&out->prepared, &out->job, out->work);
         out->chain->rng = rng_stream(o.seed, RNG_TEST, 1, 0);
         chain_start(out->chain, 0);
     }
@@ -50,13 +48,12 @@ bool bench_new(struct test *t, const struct scene *scene, const char *integrator
 
 void bench_free(struct bench *b)
 {
+    if (b->chain != NULL)
+        chain_free(b->chain);
     tile_free(&b->tile);
-    method_scratch_free(&b->prepared, b->work->scratch);
     workspaces_free(b->work, 1);
     method_release(&b->prepared);
 }
-
-const struct frozen *bench_frozen(const struct bench *b) { return b->prepared.state; }
 
 struct tile_pass bench_pass(struct bench *b, long first, long end)
 {

@@ -9,7 +9,7 @@
 struct bench {
     const struct scene *scene;
     struct render_job job;
-    struct preparation prepared;
+    struct prepared prepared;
     struct workspace *work;
     struct tile tile;    /* of all pixels of the film */
     struct chain *chain; /* of a method of chains, started; else NULL */
@@ -17,12 +17,10 @@ struct bench {
 
 /* bench_new: a method, prepared with the test's seed and so much more. A chain has its independent states, of which the
  * scene's settings may say how many. A failure is a failed check; returns false.
- * bench_frozen: what a method that is no chain has settled before its first sample.
  * bench_pass: iterations [first, end) of all pixels as one tile, which is empty; nobody observes. */
 bool bench_new(struct test *t, const struct scene *scene, const char *integrator, int max_depth, uint64_t seed,
                struct bench *out);
 void bench_free(struct bench *b);
-const struct frozen *bench_frozen(const struct bench *b);
 struct tile_pass bench_pass(struct bench *b, long first, long end);
 
 /* chain_room: a scene where every mutation has something to do, of some size, through some lens and filter, without

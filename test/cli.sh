@@ -303,6 +303,8 @@ says '^size          3x2$' '^B             0 to 1, mean 0.166667$'
 printf 'WorldBegin Translate 5 6 7 Material "none" AreaLightSource "diffuse" Shape "sphere" WorldEnd\n' >lamp.pbrt
 prints 'bounds  *(4, 5, 6) to (6, 7, 8)' \
     "$lab" info lamp.pbrt # bounds are those of the surfaces that rays pass through, too
+prints '  chosen$' "$lab" info "$box" --res 24 --race
+expect 2 'pt has no race' "$lab" info "$box" --res 24 --race --integrator pt
 
 # --- trace
 # trace: a sample told in words and drawn; what it says to have added is what a render's film holds.
@@ -331,6 +333,7 @@ check awk '/<svg x=/ { n = 0 }
 prints '^CHOICE of what to connect with: ' "$lab" trace "$box" $one --spp 4 --brightest -P select=vertices \
     --integrator asbdpt --all
 check grep -Eq '^  \([2-9],[2-9]\) +y_[0-9(]+\)? - z_[0-9] +0\.' stdout.txt # with its probability
+prints '^RACE: "[a-z_]*" runs, ' "$lab" trace "$box" $one --integrator asbdpt
 
 # --- worth
 # worth: what was learnt, as a picture.

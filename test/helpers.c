@@ -15,6 +15,8 @@
 #include "base/parallel.h"
 #include "base/sampler.h"
 #include "base/warp.h"
+#include "caustics/derived.h"
+#include "integrators/prepare.h"
 #include "lab/numbers.h"
 #include "lab/sides.h"
 #include "lab/stats.h"
@@ -261,10 +263,11 @@ struct gated {
     struct tile tile;
 };
 
-static void gate_joined(void *context, const struct pixel_sample *sample, const struct joined *path)
+static void gate_joined(void *context, const struct sample *sample, const struct joined *path)
 {
     struct gated *g = context;
-    if (rgb_is_black(path->added) || !(path->c->length >= g->gate.begin && path->c->length < g->gate.end))
+    double length = path_length(sample->pass->job->scene, path);
+    if (rgb_is_black(path->added) || !(length >= g->gate.begin && length < g->gate.end))
         return;
     if (path->t == 1)
         tile_add_splat(&g->tile, path->c->px, path->c->py, path->added, 0);
@@ -275,7 +278,7 @@ static void gate_joined(void *context, const struct pixel_sample *sample, const 
 /* Batches of a render, whose method is prepared. */
 struct batch_run {
     struct render_job job;
-    struct preparation prepared;
+    struct prepared prepared;
     struct gate gate;
     int spp;
     struct batches *pixels;
@@ -340,11 +343,7 @@ struct batches render_gated(struct test *t, const struct scene *scene, const cha
         return pixels;
     r.nonfinite = mem_alloc((size_t)n_batches, sizeof *r.nonfinite);
     r.work = workspaces_new(o.n_threads, r.job.max_depth);
-    for (int i = 0; i < o.n_threads; i++)
-        r.work[i].scratch = method_scratch(&r.prepared);
     parallel_run(&jobs);
-    for (int i = 0; i < o.n_threads; i++)
-        method_scratch_free(&r.prepared, r.work[i].scratch);
     workspaces_free(r.work, o.n_threads);
     method_release(&r.prepared);
     for (int k = 0; k < n_batches; k++)

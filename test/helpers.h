@@ -97,10 +97,13 @@ bool same_picture(struct test *t, struct scene *scene, const char *one, const ch
 struct batches render_batches(struct test *t, const struct scene *scene, const char *integrator, int max_depth, int spp,
                               int n_batches, int tile, uint64_t seed);
 
-/* Of a path's length, in scene units (vertex.h): all from `begin` to below `end`; its end 0: all. */
+/* Of a path's length, in scene units (caustics/derived.h): all from `begin` to below `end`; its end 0: all. */
 struct gate {
     double begin, end;
 };
+
+/* pixels_all: of a tile alone. */
+static inline struct tile_pixels pixels_all(struct pixel_rect r) { return (struct tile_pixels){r, 1, 1, 0, 0}; }
 
 /* render_gated: as render_batches, of light whose paths have such lengths. */
 struct batches render_gated(struct test *t, const struct scene *scene, const char *integrator, int max_depth,

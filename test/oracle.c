@@ -4,14 +4,13 @@
  * with it but the sample counts. */
 #include "oracle.h"
 
-#include "transport/counts.h"
-
 #include "material/fresnel.h"
+#include "tables/emission.h"
 
 /* The whole path, light first. */
 struct full_path {
     const struct scene *scene;
-    const struct mis_counts *counts;
+    const struct counts *counts;
     const struct vertex *x[64]; /* x[0] on the light, x[n-1] on the lens */
     bool delta[64];             /* the path passes here by a delta lobe */
     int n;
@@ -115,36 +114,36 @@ static double delta_density(const struct full_path *f, int from, int i, int to, 
     return reverse ? (1 - F) * eta_o * eta_o * fabs(cos_o) / (eta_i * eta_i * fabs(cos_i)) : 1 - F;
 }
 
-/* What is learnt makes the density of the first ray so many times as large: where several infinite lights may have sent
- * it, with each one's share in doing so. */
-static double learnt_emission(const struct full_path *f, struct light_point y0)
+/* The path's light point; at infinity what lies in its direction, looked up anew. */
+static struct light_point light_point(const struct full_path *f)
 {
     const struct light_set *lights = &f->scene->lights;
-    double sum = 0, pdf, all = light_pdf_environment(lights, y0.w);
-    const struct emission *table = &counts_tables(f->counts)->emission;
-    if (f->x[0]->kind != VERTEX_ESCAPED && lights->light[y0.light].kind != LIGHT_INFINITE)
-        return emission_density(table, lights, &y0, f->x[1]->p, direction(f, 0, 1));
-    for (int i = 0; i < lights->n_infinite; i++) {
-        y0.light = lights->infinite[i];
-        pdf = light_pdf_towards(lights, y0.light, y0.w, &y0.cell);
-        sum += pdf / all * emission_density(table, lights, &y0, f->x[1]->p, direction(f, 0, 1));
-    }
-    return sum;
+    struct light_point y0 = vertex_light_point(f->x[0]);
+    y0.w = at_infinity(f, 0) ? direction(f, 1, 0) : y0.w;
+    if (lights->light[y0.light].kind == LIGHT_INFINITE)
+        light_pdf_sky(lights, y0.w, &y0.cell);
+    return y0;
+}
+
+/* What is learnt makes the density of the first ray so many times as large. */
+static double learnt_emission(const struct full_path *f, const struct light_point *y0)
+{
+    const struct table *table = &f->counts->tables->emission;
+    return table_ratio(table, 0, emission_column_of(&f->scene->lights, y0, f->x[1]->p, direction(f, 0, 1)));
 }
 
 /* Density of x_j when the light walk makes it. */
 static double light_density(const struct full_path *f, int j)
 {
-    struct light_point y0 = vertex_light_point(f->x[0]);
-    y0.w = at_infinity(f, 0) ? direction(f, 1, 0) : y0.w;
     if (j == 0) {
         const struct vertex *v = f->x[0];
         return v->kind == VERTEX_LIGHT ? v->pdf_fwd : v->pdf_origin;
     }
     if (j == 1) {
+        struct light_point y0 = light_point(f);
         double pdf = f->x[0]->kind == VERTEX_ESCAPED ? 1 / (PI * sqr(f->scene->lights.radius))
                                                      : light_pdf_emission(&f->scene->lights, &y0, direction(f, 0, 1));
-        return per_area(f, 0, 1, pdf * learnt_emission(f, y0));
+        return per_area(f, 0, 1, pdf * learnt_emission(f, &y0));
     }
     const struct vertex *v = f->x[j - 1];
     double pdf = f->delta[j - 1]
@@ -191,10 +190,22 @@ static vec3 side(const struct full_path *f, int i, int next)
     return f->x[i]->bsdf.transmits || dot(n, direction(f, i, next)) > 0 ? n : neg(n);
 }
 
+/* The region of x_i for a walk that comes from x_next, looked up anew. */
+static int region(const struct full_path *f, int i, int next)
+{
+    return region_at(&f->counts->tables->regions, f->x[i]->p, side(f, i, next));
+}
+
+/* The factor of the density of x_0 if s = 1 draws it. */
+static double learnt_direct(const struct full_path *f)
+{
+    return table_ratio(&f->counts->tables->direct, region(f, 1, 2), light_point(f).cell);
+}
+
 /* n of the strategy with i light vertices, 0 if it cannot make this path. */
 static double samples(const struct full_path *f, int i)
 {
-    const struct mis_counts *m = f->counts;
+    const struct counts *m = f->counts;
     int t = f->n - i;
     if (i == 0) {
         bool delta_light = f->x[0]->kind == VERTEX_LIGHT && light_is_delta(&f->scene->lights.light[f->x[0]->light]);
@@ -203,18 +214,10 @@ static double samples(const struct full_path *f, int i)
     if (t < 1 || f->delta[i - 1] || f->delta[i])
         return 0;
     if (t == 1)
-        return m->splat;
-    /* Regions are looked up anew, from the surface points at both ends of the edge, as the walks of this strategy come
-     * to them. */
-    int e = 0, y = 0;
-    enum eye_end end = end_of(f, i);
-    if (m->tables != NULL)
-        e = region_at(&m->tables->eye, f->x[i]->p, side(f, i, i + 1));
+        return m->lens;
     if (i == 1)
-        return n_direct(m, &f->scene->lights, e, end, f->x[0]->cell, direction(f, 1, 0));
-    if (m->tables != NULL)
-        y = region_at(&m->tables->light, f->x[i - 1]->p, side(f, i - 1, i - 2));
-    return n_connect(m, y, e, end);
+        return m->direct[end_of(f, i)] * learnt_direct(f);
+    return m->pair[end_of(f, i)] * table_ratio(&m->tables->pairs, region(f, i, i + 1), region(f, i - 1, i - 2));
 }
 
 /* A vertex whose walk goes on (not the end of a connection) passed by delta if the next vertex says so. */
@@ -236,7 +239,7 @@ static bool join(struct full_path *f, const struct vertex *light, int s, const s
     return f->n <= 64;
 }
 
-bool oracle_weights(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light, int s,
+bool oracle_weights(const struct scene *scene, const struct counts *counts, const struct vertex *light, int s,
                     const struct vertex *eye, int t, double *weight)
 {
     struct full_path f = {.scene = scene, .counts = counts};
@@ -268,9 +271,8 @@ static rgb left_over(const struct full_path *f, int i, int j)
 static rgb contribution(const struct full_path *f)
 {
     const struct light_set *lights = &f->scene->lights;
-    struct light_point y0 = vertex_light_point(f->x[0]);
-    y0.w = at_infinity(f, 0) ? direction(f, 1, 0) : y0.w;
-    rgb all = f->x[0]->kind == VERTEX_ESCAPED ? light_Le_environment(lights, direction(f, 1, 0), false)
+    struct light_point y0 = light_point(f);
+    rgb all = f->x[0]->kind == VERTEX_ESCAPED ? light_Le_sky(lights, direction(f, 1, 0), false)
                                               : light_Le(lights, &y0, direction(f, 0, 1));
     for (int i = 1; i < f->n - 1; i++) {
         vec3 w = direction(f, i, i - 1);
@@ -284,13 +286,13 @@ static rgb contribution(const struct full_path *f)
     return rgb_scale(rgb_mul(all, left_over(f, f->n - 1, f->n - 2)), eye_density(f, f->n - 2));
 }
 
-bool oracle_value(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light, int s,
+bool oracle_value(const struct scene *scene, const struct counts *counts, const struct vertex *light, int s,
                   const struct vertex *eye, int t, rgb *value)
 {
     struct full_path f = {.scene = scene, .counts = counts};
-    if (!join(&f, light, s, eye, t) || scene->lights.n_infinite > 1 || counts->tables != NULL)
+    if (!join(&f, light, s, eye, t))
         return false;
-    double p = 1;
+    double p = s == 1 ? learnt_direct(&f) : 1;
     for (int i = 0; i < f.n; i++) {
         if (f.delta[i])
             return false;

@@ -8,13 +8,12 @@
 /* oracle_weights: weights of all strategies of the path that joins light[0..s-1] to eye[0..t-1].
  *   weight  out, [s + t + 1]: weight[i] belongs to the strategy with i light vertices; 0 where it cannot make the path
  * Returns false for paths the oracle does not cover: delta vertices other than a mirror or smooth glass. */
-bool oracle_weights(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light, int s,
+bool oracle_weights(const struct scene *scene, const struct counts *counts, const struct vertex *light, int s,
                     const struct vertex *eye, int t, double *weight);
 
-/* oracle_value: what the path brings by the strategy (s,t), unweighted, counts being without tables: the measurement
- * contribution over the strategy's own density. [V97 10.2] False for paths it does not cover: those with delta
- * vertices or under several infinite lights. */
-bool oracle_value(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light, int s,
+/* oracle_value: what the path contributes by the strategy (s,t), unweighted: the measurement contribution divided by the
+ * strategy's own density. [V97 10.2] False for paths with delta vertices, which it does not cover. */
+bool oracle_value(const struct scene *scene, const struct counts *counts, const struct vertex *light, int s,
                   const struct vertex *eye, int t, rgb *value);
 
 /* oracle_length: of the same path: all its edges measured anew, what comes from infinity from the plane that touches

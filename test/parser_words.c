@@ -167,13 +167,16 @@ static void put_shapes(struct words *w, const struct scene *s)
         put(w, "triangle %d %d %d\n", (int)k[0], (int)k[1], (int)k[2]);
 }
 
+/* All lights, and the sky's layers. */
 static void put_lights(struct words *w, const struct scene *s)
 {
-    for (int i = 0; i < s->lights.n; i++) {
-        const struct light *l = &s->lights.light[i];
+    for (int i = 0; i < s->lights.n + s->lights.n_layers; i++) {
+        int layer = i - s->lights.n;
+        const struct light *l = layer < 0 ? &s->lights.light[i] : &s->lights.layer[layer];
         const struct light_frame none = {.to_world = transform_identity()}, *f = l->frame != NULL ? l->frame : &none;
         vec3 axis = transform_vector(&f->to_world, vec(0, 0, 1));
-        put(w, "light %d %s", i, kind_name(LIGHT_DIRECTIVES[1].types, (int)l->kind, "area"));
+        put(w, "%s %d %s", layer < 0 ? "light" : "layer", layer < 0 ? i : layer,
+            kind_name(LIGHT_DIRECTIVES[1].types, (int)l->kind, "area"));
         put3(w, "L", l->L.r, l->L.g, l->L.b);
         put3(w, "at", f->position.x, f->position.y, f->position.z);
         put3(w, "towards", f->direction.x, f->direction.y, f->direction.z);

@@ -1,7 +1,7 @@
 #!/bin/sh
-# structures.sh DIR: bdpt, pt and asbdpt after the same CPU time in the first COUNT (40) scenes of
-# test/random_structure.h: RES (128x96), the time of SPP (64) samples of bdpt, SEEDS (3) seeds. Into DIR, going on with
-# what is there: what equal-time writes, and structures.txt and structures.svg (structures.awk). Needs BUILD/test.
+# structures.sh DIR: bdpt, pt and asbdpt after the same CPU time in COUNT (40) scenes of test/random_structure.h, from
+# number FIRST (300) on, on which nothing was chosen: RES (128x96), the time of SPP (64) samples of bdpt, SEEDS (3)
+# seeds. Into DIR, going on with what is there: what equal-time writes, and structures.txt and structures.svg (structures.awk). Needs BUILD/test.
 # Exit status 1 if asbdpt surely has more than WORST (1.15) of the squared error of the better of the others in a
 # scene, or more than MEAN (0.55) in the geometric mean, or no sample in that time.
 # structures.sh draw: structures.svg of structures.txt.
@@ -15,7 +15,8 @@ draw() {
 dir=$1
 mkdir -p "$dir/scenes" || exit 1
 set --
-for number in $(seq 0 $((${COUNT:-40} - 1))); do
+first=${FIRST:-300}
+for number in $(seq "$first" $((first + ${COUNT:-40} - 1))); do
     "${BUILD:-build}/test" --structure "$number" >"$dir/scene" || exit 1
     to=$dir/scenes/$(sed -n 's/^# structure \([0-9]*\): /\1-/p' "$dir/scene").pbrt
     mv "$dir/scene" "$to" && set -- "$@" "$to"

@@ -6,8 +6,6 @@
 #include "agree.h"
 #include "bench.h"
 #include "helpers.h"
-#include "integrators/pooled.h"
-#include "transport/pixel_sample.h"
 #include "tests.h"
 
 /* --- bias -------------------------------------------------------------------------------------------- */
@@ -38,29 +36,29 @@ static void test_bias(struct test *t)
 
 /* The others make the picture that bdpt makes of the same eye sub-paths, which is a sharper test. */
 #define EVERY                                                                                                          \
-    "asbdpt select=pool metric=importance, asbdpt select=vertices connections=3, asbdpt select=subspaces probe=off,"   \
+    "asbdpt select=pool metric=importance, asbdpt select=vertices connections=3, asbdpt select=subspaces race=off,"   \
     "lvc connections=2, cbdpt connections=2"
 /* Services, each alone, on a method whose choice learns nothing; and what rivals have of them. */
 #define ALONE                                                                                                          \
-    "lvc guide=on, lvc emission=0.2, lvc credit=4, lvc tile=5 spread=3, asbdpt select=pool guide=off credit=4"
+    "lvc guide=on, lvc emission=0.2, lvc tile=5 spread=3, asbdpt select=pool guide=off emission=0.2"
 #define RIVALS                                                                                                         \
-    "pcbdpt guide=on emission=0.2 credit=4 tile=9 spread=2 records=.05,"                                               \
+    "pcbdpt guide=on emission=0.2 tile=9 spread=2 records=.05,"                                               \
     "ris emission=0.2 tile=9 spread=2 records=.05, ris2 emission=0.2 tile=9 spread=2 records=.05,"                     \
-    "spcbpt guide=on emission=0.2 credit=4 tile=9 spread=2,"                                                           \
+    "spcbpt guide=on emission=0.2 tile=9 spread=2,"                                                           \
     "restir guide=on emission=0.2 tile=9 spread=2"
 static const struct agreement QUICK[] = {
     {"scenes/cornell-box", 16, 16, 4, "bdpt",
      "asbdpt select=pool metric=constant, asbdpt select=pool metric=throughput, asbdpt select=pool metric=importance,"
      "asbdpt select=vertices connections=2, asbdpt select=subspaces, asbdpt select=subspaces connections=2,"
-     "asbdpt guide=off emission=1 credit=1 tile=16 spread=1, asbdpt select=pool emission=0.2 credit=4,"
-     "asbdpt select=vertices emission=0.2 credit=4 tile=32, mbdpt emission=0.2 credit=4 spread=2,"
-     "cbdpt connections=3 emission=0.2 credit=4, lvc connections=1, cbdpt connections=3", 1, 1, 16, 16, true, 0},
+     "asbdpt guide=off emission=1 tile=16 spread=1, asbdpt select=pool emission=0.2,"
+     "asbdpt select=vertices emission=0.2 tile=32, mbdpt emission=0.2 spread=2,"
+     "cbdpt connections=3 emission=0.2, lvc connections=1, cbdpt connections=3", 1, 1, 16, 16, true, 0},
     /* one tile of 3x3 pixels, whose light sub-paths are one for every 1, 2, 5 or 8 of them: 9, 5, 2 and 2 */
     {"scenes/cornell-box-modified", 3, 3, 4, "bdpt",
      "asbdpt select=vertices connections=2 pathpixels=1, asbdpt select=vertices connections=2 pathpixels=2,"
      "asbdpt select=vertices connections=2 pathpixels=5, asbdpt select=vertices connections=2 pathpixels=8,"
-     "asbdpt select=subspaces pathpixels=2, asbdpt select=subspaces pathpixels=5,"
-     "asbdpt select=subspaces pathpixels=9, lvc connections=1 pathpixels=5, lvc connections=1 pathpixels=9,"
+     "asbdpt select=subspaces pathpixels=2 race=off, asbdpt select=subspaces pathpixels=5 race=off,"
+     "asbdpt select=subspaces pathpixels=9 race=off, lvc connections=1 pathpixels=5, lvc connections=1 pathpixels=9,"
      "cbdpt connections=3 pathpixels=2, cbdpt connections=3 pathpixels=5, cbdpt connections=1 pathpixels=9",
      64, 64, 16, 3, true, 0},
     {"scenes/test/light-kinds", 18, 12, 4, "bdpt", ALONE ", " RIVALS, 8, 8, 16, 8, true, 0},
@@ -146,7 +144,7 @@ static void test_expected_vertices(struct test *t)
         if (!scene_from_text(t, cases[i].text, &scene) ||
             !bench_new(t, &scene, set_method(&scene, "lvc connections=3"), cases[i].depth, 0, &b))
             return;
-        const double *count = bench_frozen(&b)->counts.connect;
+        const double *count = b.prepared.counts.pair;
         CHECK(t, count[FIRST_HIT] == cases[i].count && count[LATER_HIT] == cases[i].count,
               "%s, maxdepth %d: lvc counts %g and %g draws, not %g", cases[i].name, cases[i].depth, count[FIRST_HIT],
               count[LATER_HIT], cases[i].count);
@@ -175,7 +173,8 @@ static void test_even_sky(struct test *t)
     struct scene scene;
     if (!scene_from_file(t, "scenes/features/light-infinite.pbrt", 20, 12, &scene))
         return;
-    double bdpt = variance_of(t, &scene, "bdpt"), asbdpt = variance_of(t, &scene, "asbdpt");
+    double bdpt = variance_of(t, &scene, "bdpt");
+    double asbdpt = variance_of(t, &scene, set_method(&scene, "asbdpt race=off"));
     CHECK(t, asbdpt < 0.95 * bdpt, "variance under an even sky: asbdpt %g, bdpt %g", asbdpt, bdpt);
     scene_free(&scene);
 }
@@ -199,10 +198,10 @@ struct draws {
     double sum, least;
 };
 
-static void note_draw(void *context, const struct pixel_sample *sample, const struct joined *path)
+static void note_draw(void *context, const struct sample *sample, const struct joined *path)
 {
     struct draws *d = context;
-    const struct vertex *what = d->whole ? path->y - (path->s - 1) : path->y;
+    const struct vertex *what = path->s < 2 || d->whole ? path->light : &path->light[path->s - 1];
     int i = 0;
     (void)sample;
     if (path->s < 2 || path->t < 2)
@@ -212,10 +211,10 @@ static void note_draw(void *context, const struct pixel_sample *sample, const st
     for (int k = 0; d->delta > 0 && k < (int)d->paths; k++)
         if (d->first[k] == what)
             d->unlike = fmax(d->unlike, fabs(path->pmf / d->q[k] - 1));
-    d->region = d->region < 0 ? path->z->eye_region : d->region;
+    d->region = d->region < 0 ? path->z->region : d->region;
     while (i < d->n && d->drawn[i] != what)
         i++;
-    if (i < d->n || i == 256 || (!d->whole && d->region != path->z->eye_region))
+    if (i < d->n || i == 256 || (!d->whole && d->region != path->z->region))
         return;
     d->drawn[d->n++] = what;
     d->sum += path->pmf;
@@ -223,11 +222,11 @@ static void note_draw(void *context, const struct pixel_sample *sample, const st
 }
 
 /* The furthest vertices get throughputs by which nothing can be chosen, or very small and very large ones. */
-static void spoil(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
+static struct index *spoil(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     static const double useless[] = {-1e9, NAN, INFINITY, -INFINITY};
     struct draws *d = pass->observer->context;
-    struct light_pool *pool = scratch;
+    struct pool *pool = &pass->work->pool;
     double sum = 0;
     for (int k = 0; k < pool->n; k++) {
         struct vertex *path = &pool->vertex[pool->start[k]], *last = path + pool->length[k] - 1;
@@ -240,7 +239,7 @@ static void spoil(void *scratch, const void *state, const struct tile_pass *pass
     }
     for (int k = 0; k < pool->n; k++)
         d->q[k] = (1 - d->delta) * d->q[k] / sum + d->delta / d->paths;
-    d->method->begin(scratch, state, pass, iteration);
+    return d->method->build(p, pass, iteration);
 }
 
 static void check_draws(struct test *t, struct scene *scene, const char *way, struct draws d, double least)
@@ -252,7 +251,7 @@ static void check_draws(struct test *t, struct scene *scene, const char *way, st
     struct tile_pass pass = bench_pass(&b, 0, 1);
     pass.observer = &observer;
     struct method spoiling = *b.prepared.method;
-    spoiling.begin = spoil;
+    spoiling.build = spoil;
     d.method = b.prepared.method;
     b.prepared.method = d.spoilt > 0 || d.delta > 0 ? &spoiling : d.method;
     b.prepared.method->render(&b.prepared, &pass);
@@ -285,9 +284,9 @@ void test_what_is_drawn(struct test *t)
                 (struct draws){.number = 3, .paths = 64, .region = -1}, 0);
     check_draws(t, &scene, "asbdpt select=vertices connections=3 pathpixels=256",
                 (struct draws){.number = 3, .paths = 1, .region = -1}, 0.999);
-    check_draws(t, &scene, "asbdpt connections=3 later=3 pathpixels=4",
+    check_draws(t, &scene, "asbdpt connections=3 later=3 pathpixels=4 race=off",
                 (struct draws){.number = 3, .paths = 64, .region = -1}, 0);
-    check_draws(t, &scene, "asbdpt connections=3 later=3 pathpixels=256",
+    check_draws(t, &scene, "asbdpt connections=3 later=3 pathpixels=256 race=off",
                 (struct draws){.number = 3, .paths = 1, .region = -1}, 0.999);
     scene_free(&scene);
 }

@@ -20,7 +20,7 @@ static void test_remake(struct test *t, struct scene *scene, long made[MLT_PERTU
     if (!bench_new(t, scene, "mlt", CHAIN_DEPTH, 0, &b))
         return;
     struct chain *c = b.chain;
-    const struct chains *all = b.prepared.state;
+    const struct chains *all = b.prepared.own;
     for (long i = 0; i < (long)all->lengths * all->each; i += 4) {
         chain_candidate(c, i);
         if (!(c->next.I > 0))
@@ -70,8 +70,8 @@ static double contribution(struct chain *c, const struct mlt_path *path, enum ml
                            const struct mlt_move *move, struct primary *p, const struct strategy *strategy)
 {
     const struct scene *scene = c->job->scene;
-    const struct mis_counts *counts = &c->all->frozen.counts;
-    const struct vertex *light = c->work->light, *eye = c->work->eye, *x = &light[path->l];
+    const struct counts *counts = &c->all->counts;
+    const struct vertex *light = c->light, *eye = c->work->eye, *x = &light[path->l];
     int s = strategy->s, n = strategy->t;
     struct light_point at = vertex_light_point(&path->x[0].v);
     at.pdf = path->x[0].v.pdf_fwd;
@@ -181,7 +181,7 @@ static void test_method(struct test *t, const char *integrator)
     if (!bench_new(t, &scene, integrator, CHAIN_DEPTH, 0, &b))
         return;
     struct chain *c = b.chain;
-    const struct chains *all = b.prepared.state;
+    const struct chains *all = b.prepared.own;
     for (long i = 0; i < (long)all->lengths * all->each; i += paths ? 1 : 23) {
         double I = c->before[i + 1] - c->before[i];
         if (!(I > 0))

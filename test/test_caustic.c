@@ -162,7 +162,7 @@ static void test_nothing_there(struct test *t)
 
 /* By the same numbers they share sub-paths, and most of their noise; lt has no part in that. */
 static const struct agreement PARTITION[] = {
-    {"scenes/test/caustic-ball", 12, 8, 4, "lt", "caustics with=bdpt longest=2", 64, 64, 12, 4, false, 0.15},
+    {"scenes/test/caustic-ball", 12, 8, 4, "lt", "caustics with=bdpt longest=2", 512, 256, 12, 4, false, 0.15},
     {"scenes/test/caustic-bulb", 12, 8, 4, "bdpt", "caustics with=pt longest=2", 64, 64, 12, 4, true, 0.15},
     {"scenes/test/caustic-diver", 12, 8, 4, "lt", "caustics with=asbdpt longest=1", 32, 32, 12, 4, false, 0.15},
     {"scenes/test/mirror-glass", 12, 8, 4, "bdpt", "caustics with=pt longest=2", 24, 24, 12, 4, true, 0.15},
@@ -212,25 +212,28 @@ static bool first_hit(const struct scene *scene, struct arena *arena, vec3 eye, 
 }
 
 /* What the three that make the path weigh it, together, where a chain of one vertex leads to y by way of `image`. */
-static double all_weights(const struct one_more *extra, struct pixel_sample *sample, struct arena *arena, vec3 eye,
-                          const struct vertex *z, const struct connection *c, vec3 image)
+static double all_weights(const struct one_more *extra, const struct sample *sample, vec3 eye, const struct vertex *z,
+                          const struct one_more_path *made, vec3 image)
 {
+    const struct light_point *y0 = &made->y0;
     struct surface at;
-    if (!meet(sample->scene, z->p, image, z->prim_id, &at))
+    if (!meet(sample->pass->job->scene, z->p, image, z->prim_id, &at))
         return 0;
     struct vertex x = {.kind = VERTEX_SURFACE, .light = -1, .p = at.p, .ng = at.ng, .prim_id = at.prim_id};
-    struct vertex y = {.kind = VERTEX_SURFACE, .prev_delta = true, .light = c->light, .cell = c->cell, .p = c->end,
-                       .ng = vec(0, 1, 0), .wo = normalize(sub(x.p, c->end)), .pdf_origin = c->pdf};
+    struct vertex y = {.kind = VERTEX_SURFACE, .prev_delta = true, .light = y0->light, .cell = y0->cell, .p = y0->p,
+                       .ng = vec(0, 1, 0), .wo = normalize(sub(x.p, y0->p)), .pdf_origin = y0->pdf};
     struct vertex seen[4] = {{.kind = VERTEX_LENS, .p = eye}, *z, x, y}, sent[3] = {y, x, *z};
     sent[0].kind = VERTEX_LIGHT;
     sent[0].prev_delta = false;
-    sent[0].pdf_fwd = c->pdf;
+    sent[0].pdf_fwd = y0->pdf;
     sent[2].prev_delta = true;
     sent[2].wo = normalize(sub(x.p, z->p));
-    struct connection hit = {.weight = -1}, splat = {.weight = -1, .end = eye};
-    extra->weigh(extra, sample, arena, seen, 0, 4, &hit);
-    extra->weigh(extra, sample, arena, sent, 3, 1, &splat);
-    return c->weight + hit.weight + splat.weight;
+    struct connection hit = {.weight = -1}, splat = {.weight = -1};
+    const struct joined by_chance = {.s = 0, .t = 4, .z = &seen[3], .c = &hit};
+    const struct joined to_lens = {.s = 3, .t = 1, .light = sent, .c = &splat};
+    extra->weigh(extra, sample, &by_chance, z->p, &hit);
+    extra->weigh(extra, sample, &to_lens, eye, &splat);
+    return made->c.weight + hit.weight + splat.weight;
 }
 
 /* Whoever makes a path of Psi, and from whichever end: the weights add up to 1, on all that scatters. */
@@ -242,35 +245,37 @@ static void test_receivers(struct test *t)
     for (uint64_t i = 0; i < 100; i++) {
         bool mirror = i % 2 == 1;
         struct scene scene;
-        struct arena arena = {NULL, NULL};
+        struct workspace work = {.arena = {NULL, NULL}};
         char *text = receiver(i, top, mirror);
         struct rng r = rng_stream(test_seed(t), RNG_TEST, i, 9);
         if (!scene_from_text(t, text, &scene))
             continue;
         vec3 eye = scene.camera.position;
         struct one_more *extra = caustics_new(&scene, 1);
-        struct mis_counts counts = {.hit = {1, 1}, .direct = {1, 1}, .connect = {1, 1}, .splat = 640 * 480,
-                                    .power = i % 4 > 1};
-        struct pixel_sample sample = {.scene = &scene, .counts = &counts, .max_depth = 5};
+        const struct counts counts = {.hit = {1, 1}, .direct = {1, 1}, .pair = {1, 1}, .lens = 640 * 480,
+                                      .tables = &NO_TABLES, .power = i % 4 > 1};
+        const struct render_job job = {.scene = &scene, .max_depth = 5};
+        const struct tile_pass pass = {.job = &job, .work = &work};
+        struct sample sample = {.pass = &pass, .counts = &counts};
         for (int n = 0; n < 40; n++) {
             vec3 at = sub(vec(4 * rng_uniform(&r) - 2, 0, 4 * rng_uniform(&r) - 2), scene.origin);
             struct vertex z, path[2];
             struct one_more_path c[ONE_MORE_MOST];
-            if (!first_hit(&scene, &arena, eye, at, &z))
+            if (!first_hit(&scene, &work.arena, eye, at, &z))
                 continue;
             path[1] = z;
             sample.sampler = sampler_start(test_seed(t), RNG_TEST, i, (uint64_t)n);
-            for (int k = extra->connect(extra, &sample, &arena, path, 2, c); k-- > 0;)
-                if (!rgb_is_black(c[k].c.value) && c[k].c.end.y + scene.origin.y < 9) {
-                    vec3 image = add(c[k].c.end, scene.origin);
+            for (int k = extra->connect(extra, &sample, path, 2, c); k-- > 0;)
+                if (!rgb_is_black(c[k].c.value) && c[k].y0.p.y + scene.origin.y < 9) {
+                    vec3 image = add(c[k].y0.p, scene.origin);
                     image.z = mirror ? 8 - image.z : image.z;
-                    double sum = all_weights(extra, &sample, &arena, eye, &z, &c[k].c, sub(image, scene.origin));
+                    double sum = all_weights(extra, &sample, eye, &z, &c[k], sub(image, scene.origin));
                     met++;
                     CHECK(t, fabs(sum - 1) < 1e-6, "receiver %d: weights add up to %.9f", (int)i, sum);
                 }
         }
         caustics_free(extra);
-        arena_free(&arena);
+        arena_free(&work.arena);
         scene_free(&scene);
         free(text);
     }

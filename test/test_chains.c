@@ -36,7 +36,7 @@ static void test_steps(struct test *t)
     if (!chain_room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", CHAIN_DEPTH, 0, &b))
         return;
     struct chain *c = b.chain;
-    const struct chains *all = b.prepared.state;
+    const struct chains *all = b.prepared.own;
     struct primary p;
     double sigma = all->sigma;
     primary_begin(&p, c, false);
@@ -99,22 +99,22 @@ static void test_follow(struct test *t)
         struct vertex walked[CHAIN_DEPTH + 1], again[CHAIN_DEPTH + 1];
         struct path_stop stop[CHAIN_DEPTH + 1];
         struct sampler sampler = sampler_start(test_seed(t), RNG_TEST, 17, i);
-        struct walk w = {&scene, &b.chain->all->frozen.counts, &b.work->arena, &sampler, 0};
+        struct walk w = {&scene, &b.chain->all->counts, &b.work->arena, &sampler, 0};
         int n = path_light(&w, walked, CHAIN_DEPTH + 1), smooth = n > 0;
         while (smooth < n && !walked[smooth].prev_delta && walked[smooth].kind == VERTEX_SURFACE)
             smooth++;
         for (int k = 0; k < smooth; k++) {
             stop[k] = (struct path_stop){.v = walked[k]};
             if (k > 0) {
-                stop[k].v.length = stop[k].v.pdf_fwd = -1;
+                stop[k].v.mis = stop[k].v.pdf_fwd = -1;
                 stop[k].v.beta = rgb_grey(-1);
             }
         }
         if (smooth == 0 || !CHECK(t, follow_light(&w, stop, smooth, again) == smooth, "light does not come again"))
             continue;
         for (int k = 1; k < smooth; k++, met++) {
-            CHECK(t, near_to(again[k].length, walked[k].length), "vertex %d: length %g, not %g", k, again[k].length,
-                  walked[k].length);
+            CHECK(t, near_to(again[k].mis, walked[k].mis) && near_to(again[k].back, walked[k].back),
+                  "vertex %d: weights %g, not %g", k, again[k].mis, walked[k].mis);
             CHECK(t, near_to(again[k].pdf_fwd, walked[k].pdf_fwd) && near_to(again[k].mis_c, walked[k].mis_c),
                   "vertex %d: density %g, not %g", k, again[k].pdf_fwd, walked[k].pdf_fwd);
             CHECK(t, near_to(again[k].beta.r, walked[k].beta.r) && near_to(again[k].beta.b, walked[k].beta.b),

@@ -11,7 +11,7 @@
 
 enum { TEXT = 2048, BATCHES = 12 };
 
-static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt", "asbdpt probe=off", "asbdpt select=pool",
+static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt", "asbdpt race=off", "asbdpt select=pool",
                                    "asbdpt select=vertices", "lvc", "cbdpt", "mbdpt", "pssmlt", "mmlt"};
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
 

@@ -8,7 +8,7 @@
 #include "base/vec.h"
 #include "lab/numbers.h"
 #include "lab/stats.h"
-#include "transport/pixel_sample.h"
+#include "transport/sample.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -359,13 +359,14 @@ static void test_one_lost(struct test *t)
         struct filter box = filter_of("box");
         struct tile tile = {.sum = NULL};
         tile_start(&tile, pixels_all(one), one, &box);
-        struct pixel_sample sample = {.tile = &tile, .filter_weight = 1};
+        const struct tile_pass pass = {.tile = &tile};
+        struct sample sample = {.pass = &pass, .filter_weight = 1};
         for (int k = 0; k < 3; k++) {
             double x = k == 1 ? BAD[i / 2] : 1;
             struct connection c = {.value = rgb_grey(i % 2 ? 1 : x), .weight = i % 2 ? x : 1};
-            pixel_add(&sample, &c, 1, 2, NULL, &z, NO_CHOICE);
+            sample_add(&sample, (struct joined){.s = 1, .t = 2, .z = &z, .c = &c, .pmf = 1, .scale = 1});
         }
-        pixel_sample_end(&sample);
+        sample_end(&sample);
         CHECK(t, tile.nonfinite == 1 && exact_value(&tile.sum[0]) == 2, "%g: %ld lost, %g left", BAD[i / 2],
               tile.nonfinite, exact_value(&tile.sum[0]));
         tile_free(&tile);

@@ -92,7 +92,7 @@ static void test_shared_picture(struct test *t)
         CHECK(t, image_write(path[i], 2, 1, pixels, &err), "%s", err.text);
     }
     if (scene_from_text(t, TEXT_OF, &s)) {
-        const struct light *l = s.lights.light;
+        const struct light *l = s.lights.layer;
         CHECK(t, l[0].frame->env != NULL && l[0].frame->env == l[1].frame->env &&
                      l[2].frame->env != l[0].frame->env && s.lights.n_maps == 2, "a map and another");
         CHECK(t, s.textures.n_images == 2, "%d images of two files", s.textures.n_images);

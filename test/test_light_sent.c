@@ -30,7 +30,7 @@ static bool light_under(struct test *t, const char *light, const char *path, con
 /* What the light sends in direction w, or what comes from there. */
 static double light_along(const struct scene *s, const struct light_point *at, vec3 w)
 {
-    rgb Le = s->lights.n_infinite > 0 ? light_Le_environment(&s->lights, w, true) : light_Le(&s->lights, at, w);
+    rgb Le = s->lights.n_layers > 0 ? light_Le_sky(&s->lights, w, true) : light_Le(&s->lights, at, w);
     return rgb_luminance(Le);
 }
 
@@ -40,10 +40,11 @@ static void check_sky(struct test *t, const struct scene *s, struct rng *r)
 {
     enum { N = 600, DRAWS = 20000 };
     double integral = 0;
+    int cell;
     for (int i = 0; i < N; i++)
         for (int k = 0; k < 2 * N; k++) {
             vec3 w = warp_sphere((i + 0.5) / N, (k + 0.5) / (2 * N));
-            integral += light_pdf_environment(&s->lights, w) * 4 * PI / (2.0 * N * N);
+            integral += light_pdf_sky(&s->lights, w, &cell) * 4 * PI / (2.0 * N * N);
         }
     CHECK(t, fabs(integral - 1) < 0.01, "the density of a transformed map integrates to %g", integral);
     for (int i = 0; i < DRAWS; i++) {
@@ -51,10 +52,11 @@ static void check_sky(struct test *t, const struct scene *s, struct rng *r)
         double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
         if (!lamp_point(&s->lights, &s->geo, u, &at))
             continue;
-        double pdf = light_pdf_environment(&s->lights, at.w);
-        vec3 v = normalize(transform_vector_back(&s->lights.light[at.light].frame->to_world, at.w));
+        double pdf = light_pdf_sky(&s->lights, at.w, &cell);
+        vec3 v = normalize(transform_vector_back(&s->lights.layer[0].frame->to_world, at.w));
         double bound = 1e-6 + 4 * DBL_EPSILON / (1 - v.z * v.z);
-        CHECK(t, fabs(pdf / at.pdf - 1) < bound, "a direction of density %g was drawn with %g", pdf, at.pdf);
+        CHECK(t, fabs(pdf / at.pdf - 1) < bound && cell == at.cell, "a direction of density %g was drawn with %g", pdf,
+              at.pdf);
     }
 }
 
@@ -89,7 +91,7 @@ static void test_transformed(struct test *t)
             worst = fmax(worst, fabs(light_along(&plain, &at, v) - light_along(&moved, &at, w)));
         }
         CHECK(t, worst < 1e-9, "light %d: its space is off by %g", i, worst);
-        if (moved.lights.n_infinite > 0)
+        if (moved.lights.n_layers > 0)
             check_sky(t, &moved, &r);
         scene_free(&plain);
         scene_free(&moved);
@@ -116,13 +118,14 @@ static void test_damaged_map(struct test *t)
     CHECK(t, scene.lights.choice.n == scene.lights.n_cells, "there is no table of choices");
     check_sky(t, &scene, &r);
     for (int i = 0; i < 500; i++) {
-        rgb L = light_Le_environment(&scene.lights, on_sphere(&r), true);
+        rgb L = light_Le_sky(&scene.lights, on_sphere(&r), true);
         CHECK(t, L.r >= 0 && L.g >= 0 && L.b >= 0 && rgb_is_finite(L), "light of (%g %g %g)", L.r, L.g, L.b);
     }
     for (int i = 0; i < 5; i++) { /* a direction that is none stays in the tables */
         vec3 w = vec(none[i], none[(i + 1) % 5], none[i]);
-        rgb L = light_Le_environment(&scene.lights, w, true);
-        CHECK(t, rgb_is_finite(L) && !(light_pdf_environment(&scene.lights, w) < 0), "direction %d", i);
+        rgb L = light_Le_sky(&scene.lights, w, true);
+        int cell;
+        CHECK(t, rgb_is_finite(L) && !(light_pdf_sky(&scene.lights, w, &cell) < 0), "direction %d", i);
     }
     scene_free(&scene);
 }
@@ -158,7 +161,8 @@ static vec3 made_of(const struct scene *s, int cell, const struct light_point *y
     const struct light_set *lights = &s->lights;
     struct light_point at;
     if (y0 == NULL) {
-        light_sample_cell(lights, &s->geo, cell, u1, u2, &at);
+        const double in_cell[3] = {0.5, u1, u2};
+        light_sample_cell(lights, &s->geo, cell, in_cell, &at);
         *pdf = at.pdf_cell;
         return lights->light[at.light].kind == LIGHT_INFINITE ? at.w : at.p;
     }
@@ -186,7 +190,47 @@ static void check_area(struct test *t, const struct scene *s, struct rng *r, int
         right += error < 1e-4;
     }
     CHECK(t, right >= 0.9 * TRIED, "light %d, %s: %d of %d densities are wrong, by %g at most",
-          s->lights.light_of_cell[cell], y0 != NULL ? "what it sends" : "its points", TRIED - right, TRIED, worst);
+          s->lights.cell[cell].light, y0 != NULL ? "what it sends" : "its points", TRIED - right, TRIED, worst);
+}
+
+/* Light i of a scene: its choice counts, who meets it finds the same densities, and draws have them. The scene's sky is
+ * 1 everywhere, or has a map. */
+static void check_light(struct test *t, const struct scene *s, struct rng *r, int i, bool map)
+{
+    const struct light *l = &s->lights.light[i];
+    int cells = l->kind == LIGHT_INFINITE ? s->lights.n_cells - l->cell : 1, found;
+    int cell = l->cell + (int)rng_below(r, (uint32_t)cells);
+    const double in_cell[3] = {0.2, 0.3, 0.6}, u[2] = {0.3, 0.7};
+    struct light_point at;
+    struct ray ray;
+    double pdf;
+    if (!CHECK(t, light_sample_cell(&s->lights, &s->geo, cell, in_cell, &at) && at.light == i && at.cell == cell,
+               "light %d: no point", i))
+        return;
+    double pmf = alias_pmf(&s->lights.choice, cell);
+    CHECK(t, fabs(at.pdf / (at.pdf_cell * pmf) - 1) < 1e-12, "light %d: its choice does not count", i);
+    if (l->kind == LIGHT_INFINITE) {
+        pdf = light_pdf_sky(&s->lights, at.w, &found);
+        CHECK(t, fabs(pdf / at.pdf - 1) < 1e-9 && found == cell, "light %d: density %g, not %g", i, pdf, at.pdf);
+    }
+    if (l->kind == LIGHT_AREA) {
+        struct surface on;
+        CHECK(t, shape_sample(&s->geo, l->prim, 0.3, 0.6, &on, &pdf), "light %d: no point", i);
+        on.light = i;
+        pdf = light_pdf_surface(&s->lights, &s->geo, &on);
+        CHECK(t, fabs(pdf / at.pdf - 1) < 1e-9, "light %d: density %g, not %g", i, pdf, at.pdf);
+    }
+    if (l->kind == LIGHT_AREA || (l->kind == LIGHT_INFINITE && !map)) {
+        double sent = light_Le(&s->lights, &at, l->kind == LIGHT_AREA ? at.n : neg(at.w)).r;
+        CHECK(t, sent == 1, "light %d sends %g, not 1", i, sent);
+    }
+    double emitted = light_sample_emission(&s->lights, &at, u, &ray, &pdf).r;
+    double full = light_Le(&s->lights, &at, ray.d).r * (l->kind == LIGHT_AREA ? abs_dot(at.n, ray.d) : 1);
+    CHECK(t, fabs(emitted - full) <= 1e-12 * full, "light %d emits %g, not %g", i, emitted, full);
+    bool one_texel = l->kind == LIGHT_INFINITE && s->lights.n_layers == 1;
+    if (one_texel || l->kind == LIGHT_AREA)
+        check_area(t, s, r, cell, NULL);
+    check_area(t, s, r, cell, &at);
 }
 
 static void test_densities(struct test *t)
@@ -196,8 +240,11 @@ static void test_densities(struct test *t)
         "WorldBegin Rotate 50 1 2 3 AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] Shape \"trianglemesh\"\n"
         "\"integer indices\" [0 1 2] \"point P\" [0 0 1  2 0 1  0 3 1] Shape \"sphere\" AreaLightSource \"diffuse\"\n"
         "\"bool twosided\" \"true\" Shape \"disk\" LightSource \"point\" LightSource \"spot\" LightSource \"distant\"\n"
-        "LightSource \"infinite\" Scale 1 2 3 Rotate 40 3 1 2 LightSource \"spot\"\n"
-        "LightSource \"infinite\" \"string mapname\" \"%s\" WorldEnd\n";
+        "Scale 1 2 3 Rotate 40 3 1 2 LightSource \"spot\" %s WorldEnd\n";
+    static const char *const SKIES[] = {"LightSource \"infinite\"",
+                                        "LightSource \"infinite\" \"string mapname\" \"densities.pfm\"",
+                                        "LightSource \"infinite\" \"string mapname\" \"densities.pfm\"\n"
+                                        "LightSource \"infinite\""};
     static float pixels[W * H * 3];
     char path[256];
     struct error err = {.text = ""};
@@ -207,44 +254,17 @@ static void test_densities(struct test *t)
         pixels[i] = (float)(i % 7 == 0 ? 0 : 1 + (i / 3) % 5);
     pixels[3 * (2 * W + 3)] = 50;
     snprintf(path, sizeof path, "%s/densities.pfm", test_tmp(t));
-    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text) ||
-        !scene_from_format(t, &s, WORLD, path))
+    if (!CHECK(t, image_write(path, W, H, pixels, &err), "%s", err.text))
         return;
-    CHECK(t, s.lights.n == 9, "%d lights", s.lights.n);
-    for (int i = 0; i < s.lights.n; i++) {
-        const struct light *l = &s.lights.light[i];
-        int cell = l->first_cell + (int)rng_below(&r, (uint32_t)l->n_cells), found = -1;
-        struct light_point at;
-        if (!CHECK(t, light_sample_cell(&s.lights, &s.geo, cell, 0.3, 0.6, &at), "light %d: no point", i))
-            continue;
-        double pmf = alias_pmf(&s.lights.choice, cell);
-        CHECK(t, fabs(at.pdf / (at.pdf_cell * pmf) - 1) < 1e-12, "light %d: its choice does not count", i);
-        if (l->kind == LIGHT_INFINITE) {
-            double pdf = light_pdf_towards(&s.lights, i, at.w, &found);
-            CHECK(t, fabs(pdf / at.pdf - 1) < 1e-9 && found == cell, "light %d: density %g, not %g", i, pdf, at.pdf);
-        }
-        if (l->kind == LIGHT_AREA) {
-            struct surface on;
-            double pdf;
-            CHECK(t, shape_sample(&s.geo, l->prim, 0.3, 0.6, &on, &pdf), "light %d: no point", i);
-            on.light = i;
-            pdf = light_pdf_surface(&s.lights, &s.geo, &on);
-            CHECK(t, fabs(pdf / at.pdf - 1) < 1e-9, "light %d: density %g, not %g", i, pdf, at.pdf);
-        }
-        if (l->kind == LIGHT_AREA || (l->kind == LIGHT_INFINITE && l->frame->env == NULL)) {
-            double sent = light_Le(&s.lights, &at, l->kind == LIGHT_AREA ? at.n : neg(at.w)).r;
-            CHECK(t, sent == 1, "light %d sends %g, not 1", i, sent);
-        }
-        struct ray ray;
-        const double u[2] = {0.3, 0.7};
-        double density, emitted = light_sample_emission(&s.lights, &at, u, &ray, &density).r;
-        double full = light_Le(&s.lights, &at, ray.d).r * (l->kind == LIGHT_AREA ? abs_dot(at.n, ray.d) : 1);
-        CHECK(t, fabs(emitted - full) <= 1e-12 * full, "light %d emits %g, not %g", i, emitted, full);
-        if (l->kind == LIGHT_INFINITE || l->kind == LIGHT_AREA)
-            check_area(t, &s, &r, cell, NULL);
-        check_area(t, &s, &r, cell, &at);
+    for (int sky = 0; sky < 3; sky++) {
+        if (!scene_from_format(t, &s, WORLD, SKIES[sky]))
+            return;
+        CHECK(t, s.lights.n == 8 && s.lights.n_layers == 1 + sky / 2, "%d lights, %d layers", s.lights.n,
+              s.lights.n_layers);
+        for (int i = 0; i < s.lights.n; i++)
+            check_light(t, &s, &r, i, sky > 0);
+        scene_free(&s);
     }
-    scene_free(&s);
 }
 
 void test_light_sent(struct test *t)

@@ -267,27 +267,6 @@ static void test_unseen(struct test *t)
                 "Translate 0 0 1 " HALF "WorldEnd", once);
 }
 
-/* --- what many lights cost ---------------------------------------------------------------------------- */
-
-/* Who asks for the light of a direction asks the skies of the list, and no others. */
-static void test_skies(struct test *t)
-{
-    struct scene scene;
-    if (!scene_from_text(t, "WorldBegin LightSource \"infinite\" LightSource \"infinite\" LightSource \"point\"\n"
-                         "LightSource \"point\" Shape \"sphere\" WorldEnd", &scene))
-        return;
-    struct light_set one = scene.lights;
-    const vec3 up = vec(0, 1, 0);
-    one.n_infinite = 1;
-    double light = rgb_luminance(light_Le_environment(&scene.lights, up, false)),
-           density = light_pdf_environment(&scene.lights, up);
-    CHECK(t, scene.lights.n_infinite == 2 && scene.lights.n == 4 && light > 0 && density > 0, "two skies, two lights");
-    CHECK(t, fabs(rgb_luminance(light_Le_environment(&one, up, false)) - light / 2) < 1e-9 * light,
-          "the radiance of one sky of two is not half");
-    CHECK(t, fabs(light_pdf_environment(&one, up) - density / 2) < 1e-9 * density, "the density of one is not half");
-    scene_free(&scene);
-}
-
 void test_lights(struct test *t)
 {
     static const char *const WAYS[] = {"pt", "lt", "bdpt", "asbdpt select=subspaces"};
@@ -297,5 +276,4 @@ void test_lights(struct test *t)
         test_alone(t, WAYS[i]);
     test_alpha(t);
     test_unseen(t);
-    test_skies(t);
 }

@@ -328,7 +328,7 @@ enum { WALKS = 20000 };
 static void check_walks(struct test *t, const char *material)
 {
     struct scene scene;
-    struct mis_counts counts = {.hit = {1, 1}};
+    struct counts counts = {.hit = {1, 1}, .tables = &NO_TABLES};
     struct arena arena = {0}, kept = {0};
     struct vertex path[3], first[3];
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 50, 0);

@@ -146,11 +146,11 @@ static void test_coplanar(struct test *t)
 }
 
 /* Within a medium a region is one for all directions, and no surface's. */
-static void test_regions(struct test *t)
+static void test_regions_within(struct test *t)
 {
     struct regions r;
     struct vertex v = {.kind = VERTEX_MEDIUM, .p = {0.5, 0.5, 0.5}, .wo = {0, 0, 1}};
-    regions_init(&r, vec(0, 0, 0), vec(1, 1, 1), 4, 2, 100);
+    regions_init(&r, vec(0, 0, 0), vec(1, 1, 1), 4, 100);
     v.bsdf.transmits = true;
     uint64_t key = regions_key(&r, v.p, vertex_side(&v));
     v.wo = vec(-1, 0, 0);
@@ -190,8 +190,8 @@ static void test_close(struct test *t)
 
 void test_medium(struct test *t)
 {
+    test_regions_within(t);
     test_close(t);
-    test_regions(t);
     test_furnace(t);
     test_once(t);
     test_sky(t);

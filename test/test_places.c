@@ -128,9 +128,9 @@ static int check_lights(struct test *t, uint64_t scene, const struct scene *s, d
     for (int i = 0; i < 1000 && area < s->lights.n; i++) {
         const struct light *l = &s->lights.light[rng_below(r, (uint32_t)s->lights.n)];
         struct light_point y;
-        double u1 = rng_uniform(r), u2 = rng_uniform(r);
+        const double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
         vec3 z = in_ball(r, 4 * unit);
-        if (l->kind != LIGHT_AREA || !light_sample_cell(&s->lights, &s->geo, l->first_cell, u1, u2, &y))
+        if (l->kind != LIGHT_AREA || !light_sample_cell(&s->lights, &s->geo, l->cell, u, &y))
             continue;
         vec3 w = normalize(sub(z, y.p));
         if (rgb_is_black(light_Le(&s->lights, &y, w)) || fabs(dot(w, y.n)) < 1e-3)

@@ -115,9 +115,10 @@ static struct moments sum_moments(const struct batches *b, long from, long to)
     return m;
 }
 
+/* Exact values, but for rounding; it also bends planes of two triangles, which send each other some light. */
 static double welch(struct moments a, struct moments b)
 {
-    double close = 1e-9 * (fabs(a.mean) + fabs(b.mean)); /* exact values, but for rounding */
+    double close = 1e-9 * (fabs(a.mean) + fabs(b.mean)) + 1e-15;
     if (a.variance + b.variance <= close * close)
         return fabs(a.mean - b.mean) <= close ? 1 : 0;
     return stats_welch_p(a.mean, a.variance, a.n, b.mean, b.variance, b.n);

@@ -20,6 +20,7 @@ static struct vertex as_eye_vertex(const struct vertex *x, const struct vertex *
     v.wo = neg(normalize(d));
     v.kind = VERTEX_SURFACE;
     v.prev_delta = false;
+    v.back = vertex_cosine(z, v.wo) / length2(d);
     v.pdf_fwd = pdf * abs_dot(x->ng, v.wo) / length2(d);
     v.pdf_origin = x->kind == VERTEX_LIGHT ? x->pdf_fwd : 0;
     v.beta = rgb_grey(1);
@@ -28,7 +29,7 @@ static struct vertex as_eye_vertex(const struct vertex *x, const struct vertex *
 
 /* The strategies s, s - 1 ... 0 of the path of s light vertices and two eye vertices, all one after the other weighed
  * by ris: each takes the last light vertex of the one before for an eye vertex. Returns the sum. */
-static double sum_weights(struct ris *r, const struct vertex *light, int s, struct vertex *eye)
+static double sum_weights(struct index *r, const struct vertex *light, int s, struct vertex *eye)
 {
     double sum = 0;
     for (int t = 2; s >= 0; s--, t++) {
@@ -38,11 +39,9 @@ static double sum_weights(struct ris *r, const struct vertex *light, int s, stru
             struct joint j;
             if (!connect_join(&light[s - 1], z, &j))
                 return NAN;
-            r->own = r->all = ris_worth(r, &light[s - 1], z);
+            r->one = r->all = ris_worth(r, &light[s - 1], z);
             c = ris_joint(r, &j);
             eye[t] = as_eye_vertex(&light[s - 1], z, j.pdf_z);
-            z->pdf_rev = j.pdf_rev_z;
-            eye[t].pdf_rev = 0;
         } else if (s == 1) {
             struct light_point at = vertex_light_point(light);
             struct lit l;
@@ -51,7 +50,6 @@ static double sum_weights(struct ris *r, const struct vertex *light, int s, stru
                 return NAN;
             c = ris_lit(r, &l);
             eye[t] = as_eye_vertex(light, z, l.pdf_z);
-            z->pdf_rev = l.pdf_rev_z;
         } else {
             c = ris_hit(r, &eye[t - 2], z, t);
         }
@@ -62,11 +60,11 @@ static double sum_weights(struct ris *r, const struct vertex *light, int s, stru
 
 /* What an eye vertex draws from: probabilities sum to 1, and evenly spread numbers draw by them, each part of the
  * mixture being off by less than one number. */
-static void check_mixture(struct test *t, const struct ris *r, const struct vertex *z)
+static void check_mixture(struct test *t, const struct index *r, const struct vertex *z)
 {
     enum { NUMBERS = 5000, MOST = 4000 };
     static int drawn[MOST];
-    int V = r->found.n, which, parts = RECORDS_NEAR + 1;
+    int V = r->V, which, parts = RECORDS_NEAR + 1;
     double sum = 0, worst = 0;
     if (!CHECK(t, V > 0 && V <= MOST, "%d light vertices", V))
         return;
@@ -83,38 +81,37 @@ static void check_mixture(struct test *t, const struct ris *r, const struct vert
 }
 
 /* Given the pool, the mean of what an eye vertex z_1 draws is the sum over all it could draw, over K. */
-static void check_draws(struct test *t, struct ris *r, const struct method *method, struct pixel_sample sample,
-                        const struct vertex *eye)
+static void check_draws(struct test *t, struct index *r, const char *method, struct sample sample,
+                        const struct vertex *z)
 {
     enum { BATCHES = 32, DRAWS = 300 };
     struct batches drawn = batches_new(BATCHES, 1, false);
-    struct pooled_pixel p = {.sample = sample, .eye = eye, .n = 2};
     double expected = 0;
-    p.draws = sampler_start(test_seed(t), RNG_TEST, (uint64_t)sample.x, (uint64_t)sample.y);
-    p.sample.filter_weight = 1;
-    for (int v = 0; v < r->found.n; v++) {
-        const struct candidate *c = &r->found.item[v];
+    sample.choice = sampler_start(test_seed(t), RNG_TEST, (uint64_t)sample.x, (uint64_t)sample.y);
+    sample.filter_weight = 1;
+    for (int v = 0; v < r->V; v++) {
+        const struct vertex *y = candidate_vertex(&r->found[v]);
         struct joint j;
-        r->own = r->all = ris_worth(r, c->y, &eye[1]);
-        if (c->s + 2 > sample.max_depth + 2 || !connect_join(c->y, &eye[1], &j))
+        r->one = r->all = ris_worth(r, y, z);
+        if (r->found[v].drawn.end + 2 > sample.pass->job->max_depth + 2 || !connect_join(y, z, &j))
             continue;
         struct connection k = ris_joint(r, &j);
         expected += rgb_is_black(k.value) ? 0 : rgb_luminance(k.value) * k.weight * (r->u != NULL ? r->u[v] : 1) / r->K;
     }
     for (int b = 0; b < BATCHES; b++) {
-        p.sample.value = rgb_black();
+        sample.value = rgb_black();
         for (int i = 0; i < DRAWS * test_effort(t); i++)
-            method->draw(r, r->state, &p, &eye[1], 2);
-        drawn.value[b] = rgb_luminance(p.sample.value) / (DRAWS * test_effort(t));
+            ris_join(r, &sample, z, 2);
+        drawn.value[b] = rgb_luminance(sample.value) / (DRAWS * test_effort(t));
     }
     if (expected > 0)
-        TEST_ACCEPT(t, mean_p(&drawn, expected), "%s, pixel (%d,%d): %g drawn, %g expected", method->name, sample.x,
+        TEST_ACCEPT(t, mean_p(&drawn, expected), "%s, pixel (%d,%d): %g drawn, %g expected", method, sample.x,
                     sample.y, batches_mean(&drawn, NULL), expected);
     batches_free(&drawn);
 }
 
 /* Q of a record is what records of another iteration have met, not those of its own. */
-static void check_expected(struct test *t, const struct ris *r)
+static void check_expected(struct test *t, const struct index *r)
 {
     int same = 0;
     for (int i = 0; i < r->records.n; i++) {
@@ -135,31 +132,32 @@ static void test_weights(struct test *t, const char *path, const char *method)
     struct bench b;
     if (!scene_from_file(t, path, SIDE, SIDE, &scene) || !bench_new(t, &scene, set_method(&scene, method), 5, 0, &b))
         return;
-    struct ris *r = b.work->scratch;
     struct tile_pass pass = bench_pass(&b, 3, 4);
-    b.prepared.method->render(&b.prepared, &pass);
-    check_expected(t, r);
+    struct prepared counted = ris_counted(&b.prepared);
+    struct index r = {.scene = NULL};
+    ris_begin(&r, &counted, &pass, 3);
+    check_expected(t, &r);
     double worst = 0, weight[16];
     int n = 0;
-    for (int k = 0; k < r->K; k++)
-        for (int s = 2, x, y; s <= r->pool.length[k] && pass_pixel(&pass, k, &x, &y); s++) {
-            const struct vertex *light = light_pool_path(&r->pool, k);
+    for (int k = 0; k < r.K; k++)
+        for (int s = 2, x, y; s <= r.pool->length[k] && pass_pixel(&pass, k, &x, &y); s++) {
+            const struct vertex *light = pool_path(r.pool, k);
             if (light[s - 1].prev_delta)
                 break;
-            struct pixel_sample sample = pixel_sample_begin(&pass, r->counts, x, y, 3);
+            struct sample sample = sample_begin(&pass, r.counts, 1, x, y, 3);
             struct vertex eye[16];
-            if (pixel_eye_path(&pass, &sample, eye, 2) < 2 ||
-                !oracle_weights(&scene, r->counts, light, s, eye, 2, weight))
+            if (sample_eye_path(&sample, eye, 2) < 2 || !oracle_weights(&scene, r.counts, light, s, eye, 2, weight))
                 continue;
             if (s == 2)
-                check_mixture(t, r, &eye[1]);
+                check_mixture(t, &r, &eye[1]);
             if (s == 2 && k % 20 == 0)
-                check_draws(t, r, b.prepared.method, sample, eye);
-            double sum = sum_weights(r, light, s, eye) + weight[s + 1];
+                check_draws(t, &r, method, sample, &eye[1]);
+            double sum = sum_weights(&r, light, s, eye) + weight[s + 1];
             worst = sum == sum ? fmax(worst, fabs(sum - 1)) : worst; /* NaN: they do not see each other */
             n += sum == sum;
         }
     CHECK(t, n > 20 && worst < 1e-6, "%s: weights of %d paths sum to 1 but for %g", method, n, worst);
+    ris_end(&r);
     bench_free(&b);
     scene_free(&scene);
 }

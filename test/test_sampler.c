@@ -190,6 +190,16 @@ static void lens_inverse(const struct camera *c, vec3 p, double u[2])
     disk_inverse(at.x / c->lens_radius, at.y / c->lens_radius, u);
 }
 
+/* Of the straight line from p to a raster point: it goes through the point that is in focus there. */
+static void lens_inverse_through(const struct camera *c, vec3 p, double px, double py, double u[2])
+{
+    struct ray middle = camera_ray(c, px, py, 0.5, 0.5);
+    vec3 from = transform_point(&c->world_to_camera, p), d = transform_vector(&c->world_to_camera, middle.d);
+    vec3 focus = mul(d, c->focal_distance / d.z), w = sub(focus, from);
+    vec3 at = add(from, mul(w, -from.z / w.z));
+    disk_inverse(at.x / c->lens_radius, at.y / c->lens_radius, u);
+}
+
 /* How the surfaces of a sub-path were left. */
 static void note_bounces(struct usage *all, const char *what, const struct trace_path *path, int sample)
 {
@@ -230,9 +240,10 @@ static void note_connections(struct usage *all, const struct trace *trace, int s
         if (k >= SAMPLER_TIMES || rgb_is_black(c->c.value))
             continue;
         if (c->s == 1)
-            lamp_inverse(c->c.end, place(all, "light point of try", k, sample));
+            lamp_inverse(c->end, place(all, "light point of try", k, sample));
         else if (c->t == 1)
-            lens_inverse(&all->scene->camera, c->c.end, place(all, "lens point of try", k, sample));
+            lens_inverse_through(&all->scene->camera, trace->light[c->light].vertex[c->s - 1].p, c->c.px, c->c.py,
+                                 place(all, "lens point of try", k, sample));
     }
 }
 

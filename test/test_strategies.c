@@ -12,6 +12,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "caustics/derived.h"
 #include "lab/stats.h"
 #include "lab/strategies.h"
 #include "render/render.h"
@@ -82,27 +83,16 @@ enum { VERTICES = DEPTH + 2, BRIDGE_BATCHES = 64, BRIDGE_SPP = 64 };
 
 struct bridges {
     const struct scene *scene;
-    const struct mis_counts *counts;
+    const struct counts *counts;
+    double off; /* the largest error of a path's length, relative */
     double made[VERTICES + 1][VERTICES][VERTICES]; /* by the vertices of the path, by i, of f w_i w_j */
 };
 
-/* y_0 of a path by s = 1, on a lamp of triangles. */
-static void light_end(const struct bridges *b, const struct joined *j, struct vertex *out)
-{
-    float v[9];
-    struct light_point at = {.light = j->c->light, .cell = j->c->cell, .p = j->c->end, .pdf = j->c->pdf};
-    shape_vertices(&b->scene->geo, b->scene->lights.light[at.light].prim, v);
-    vec3 edge[2] = {vec((double)(v[3] - v[0]), (double)(v[4] - v[1]), (double)(v[5] - v[2])),
-                    vec((double)(v[6] - v[0]), (double)(v[7] - v[1]), (double)(v[8] - v[2]))};
-    at.n = faceforward(normalize(cross(edge[0], edge[1])), sub(j->z->p, at.p));
-    at.pdf_cell = at.pdf;
-    vertex_light_end(b->scene, b->counts, &at, out);
-}
-
-static void bridge(void *context, const struct pixel_sample *sample, const struct joined *j)
+static void bridge(void *context, const struct sample *sample, const struct joined *j)
 {
     struct bridges *b = context;
-    struct vertex lens = {.kind = VERTEX_LENS, .p = j->c->end, .medium = b->scene->camera.medium}, y0;
+    const struct camera *camera = &b->scene->camera;
+    struct vertex lens = {.kind = VERTEX_LENS, .medium = camera->medium}, y0;
     double w[VERTICES + 1], brought = rgb_luminance(j->c->value) * j->scale;
     (void)sample;
     bool outside = j->t == 1 && !(j->c->px >= 0 && j->c->px < b->scene->width && j->c->py >= 0 &&
@@ -110,9 +100,13 @@ static void bridge(void *context, const struct pixel_sample *sample, const struc
     if (j->s + j->t < 3 || !(brought > 0) || outside)
         return;
     if (j->s == 1)
-        light_end(b, j, &y0);
-    const struct vertex *light = j->s == 0 ? NULL : j->s == 1 ? &y0 : j->y + 1 - j->s;
+        vertex_light_end(b->scene, b->counts, j->y0, &y0);
+    if (j->t == 1) /* pinholes */
+        lens.p = camera_sample_lens(camera, j->light[j->s - 1].p, 0.5, 0.5);
+    const struct vertex *light = j->s == 0 ? NULL : j->s == 1 ? &y0 : j->light;
     const struct vertex *eye = j->t == 1 ? &lens : j->z + 1 - j->t;
+    double wanted = oracle_length(b->scene, light, j->s, eye, j->t);
+    b->off = fmax(b->off, fabs(path_length(b->scene, j) / wanted - 1));
     if (oracle_weights(b->scene, b->counts, light, j->s, eye, j->t, w))
         for (int i = 0; i < j->s + j->t; i++)
             b->made[j->s + j->t][j->s][i] += brought * w[j->s] * w[i];
@@ -170,7 +164,7 @@ static void test_bridges(struct test *t, const char *name, const char *text, uin
 {
     struct scene scene;
     static struct bridges made[BRIDGE_BATCHES];
-    const struct mis_counts counts = {{1, 1}, {1, 1}, {1, 1}, .splat = 144};
+    const struct counts counts = {{1, 1}, {1, 1}, {1, 1}, .lens = 144, .tables = &NO_TABLES};
     if (!scene_from_text(t, text, &scene))
         return;
     scene.filter = filter_of("box");
@@ -185,6 +179,7 @@ static void test_bridges(struct test *t, const char *name, const char *text, uin
         made[k].counts = &counts;
         render_film(t, &scene, &o, &film);
         film_free(&film);
+        CHECK(t, made[k].off < 1e-9, "%s: the length of a path is off by %g", name, made[k].off);
     }
     struct made_more of_kind[KINDS] = {{{0}, {0}}};
     for (int n = 3; n <= VERTICES; n++)

@@ -125,7 +125,7 @@ static void add_place(struct keys *k, double x, double y)
 
 /* One key per sub-path: red and green relative to blue of what it brings by the strategy that joins it to the lens
  * (light) or the lamp (eye), whatever point of these. */
-static void joined(void *context, const struct pixel_sample *sample, const struct joined *p)
+static void joined(void *context, const struct sample *sample, const struct joined *p)
 {
     struct keys *const *light_or_eye = context;
     rgb c = p->c->value;
@@ -154,7 +154,7 @@ static void trace_all(struct test *t, const struct scene *scene, const char *int
 }
 
 /* Where a walk from a pixel's lens by these numbers first hits; the sampler itself stays as it is. */
-static vec3 first_hit(const struct tile_pass *pass, const struct mis_counts *counts, struct sampler sampler)
+static vec3 first_hit(const struct tile_pass *pass, const struct counts *counts, struct sampler sampler)
 {
     struct vertex path[3];
     double weight;
@@ -163,22 +163,37 @@ static vec3 first_hit(const struct tile_pass *pass, const struct mis_counts *cou
     return n > 1 ? path[1].p : vec(0, 0, 0);
 }
 
-/* A sample's end points have numbers of their own: an eye sub-path by these is another than the sample's. */
+/* The same of a walk from a light. */
+static vec3 first_lit(const struct tile_pass *pass, const struct counts *counts, struct sampler sampler)
+{
+    struct vertex path[3];
+    struct walk w = {pass->job->scene, counts, &pass->work->arena, &sampler, 0};
+    int n = path_light(&w, path, 3);
+    return n > 1 ? path[1].p : vec(0, 0, 0);
+}
+
+/* A sample's light sub-path and end points have numbers of their own: by these, sub-paths are others than the
+ * sample's. */
 static void test_end_points(struct test *t)
 {
     struct scene scene;
     struct bench b;
     if (!scene_from_text(t, FLOOR, &scene) || !bench_new(t, &scene, "bdpt", 2, 0, &b))
         return;
-    const struct mis_counts *counts = &bench_frozen(&b)->counts;
+    const struct counts *counts = &b.prepared.counts;
     struct tile_pass pass = bench_pass(&b, 0, 1);
-    struct pixel_sample sample = pixel_sample_begin(&pass, counts, 1, 1, 0);
+    struct sample sample = sample_begin(&pass, counts, 1, 1, 1, 0);
     struct vertex path[3];
-    int n = pixel_eye_path(&pass, &sample, path, 3);
-    CHECK(t, n > 1 && near3(first_hit(&pass, counts, pixel_sampler(&pass, RNG_EYE, 1, 1, 0)), path[1].p, 0),
+    int n = sample_eye_path(&sample, path, 3);
+    CHECK(t, n > 1 && near3(first_hit(&pass, counts, sample_stream(&pass, RNG_EYE, 1, 1, 0)), path[1].p, 0),
           "an eye sub-path by its own numbers is another");
     CHECK(t, n > 1 && !near3(first_hit(&pass, counts, sample.sampler), path[1].p, 1e-6),
           "end points take the numbers of the eye sub-path");
+    n = sample_light_path(&pass, counts, 1, 1, 0, &pass.work->arena, path);
+    CHECK(t, n > 1 && near3(first_lit(&pass, counts, sample_stream(&pass, RNG_LIGHT, 1, 1, 0)), path[1].p, 0),
+          "a light sub-path by its own numbers is another");
+    CHECK(t, n > 1 && !near3(first_lit(&pass, counts, sample_stream(&pass, RNG_EYE, 1, 1, 0)), path[1].p, 1e-6),
+          "light sub-paths take the numbers of eye sub-paths");
     bench_free(&b);
     scene_free(&scene);
 }

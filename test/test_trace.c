@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "integrators/prepare.h"
 #include "lab/trace.h"
 #include "helpers.h"
 #include "tests.h"
@@ -72,6 +73,7 @@ static void check_parts(struct test *t, const char *name, const struct trace *tr
                      (k->s < 2 || trace->light[k->light].n >= k->s), "%s: light sub-path %d", name, k->light);
         CHECK(t, k->pmf > 0 && ((pair && trace->why != NULL) || k->pmf == 1) && k->pmf <= 1,
               "%s: chosen with probability %g", name, k->pmf);
+        CHECK(t, k->s + k->t <= DEPTH + 2, "%s: a path of %d vertices is too long", name, k->s + k->t);
         *first = *first == 0 && weighted ? draw : *first;
         CHECK(t, !weighted || fabs(draw - *first) <= 1e-12 * *first, "%s: probability %g, scale %g, of others %g times",
               name, k->pmf, k->scale, *first / draw);
@@ -112,7 +114,7 @@ static void check_film(struct test *t, const struct scene *scene, int way)
     film_init(&told, render_crop(scene), SIZE, SIZE);
     render_film(t, scene, &options, &rendered);
     struct render_job job = {.scene = NULL};
-    struct preparation prepared;
+    struct prepared prepared;
     if (!CHECK(t, render_prepare(scene, &options, render_crop(scene), &job, &prepared, &err), "%s", err.text))
         return;
     for (int i = 0; i < ALL; i++) {

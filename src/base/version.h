@@ -7,6 +7,6 @@
 #define ASBDPT_VERSION_H
 
 #define VERSION "asbdpt 0.1"
-#define ESTIMATOR 12
+#define ESTIMATOR 13
 
 #endif

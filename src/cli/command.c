@@ -70,7 +70,10 @@ static void print_integrators(void)
             printf("  -P select=%s\n", (*m)->select);
         printf("    ");
         print_wrapped((*m)->help, 4, 4);
-        print_parameters(method_parameters(*m));
+        if ((*m)->parameters != NULL)
+            print_parameters((*m)->parameters);
+        if ((*m)->own != NULL)
+            print_parameters((*m)->own);
     }
 }
 

@@ -192,7 +192,10 @@ static void put_parameters(struct json *j, const struct scene *scene, const stru
     json_text(j, "lightsamplestrategy", job.spatial_lights ? "spatial" : "power");
     if (m->select != NULL)
         json_text(j, "select", m->select);
-    put_table(j, scene, method_parameters(m));
+    if (m->parameters != NULL)
+        put_table(j, scene, m->parameters);
+    if (m->own != NULL)
+        put_table(j, scene, m->own);
     json_close(j);
 }
 

@@ -4,75 +4,36 @@
 #include <stdlib.h>
 #include <string.h>
 
-const struct field *method_parameters(const struct method *m)
-{
-    static const struct field NONE = {.name = NULL};
-    return m->parameters != NULL ? m->parameters : &NONE;
-}
+const char *const OFF_ON[] = {"off", "on", NULL};
 
 const struct field *method_has(const struct method *m, const char *name)
 {
     static const struct field select = {"select", FIELD_WORD, 0, 0, 0, 0, "", NULL};
-    return m->select != NULL && strcmp(name, select.name) == 0 ? &select : field_find(method_parameters(m), name);
+    const struct field *f = m->parameters != NULL ? field_find(m->parameters, name) : NULL;
+    if (f == NULL && m->own != NULL)
+        f = field_find(m->own, name);
+    return m->select != NULL && strcmp(name, select.name) == 0 ? &select : f;
 }
 
-static bool read(const struct method *m, const struct scene *scene, void *state, struct error *err)
+bool method_read(const struct method *m, const struct scene *scene, struct prepared *p, struct error *err)
 {
-    return settings_fields(&scene->settings, method_parameters(m), state, err) &&
-           (m->check == NULL || m->check(state, scene, err));
+    const struct settings *s = &scene->settings;
+    *p = (struct prepared){.method = m, .parameters = {.numbers = m->numbers, .emission = 1, .delta = 1, .spread = 1,
+                                                       .tile = DEFAULT_TILE_SIZE}};
+    p->own = m->own_size > 0 ? mem_alloc(1, m->own_size) : NULL;
+    bool ok = (m->parameters == NULL || settings_fields(s, m->parameters, &p->parameters, err)) &&
+              (m->own == NULL || settings_fields(s, m->own, p->own, err)) &&
+              (m->check == NULL || m->check(p, scene, err));
+    if (!ok)
+        free(p->own);
+    return ok;
 }
 
 bool method_check(const struct method *m, const struct scene *scene, struct error *err)
 {
-    void *state = mem_alloc(1, m->state_size);
-    bool ok = read(m, scene, state, err);
-    free(state);
+    struct prepared p;
+    bool ok = method_read(m, scene, &p, err);
+    if (ok)
+        free(p.own);
     return ok;
-}
-
-bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err)
-{
-    struct preparation standard = {.method = m, .state = mem_alloc(1, m->state_size),
-                                   .size = {0, DEFAULT_TILE_SIZE, 1}};
-    struct frozen *f = standard.state;
-    *out = standard;
-    f->max_depth = job->max_depth;
-    f->numbers = m->numbers;
-    if (!read(m, job->scene, out->state, err)) {
-        free(out->state);
-        return false;
-    }
-    frozen_count(job, f, NO_CREDITS);
-    if (f->services.tile > 0) {
-        out->size.tile = f->services.tile;
-        out->size.spread = f->services.spread;
-    }
-    if (m->prepare != NULL)
-        m->prepare(job, out);
-    return true;
-}
-
-void method_release(struct preparation *p)
-{
-    if (p->method->release != NULL)
-        p->method->release(p->state);
-    tables_free(&((struct frozen *)p->state)->tables);
-    free(p->state);
-}
-
-void *method_scratch(const struct preparation *p)
-{
-    if (p->method->scratch_size == 0)
-        return NULL;
-    void *scratch = mem_alloc(1, p->method->scratch_size);
-    if (p->method->scratch_init != NULL)
-        p->method->scratch_init(scratch, p->state);
-    return scratch;
-}
-
-void method_scratch_free(const struct preparation *p, void *scratch)
-{
-    if (scratch != NULL && p->method->scratch_free != NULL)
-        p->method->scratch_free(scratch);
-    free(scratch);
 }

@@ -1,108 +1,125 @@
-/* method.h: a method is one file and one row.
+/* method.h: a method is one file and one row. Methods differ in how many samples they take of each kind, and in how they
+ * choose light vertices for an eye vertex.
  *
- * A row describes a method completely; the table of all rows is render/methods.h. A render reads the method's
- * parameters and lets it prepare its state once. Then it lets the method render tile passes (tile_pass.h) on all
- * threads, each with its own scratch memory. If the pixels of a tile share light sub-paths, `render` is pooled_render,
- * and the method only defines what it draws (pooled.h).
+ * A row describes a method completely; the table of all rows is render/methods.h. Before the first sample, a method
+ * reads its parameters and is prepared: tables are learnt, a race may decide on the numbers of samples, and the counts in
+ * the weights follow. Then it renders tile passes (tile_pass.h) on all threads.
  *
  * doc/add-a-method.md adds one. Tests: test_render.c, test_options.c, test/add_method.sh.
  */
 #ifndef ASBDPT_METHOD_H
 #define ASBDPT_METHOD_H
 
+#include <stddef.h>
+
 #include "base/error.h"
 #include "base/field.h"
-#include "tables/tables.h"
-#include "transport/counts.h"
-#include "transport/pixel_sample.h"
+#include "transport/sample.h"
 
 #define DEFAULT_RR_THRESHOLD 0.5
 
-struct method;
-
-/* What makes any choice among a tile's light sub-paths better, whichever it is: parameters (services.h). */
-struct services {
-    int guide;                /* off or on */
-    double emission;          /* share of light sub-paths that start by power alone; 1: all */
-    double credit;            /* of direct light, see struct credits */
-    int tile, spread;         /* of struct pass_size */
+/* Parameters of several methods. What makes any choice of light sub-paths better, whichever it is, has one
+ * implementation that all methods share, and a switch, so that one can measure the choice alone:
+ *
+ *   guide         s = 1 chooses lights by what they are worth to a region
+ *   emission      light sub-paths start in directions that the camera can use (emission.h)
+ *   race          fewer light sub-paths, or none, if a race before the render finds them enough (race.h)
+ *   tile, spread  number of pixels that share light sub-paths, and how far apart they are (tile_pass.h)
+ */
+struct parameters {
+    struct numbers numbers; /* those of the row, unless parameters change them */
+    int guide, race;        /* off or on */
+    double emission;        /* share of light sub-paths that start by power alone; 1: all */
+    double delta;           /* share of choices that ignore what was learnt */
+    int metric;             /* enum metric */
+    int tile, spread;
 };
 
-/* What is fixed before the first sample, because the weights depend on it. The state of every method begins with
- * this. */
-struct frozen {
-    struct numbers numbers;   /* those of the row, unless parameters or `prepare` change them */
-    struct mis_counts counts; /* of these numbers without credits, unless `prepare` changes them */
-    int max_depth;
-    struct services services;
-    struct tables tables; /* owned */
+/* Rows of a method's table of parameters, with these defaults. */
+#define PARAMETER(NAME, KIND, MEMBER, DEFAULT, LEAST, MOST, HELP, WORDS) \
+    {NAME, KIND, offsetof(struct parameters, MEMBER), DEFAULT, LEAST, MOST, HELP, WORDS}
+#define PARAMETER_GUIDE(DEFAULT) \
+    PARAMETER("guide", FIELD_WORD, guide, DEFAULT, 0, 0, "choose lights by what a region sees, where there are several", \
+              OFF_ON)
+#define PARAMETER_EMISSION(DEFAULT) \
+    PARAMETER("emission", FIELD_NUMBER, emission, DEFAULT, 1e-6, 1, \
+              "share of light sub-paths that leave lights as if nothing were learnt", NULL)
+#define PARAMETER_RACE(DEFAULT) \
+    PARAMETER("race", FIELD_WORD, race, DEFAULT, 0, 0, \
+              "find out before the render whether fewer light sub-paths and connections are enough, or none", OFF_ON)
+#define PARAMETER_TILES(TILE, SPREAD) \
+    PARAMETER("tile", FIELD_INTEGER, tile, TILE, 1, MAX_TILE_SIZE, \
+              "pixels along a side of those that share light sub-paths", NULL), \
+    PARAMETER("spread", FIELD_INTEGER, spread, SPREAD, 1, 64, "tiles that are interleaved along each axis", NULL)
+#define PARAMETERS_SHARED(RACE, GUIDE, EMISSION, TILE, SPREAD) \
+    PARAMETER_RACE(RACE), PARAMETER_GUIDE(GUIDE), PARAMETER_EMISSION(EMISSION), PARAMETER_TILES(TILE, SPREAD)
+extern const char *const OFF_ON[];
+
+/* A way to render that competes in a race (race.h), and what the race predicts of it. */
+struct runner {
+    const char *name;
+    struct numbers numbers;
+    bool plain; /* lights are chosen by power */
+    double variance, price; /* of a sample: relative to the square of the pixel's brightness; any unit */
 };
+enum { MAX_RUNNERS = 6 };
 
-/* frozen_count: f->counts, from its numbers with these credits, its tables, and the job's heuristic. */
-static inline void frozen_count(const struct render_job *job, struct frozen *f, struct credits credits)
-{
-    f->counts = counts_of(f->numbers, credits, pixel_light_count(job));
-    f->counts.power = job->power_heuristic;
-    f->counts.tables = &f->tables;
-}
-
-/* The result of preparing. */
-struct preparation {
+/* A method that is ready to render. It does not change while it renders. */
+struct prepared {
     const struct method *method;
-    void *state;           /* of method->state_size bytes, begins with struct frozen; owned */
-    struct pass_size size; /* any block, tiles of DEFAULT_TILE_SIZE, unless `prepare` changes it */
-    struct film_number number[FILM_NUMBERS]; /* chosen numbers, for --stats; ended by a NULL name */
+    struct parameters parameters;
+    void *own;                /* see struct method; owned */
+    int max_depth;
+    struct numbers numbers;   /* those of the parameters, or of the winner of a race */
+    struct counts counts;     /* in the weights */
+    struct tables *tables;    /* owned */
+    struct pass_size size;    /* any block, tiles of DEFAULT_TILE_SIZE, unless parameters or `prepare` change it */
+    struct runner runner[MAX_RUNNERS];
+    int n_runners, winner;    /* 0 runners: there was no race */
 };
 
-struct pooled_pixel;
+/* What a selector has made of a pool, in the pool's arena; each has a struct of its own. */
+struct index;
 
 struct method {
     const char *name;   /* --integrator NAME */
     const char *select; /* value of the parameter `select`, which tells the rows of asbdpt apart; else NULL */
     const char *help;   /* one line */
-    const char *why;    /* for trace: how it chooses what it joins to an eye sub-path; NULL: it does not choose */
 
-    const struct field *parameters;  /* of the state; NULL: none */
-    size_t state_size, scratch_size; /* scratch_size 0: no scratch; else it starts as zeros */
-    struct numbers numbers;          /* see struct frozen */
-    double rr_threshold;             /* of Russian roulette (path.h), unless the user gives another */
+    struct numbers numbers;         /* unless parameters or a race change them */
+    const struct field *parameters; /* of struct parameters; NULL: none */
+    const struct field *own;        /* parameters that this method alone has; NULL: none */
+    size_t own_size;
+    double rr_threshold;            /* of Russian roulette (path.h), unless the user gives another */
+    double direct_credit, pair_credit; /* see counts.h; 0: 1 */
+    bool single;                    /* `draw` chooses single vertices, not sub-paths */
+    bool learns_use, learns_pairs;  /* see tables.h */
 
     /* Each parameter is valid by itself. Check that they fit each other and the scene; false with a message if not. May
      * be NULL. */
-    bool (*check)(const void *state, const struct scene *scene, struct error *err);
-    /* Complete the preparation. out->state is zero except for struct frozen and the parameters. May be NULL. */
-    void (*prepare)(const struct render_job *job, struct preparation *out);
-    void (*release)(void *state); /* release what the state owns, but not the state. May be NULL */
+    bool (*check)(const struct prepared *p, const struct scene *scene, struct error *err);
+    /* Complete what is learnt, before the counts are made; or choose p->size. May be NULL. */
+    void (*prepare)(const struct render_job *job, struct prepared *p);
+    void (*release)(struct prepared *p); /* release what `prepare` has added to p->own. May be NULL */
 
-    void (*render)(const struct preparation *m, const struct tile_pass *pass);
-    void (*scratch_init)(void *scratch, const void *state); /* may be NULL */
-    void (*scratch_free)(void *scratch);                    /* release what the scratch owns. May be NULL */
+    /* A tile pass: loop_render (loop.h), unless the method does not share its loop. */
+    void (*render)(const struct prepared *p, const struct tile_pass *pass);
 
-    /* pooled_render calls these functions; `scratch` begins with struct light_pool. It calls `begin`, which may be
-     * NULL, after it has filled the pool of an iteration. Then the method has either `connect` or `draw`, which add the
-     * strategies s >= 2, t >= 2 to p->sample. `connect` is called once per pixel, `draw` for every eye vertex z =
-     * z_{t-1} that can be connected to. */
-    void (*begin)(void *scratch, const void *state, const struct tile_pass *pass, long iteration);
-    void (*connect)(void *scratch, const void *state, struct pooled_pixel *p);
-    void (*draw)(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t);
+    /* loop_render calls these functions. `build` makes an index of the pool of an iteration; NULL: no pixel chooses
+     * from the pool, and it has the pixel's own sub-path alone. `draw` makes choice number i of n for eye vertex z. */
+    struct index *(*build)(const struct prepared *p, const struct tile_pass *pass, long iteration);
+    bool (*draw)(const struct prepared *p, const struct index *index, struct sample *sample, int number,
+                 const struct vertex *z, int i, int n, struct drawn *out);
 };
 
-/* method_parameters: the table of a row's parameters, never NULL.
- * method_has: the parameter of that name, or NULL. `select` is a parameter of rows that share a name. */
-const struct field *method_parameters(const struct method *m);
+/* method_has: the parameter of that name, or NULL. `select` is a parameter of rows that share a name. */
 const struct field *method_has(const struct method *m, const char *name);
+
+/* method_read: read all parameters into *p, all else of which is empty. False with a message if one is not valid; else
+ * p->own is the caller's. */
+bool method_read(const struct method *m, const struct scene *scene, struct prepared *p, struct error *err);
 
 /* method_check: are the method's parameters valid in this scene's settings? False with a message if not. */
 bool method_check(const struct method *m, const struct scene *scene, struct error *err);
-
-/* method_prepare: read the parameters and prepare.
- *   out  after success, method_release releases it
- * Returns false with a message if a parameter is not valid. */
-bool method_prepare(const struct method *m, const struct render_job *job, struct preparation *out, struct error *err);
-void method_release(struct preparation *p);
-
-/* method_scratch: the scratch of one thread; NULL if the method has none. */
-void *method_scratch(const struct preparation *p);
-void method_scratch_free(const struct preparation *p, void *scratch);
 
 #endif

@@ -8,97 +8,71 @@
  * multiplies the strategies s >= 2, t >= 2 by
  *     W = 1 / (K q_k).
  * For a fixed pool, the expectation of a pixel is sum_k q_k F(k) / (K q_k), the mean over the pool. So the estimate is
- * unbiased for any I that does not depend on the eye sub-path. Every sub-path is splat (t = 1) once, drawn or not. If I
- * is constant, every bin has one sub-path, and this is BDPT with the pixels' sub-paths permuted.
+ * unbiased for any I that does not depend on the eye sub-path. If I is constant, every bin has one sub-path, and this is
+ * BDPT with the pixels' sub-paths permuted.
  *
  * Tests: test_asbdpt.c.
  */
-#include <stddef.h>
-
-#include "base/alias.h"
 #include "base/number.h"
-#include "integrators/pooled.h"
-#include "integrators/services.h"
+#include "integrators/loop.h"
 
-struct pool_state {
-    struct frozen frozen;
-    int metric, grid;
-    double delta;
+/* What a light sub-path is chosen by: nothing; the dissertation's measure, the mean over RGB of beta at the furthest
+ * vertex; or how much of it the camera can use (path_use). */
+enum metric { METRIC_CONSTANT, METRIC_THROUGHPUT, METRIC_USE };
+static const char *const METRICS[] = {"constant", "throughput", "importance", NULL};
+
+/* What each pixel of the tile has drawn. */
+struct index {
+    struct drawn drawn[MAX_TILE_SIZE * MAX_TILE_SIZE];
 };
 
-struct pool {
-    struct light_pool paths; /* the first, see pooled.h */
-    double q[MAX_TILE_SIZE * MAX_TILE_SIZE];
-    int order[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* the bin that each pixel visits */
-    struct alias_table table;
-};
-
-static void free_scratch(void *scratch)
+static double importance_of(const struct prepared *p, const struct vertex *path, int n)
 {
-    struct pool *p = scratch;
-    light_pool_free(&p->paths);
-    alias_free(&p->table);
+    return p->parameters.metric == METRIC_CONSTANT     ? 1
+           : p->parameters.metric == METRIC_THROUGHPUT ? path_throughput(path, n)
+                                                       : path_use(p->tables, path, n);
 }
 
-static double importance_of(const struct pool_state *s, const struct vertex *path, int n)
+static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    return s->metric == METRIC_CONSTANT     ? 1
-           : s->metric == METRIC_THROUGHPUT ? path_throughput(path, n)
-                                            : path_importance(&s->frozen.tables.importance, path, n);
-}
-
-static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
-{
-    struct pool *p = scratch;
-    const struct pool_state *s = state;
-    int K = p->paths.n;
-    double sum = 0;
-    for (int k = 0; k < K; k++) {
-        double q = importance_of(s, light_pool_path(&p->paths, k), p->paths.length[k]);
-        sum += p->q[k] = q >= 0 && isfinite(q) ? q : 0; /* the defensive part remains */
+    struct pool *pool = &pass->work->pool;
+    struct index *index = arena_alloc(&pool->arena, sizeof *index);
+    double *q = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *q), sum = 0;
+    int *order = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *order);
+    for (int k = 0; k < pool->n; k++) {
+        double I = importance_of(p, pool_path(pool, k), pool->length[k]);
+        sum += q[k] = I >= 0 && isfinite(I) ? I : 0; /* the defensive part remains */
     }
-    double delta = sum > 0 ? s->delta : 1;
-    for (int k = 0; k < K; k++)
-        p->q[k] = (delta < 1 ? (1 - delta) * p->q[k] / sum : 0) + delta / K;
-    alias_build(&p->table, p->q, K);
-    light_pool_shuffle(&p->paths, pass, iteration, p->order);
+    double delta = sum > 0 ? p->parameters.delta : 1;
+    for (int k = 0; k < pool->n; k++)
+        q[k] = (delta < 1 ? (1 - delta) * q[k] / sum : 0) + delta / pool->n;
+    alias_build(&pool->alias, q, pool->n);
+    pool_shuffle(pool, pass, iteration, order);
+    for (int i = 0, x, y; pixels_get(pass->tile->pixels, i, &x, &y); i++) {
+        struct sampler choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
+        double pmf, u = sampler_number(&choice, DRAW_LIGHT_END);
+        int k = alias_sample_bin(&pool->alias, order[i % pool->n], u, &pmf, NULL);
+        index->drawn[i] = (struct drawn){pool_path(pool, k), 1, pool->length[k], pmf};
+    }
+    return index;
 }
 
-static void connect(void *scratch, const void *state, struct pooled_pixel *p)
+static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, int number,
+                 const struct vertex *z, int i, int n, struct drawn *out)
 {
-    struct pool *pool = scratch;
-    struct choice choice;
-    (void)state;
-    double u = sampler_number(&p->draws, DRAW_LIGHT_END);
-    int k = alias_sample_bin(&pool->table, pool->order[p->number], u, &choice.pmf, NULL);
-    choice.scale = 1 / (pool->paths.n * choice.pmf);
-    pixel_sum_pairs(&p->sample, p->eye, p->n, light_pool_path(&pool->paths, k), pool->paths.length[k], choice);
+    (void)p, (void)sample, (void)z, (void)i, (void)n;
+    *out = index->drawn[number];
+    return true;
 }
 
-static void prepare(const struct render_job *job, struct preparation *out)
-{
-    const struct pool_state *s = out->state;
-    const struct learn_options own = {.importance = s->metric == METRIC_IMPORTANCE, .light_cells = s->grid,
-                                      .levels = 1};
-    services_learn(job, out, own);
-    services_settle(job, out, 1);
-}
-
-#define AT(member) offsetof(struct pool_state, member)
 static const struct field PARAMETERS[] = {
-    {"metric", FIELD_WORD, AT(metric), METRIC_IMPORTANCE, 0, 0, "what a light sub-path is chosen by", METRICS},
-    {"delta", FIELD_NUMBER, AT(delta), 0.1, 1e-6, 1, "share of draws that ignore it", NULL},
-    {"grid", FIELD_INTEGER, AT(grid), 64, 1, 100000, "cells of the importance along the scene's diagonal", NULL},
-    SERVICES(true, 1, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
+    PARAMETER("metric", FIELD_WORD, metric, METRIC_USE, 0, 0, "what a light sub-path is chosen by", METRICS),
+    PARAMETER("delta", FIELD_NUMBER, delta, 0.1, 1e-6, 1, "share of draws that ignore it", NULL),
+    PARAMETERS_SHARED(false, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_pool = {
     .name = "asbdpt", .select = "pool",
-    .help = "one alias table over the light sub-paths of a tile, weighted: unbiased",
-    .why = "alias table over the K light sub-paths of the tile, one bin for each pixel; q_k = (1 - delta) I_k / sum I "
-           "+ delta / K, I the sub-path's importance; scale 1 / (K q)",
-    .parameters = PARAMETERS,
-    .state_size = sizeof(struct pool_state), .scratch_size = sizeof(struct pool),
-    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .prepare = prepare,
-    .render = pooled_render, .scratch_free = free_scratch, .begin = begin, .connect = connect};
+    .help = "one alias table over the light sub-paths of a tile, weighted: unbiased", .parameters = PARAMETERS,
+    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .learns_use = true, .render = loop_render,
+    .build = build, .draw = draw};

@@ -1,40 +1,297 @@
-/* learn.c: see learn.h. */
+/* learn.c: see learn.h. The passes in their order; each has its own sub-paths. */
 #include "learning/learn.h"
 
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alias.h"
 #include "base/number.h"
-#include "learning/training.h"
+#include "learning/lessons.h"
+#include "tables/emission.h"
+#include "transport/connect.h"
+
+/* --- sub-paths --------------------------------------------------------------------------------------- */
+
+enum stream { STREAM_EYE, STREAM_LIGHT, STREAM_POOL, STREAM_BOX };
+
+static struct sampler stream_of(const struct render_job *job, long i, enum stream stream)
+{
+    return sampler_start(job->seed, RNG_LEARN, (uint64_t)i, (uint64_t)stream);
+}
+
+/* Trace eye sub-path number i through point i of a low-discrepancy sequence over the film. Returns the number of
+ * vertices. *sampler can be used further. */
+static int trace_eye(const struct render_job *job, const struct counts *counts, struct workspace *work, long i,
+                     enum stream stream, struct sampler *sampler)
+{
+    const struct pixel_rect film = job->film_rect;
+    const struct walk w = {job->scene, counts, &work->arena, sampler, job->rr_threshold};
+    double u, v;
+    *sampler = stream_of(job, i, stream);
+    sampler_r2(i, &u, &v);
+    return path_eye(&w, film.x0 + u * rect_width(film), film.y0 + v * rect_height(film), work->eye,
+                    job->max_depth + 1);
+}
+
+static int trace_light(const struct render_job *job, const struct counts *counts, struct arena *arena,
+                       struct sampler *sampler, struct vertex *path)
+{
+    const struct walk w = {job->scene, counts, arena, sampler, job->rr_threshold};
+    return path_light(&w, path, job->max_depth + 1);
+}
+
+/* --- the box of the eye vertices --------------------------------------------------------------------- */
+
+static int by_size(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/* The box that contains most eye vertices, so that one far surface does not decide how wide regions are. */
+static void find_box(const struct learning *l, vec3 *low, vec3 *high)
+{
+    enum { PATHS = 256, OUTSIDE = 100 }; /* one vertex of OUTSIDE is outside on each side of an axis */
+    const struct counts counts = {.tables = &NO_TABLES};
+    double *along[3] = {NULL, NULL, NULL}, *to[2][3] = {{&low->x, &low->y, &low->z}, {&high->x, &high->y, &high->z}};
+    size_t n = 0;
+    for (long i = 0; i < PATHS; i++) {
+        struct sampler sampler;
+        arena_reset(&l->work->arena);
+        for (int k = trace_eye(l->job, &counts, l->work, i, STREAM_BOX, &sampler) - 1; k > 0; k--) {
+            const struct vertex *z = &l->work->eye[k];
+            const double p[3] = {z->p.x, z->p.y, z->p.z};
+            for (int axis = 0; axis < 3 && vertex_connectible(z); axis++) {
+                along[axis] = mem_append(along[axis], n, sizeof **along);
+                along[axis][n] = p[axis];
+            }
+            n += vertex_connectible(z);
+        }
+    }
+    *low = *high = l->job->scene->lights.center;
+    for (int axis = 0; axis < 3; axis++) {
+        if (n > 0) {
+            qsort(along[axis], n, sizeof **along, by_size);
+            *to[0][axis] = along[axis][n / OUTSIDE];
+            *to[1][axis] = along[axis][n - 1 - n / OUTSIDE];
+        }
+        free(along[axis]);
+    }
+}
+
+/* --- eye vertices: regions, what the camera can use there, the lights that they see ------------------- */
+
+enum { LIGHTS_PER_VERTEX = 2 };         /* number of light points that each eye vertex tries */
+enum { VISIT = -1 };                    /* column of a lesson of an eye vertex */
+static const double DIRECT_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
+
+static void trace_uses(struct learning *l, const struct counts *counts, struct workspace *work, long i,
+                       struct lessons *out)
+{
+    struct sampler sampler;
+    int n = trace_eye(l->job, counts, work, i, STREAM_EYE, &sampler);
+    for (const struct vertex *z = work->eye + 1; z < work->eye + n; z++) {
+        if (!vertex_connectible(z))
+            continue;
+        double beta = rgb_luminance(z->beta);
+        struct lesson lesson = {regions_key(&l->tables->regions, z->p, vertex_side(z)), VISIT, 0, beta};
+        lessons_add(out, lesson);
+        for (int j = 0; l->options->direct && j < LIGHTS_PER_VERTEX; j++) {
+            struct light_point y0;
+            struct connection c = connect_direct(l->job->scene, counts, z, &sampler, j, LIGHTS_PER_VERTEX, &y0);
+            lesson.column = y0.cell;
+            lesson.x = rgb_luminance(c.value) / beta;
+            if (y0.cell >= 0)
+                lessons_add(out, lesson);
+        }
+    }
+}
+
+static void take_use(struct learning *l, const struct lesson *lesson)
+{
+    struct tables *t = l->tables;
+    int region = regions_add(&t->regions, lesson->row);
+    if (lesson->column == VISIT)
+        t->use[region] += lesson->w;
+    else
+        table_sums_add(&l->direct, regions_axis(&t->regions), (struct axis){l->direct.columns, NULL, NULL}, region,
+                       lesson->column, lesson->x, lesson->w);
+}
+
+static void learn_uses(struct learning *l, long n)
+{
+    const struct pass pass = {trace_uses, take_use, NO_TABLES};
+    vec3 low, high;
+    find_box(l, &low, &high);
+    regions_init(&l->tables->regions, low, high, REGION_CELLS, REGIONS);
+    l->tables->use = mem_alloc(REGIONS, sizeof *l->tables->use);
+    if (l->options->direct)
+        table_sums_init(&l->direct, REGIONS, l->job->scene->lights.n_cells);
+    lessons_learn(l, &pass, 0, n);
+}
+
+/* After the last pass that adds regions. */
+static void build_direct(struct learning *l)
+{
+    const struct light_set *lights = &l->job->scene->lights;
+    double *e = mem_alloc((size_t)lights->n_cells, sizeof *e);
+    for (int cell = 0; cell < lights->n_cells; cell++)
+        e[cell] = alias_pmf(&lights->choice, cell);
+    l->tables->direct = table_build(&l->direct, regions_axis(&l->tables->regions),
+                                    (struct axis){lights->n_cells, NULL, NULL}, e, DIRECT_DELTA, false, true);
+    free(e);
+}
+
+/* --- rays from lights -------------------------------------------------------------------------------- */
+
+static const double FIRST_VERTEX = 0.2; /* factor of y_1 in the worth of a ray: s = 1 finds the same light */
+
+static void trace_ray(struct learning *l, const struct counts *counts, struct workspace *work, long i,
+                      struct lessons *out)
+{
+    const struct tables *t = counts->tables;
+    struct sampler sampler = stream_of(l->job, i, STREAM_LIGHT), same = sampler;
+    struct vertex *path = arena_alloc(&work->arena, ((size_t)l->job->max_depth + 1) * sizeof *path);
+    int n = trace_light(l->job, counts, &work->arena, &sampler, path);
+    double worth = n > 1 ? FIRST_VERTEX * path_use(t, path, 2) + path_use(t, path + 1, n - 1) : 0, square[2];
+    int cell = alias_sample(&l->job->scene->lights.choice, sampler_number(&same, DRAW_LIGHT), NULL, NULL);
+    sampler_pair(&same, DRAW_EMISSION, square); /* the walk has drawn the same, also if it has met nothing */
+    lessons_add(out, (struct lesson){0, emission_column(cell, square), sqr(worth), 1});
+}
+
+static void take_ray(struct learning *l, const struct lesson *lesson)
+{
+    table_sums_add(&l->sums, (struct axis){1, NULL, NULL}, l->columns, 0, lesson->column, lesson->x, lesson->w);
+}
+
+static void learn_emission(struct learning *l, long n)
+{
+    const struct light_set *lights = &l->job->scene->lights;
+    const struct pass pass = {trace_ray, take_ray, *l->tables};
+    if (lights->choice.n == 0)
+        return;
+    struct emission_axis axis = emission_axis_new(lights);
+    l->columns = axis.axis;
+    table_sums_init(&l->sums, 1, axis.axis.n);
+    lessons_learn(l, &pass, 0, n);
+    l->tables->emission = table_build(&l->sums, (struct axis){1, NULL, NULL}, axis.axis, axis.e,
+                                      l->options->emission, true, true);
+    emission_axis_free(&axis);
+}
+
+/* --- light vertices ---------------------------------------------------------------------------------- */
+
+static void trace_vertices(struct learning *l, const struct counts *counts, struct workspace *work, long i,
+                           struct lessons *out)
+{
+    struct sampler sampler = stream_of(l->job, i, STREAM_LIGHT);
+    struct vertex *path = arena_alloc(&work->arena, ((size_t)l->job->max_depth + 1) * sizeof *path);
+    int n = trace_light(l->job, counts, &work->arena, &sampler, path);
+    for (const struct vertex *y = path + 1; y < path + n; y++)
+        if (vertex_connectible(y))
+            lessons_add(out, (struct lesson){regions_key(&l->tables->regions, y->p, vertex_side(y)), 0, 0, 1});
+}
+
+static void take_vertex(struct learning *l, const struct lesson *lesson)
+{
+    struct tables *t = l->tables;
+    if (t->vertices != NULL)
+        t->vertices[regions_add(&t->regions, lesson->row)]++;
+    t->light_vertices++;
+}
+
+static void learn_vertices(struct learning *l, long first, long end)
+{
+    struct tables *t = l->tables;
+    const struct pass pass = {trace_vertices, take_vertex, {.emission = t->emission}};
+    t->vertices = t->use != NULL ? mem_alloc(REGIONS, sizeof *t->vertices) : NULL;
+    lessons_learn(l, &pass, first, end);
+    for (int i = 0; t->light_vertices > 0 && i < t->regions.n; i++)
+        t->vertices[i] /= t->light_vertices;
+    t->light_vertices /= (double)(end - first);
+}
+
+/* --- trial connections ------------------------------------------------------------------------------- */
+
+enum {
+    POOL = 64, /* number of light sub-paths of a chunk */
+    TRIALS = 4 /* number of trial connections of each eye vertex */
+};
+
+/* Trace the light sub-paths of the chunk that eye sub-path number i begins, into the workspace's pool. */
+static void fill_pool(struct learning *l, const struct counts *counts, struct pool *pool, long i)
+{
+    double asked = 0;
+    pool_clear(pool);
+    for (long k = 0; k < POOL && patience_lasts(&l->patience, &asked); k++) {
+        struct sampler sampler = stream_of(l->job, i * POOL + k, STREAM_POOL);
+        struct vertex *path = pool_room(pool, (size_t)l->job->max_depth + 1);
+        pool_add(pool, trace_light(l->job, counts, &pool->arena, &sampler, path));
+    }
+    pool_find_candidates(pool);
+    double *L = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *L);
+    for (int k = 0; k < pool->n_candidates; k++)
+        L[k] = pool->candidate[k].L < 1e100 ? pool->candidate[k].L : 0; /* false for NaN */
+    alias_build(&pool->alias, L, pool->n_candidates);
+}
+
+static void trace_trials(struct learning *l, const struct counts *counts, struct workspace *work, long i,
+                         struct lessons *out)
+{
+    const struct pool *pool = &work->pool;
+    struct sampler sampler;
+    if (i % CHUNK == 0)
+        fill_pool(l, counts, &work->pool, i);
+    int n = trace_eye(l->job, counts, work, i, STREAM_EYE, &sampler);
+    for (const struct vertex *z = work->eye + 1; z < work->eye + n; z++)
+        for (int k = 0; k < TRIALS && pool->alias.n > 0 && vertex_connectible(z); k++) {
+            double beta = rgb_luminance(z->beta), u = (k + sampler_number(&sampler, DRAW_LIGHT_END)) / TRIALS;
+            const struct candidate *c = &pool->candidate[alias_sample(&pool->alias, u, NULL, NULL)];
+            const struct vertex *y = candidate_vertex(c);
+            struct connection found = connect_pair(l->job->scene, counts, y, z);
+            double x = rgb_luminance(found.value) / (beta * c->L);
+            lessons_add(out, (struct lesson){(uint64_t)z->region, y->region, x, beta});
+        }
+}
+
+static void take_trial(struct learning *l, const struct lesson *lesson)
+{
+    const struct axis axis = regions_axis(&l->tables->regions);
+    table_sums_add(&l->sums, axis, axis, (int)lesson->row, lesson->column, lesson->x, lesson->w);
+}
+
+static void learn_pairs(struct learning *l, long first, long end)
+{
+    struct tables *t = l->tables;
+    const struct pass pass = {trace_trials, take_trial, *t};
+    const struct axis axis = regions_axis(&t->regions);
+    table_sums_init(&l->sums, axis.n, axis.n);
+    lessons_learn(l, &pass, first, end);
+    t->pairs = table_build(&l->sums, axis, axis, t->vertices, l->options->delta, false, false);
+}
+
+/* --- all passes -------------------------------------------------------------------------------------- */
 
 enum { LIGHT_COUNTED = 4 * 1024 }; /* light sub-paths if only the mean number of their vertices is needed */
-enum { MAX_EYE_REGIONS = 1024, MAX_LIGHT_REGIONS = 2048, MAX_IMPORTANCE_REGIONS = 1 << 17 };
 
-struct tables learn(const struct render_job *job, const struct learn_options *options)
+void learn(const struct render_job *job, const struct learn_options *options, struct tables *out)
 {
-    struct training t = {.job = job, .work = workspaces_new(job->n_threads, job->max_depth),
-                         .patience = patience_begin(job)};
-    struct tables tables = NO_TABLES;
-    double pixels = (double)rect_width(job->film_rect) * rect_height(job->film_rect);
-    long n = int_within(LEARN_PER_PIXEL * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT;
-    bool regions = options->importance || options->guide || options->pairs;
-    long n_emission = options->importance && options->emission < 1 ? n_light / 2 : 0;
-    if (regions) {
-        vec3 low, high;
-        train_extent(&t, &low, &high);
-        regions_init(&tables.eye, low, high, options->eye_cells, options->levels, MAX_EYE_REGIONS);
-        regions_init(&tables.light, low, high, options->light_cells, options->levels,
-                     options->pairs ? MAX_LIGHT_REGIONS : MAX_IMPORTANCE_REGIONS);
-        if (options->importance)
-            tables.importance.E = mem_alloc((size_t)tables.light.limit, sizeof(double));
-        if (options->pairs)
-            tables.importance.vertices = mem_alloc((size_t)tables.light.limit, sizeof(double));
-        tables = train_importance(&t, tables, options->pairs ? n / 2 : n, options->guide);
-    }
+    struct learning l = {.job = job, .options = options, .tables = out,
+                         .work = workspaces_new(job->n_threads, job->max_depth), .patience = patience_begin(job)};
+    long n = int_within(LEARN_PER_PIXEL * (double)rect_pixels(job->film_rect), LEARN_LEAST, LEARN_MOST);
+    long n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT, half = n / 2 / CHUNK * CHUNK;
+    long n_emission = options->use && options->emission < 1 ? n_light / 2 : 0;
+    bool regions = options->use || options->direct || options->pairs;
+    if (regions)
+        learn_uses(&l, options->pairs ? half : n);
     if (n_emission > 0)
-        tables = train_emission(&t, tables, n_emission, options->emission);
-    if (!regions || options->importance)
-        tables = train_vertices(&t, tables, n_emission, regions ? n_light - n_emission : LIGHT_COUNTED);
+        learn_emission(&l, n_emission);
+    if (options->use || !regions)
+        learn_vertices(&l, n_emission, regions ? n_light : n_emission + LIGHT_COUNTED);
+    if (options->direct)
+        build_direct(&l);
     if (options->pairs)
-        tables = train_pairs(&t, tables, n / 2, n / 2, options->delta);
-    patience_end(&t.patience);
-    workspaces_free(t.work, job->n_threads);
-    return tables;
+        learn_pairs(&l, half, n);
+    patience_end(&l.patience);
+    workspaces_free(l.work, job->n_threads);
 }

@@ -135,8 +135,6 @@ struct parser {
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     struct symbols places; /* hashes of shapes and instances in the world -> their lines */
     int64_t n_copied;    /* triangles and quadrics of all instances that are copies */
-    int n_infinite;        /* lights, */
-    int infinite_group;    /* all of one group */
 
     bool texture_is_float; /* of the Texture directive being carried out */
     int n_sought;          /* names that were none, for which near ones were looked for */

@@ -163,18 +163,17 @@ static bool light(struct parser *p)
     if (!is_place(position))
         type_error(q, "this light would be (%g %g %g) from the camera; places go up to 1e12", position.x, position.y,
                    position.z);
-    if (item.light.kind == LIGHT_INFINITE && ++p->n_infinite > LIGHT_MAX_INFINITE)
-        type_error(q, "more than %d infinite lights; use fewer", LIGHT_MAX_INFINITE);
+    struct light_set *set = &p->scene->lights;
+    bool layer = item.light.kind == LIGHT_INFINITE && set->n_layers > 0;
+    if (layer && set->n_layers >= LIGHT_MAX_LAYERS)
+        type_error(q, "more than %d infinite lights; use fewer", LIGHT_MAX_LAYERS);
     if (!parse_done(p))
         return false;
     if (light_at_infinity(&item.light)) /* of none, as in pbrt-v3 */
         item.light.medium = 0;
-    struct light_set *set = &p->scene->lights;
-    if (item.light.kind == LIGHT_INFINITE && p->n_infinite > 1)
-        item.group = p->infinite_group;
+    if (layer)
+        item.group = set->light[set->sky].group;
     item.light.group = item.group >= 0 ? item.group : light_group(set, NULL, item.light.kind);
-    if (item.light.kind == LIGHT_INFINITE)
-        p->infinite_group = item.light.group;
     light_add(set, item.light, &item.frame);
     return true;
 }

@@ -7,13 +7,13 @@
 
 /* The sample's value is about to change by the path's contribution: the plane of the light's group takes that step. A
  * splat tells the film its group itself. */
-static void add_light(void *context, const struct pixel_sample *sample, const struct joined *path)
+static void add_light(void *context, const struct sample *sample, const struct joined *path)
 {
     (void)context;
     if (path->t == 1 || rgb_is_black(path->c->value))
         return;
-    int group = sample->scene->lights.light[joined_light(path)].group;
-    tile_add_light(sample->tile, sample->x, sample->y, group, rgb_add(sample->value, path->added), sample->value);
+    int group = sample->pass->job->scene->lights.light[joined_light(path)].group;
+    tile_add_light(sample->pass->tile, sample->x, sample->y, group, rgb_add(sample->value, path->added), sample->value);
 }
 
 /* Does the lens see anything there, be it light? */
@@ -22,15 +22,15 @@ static bool covered(const struct scene *scene, const struct vertex *eye, int n)
     const struct light_set *lights = &scene->lights;
     const struct vertex *z = n > 1 ? &eye[1] : NULL;
     return z != NULL && (z->kind != VERTEX_ESCAPED || (z->lamp != NULL && !lights->light[z->lamp->light].hidden) ||
-                         (z->lamp == NULL && lights->seen_infinite));
+                         (z->lamp == NULL && light_sky_seen(lights)));
 }
 
-static void add_alpha(void *context, const struct pixel_sample *sample, enum transport mode, const struct vertex *path,
+static void add_alpha(void *context, const struct sample *sample, enum transport mode, const struct vertex *path,
                       int n)
 {
     (void)context;
-    if (mode == RADIANCE && covered(sample->scene, path, n))
-        tile_add_alpha(sample->tile, sample->x, sample->y, sample->filter_weight);
+    if (mode == RADIANCE && covered(sample->pass->job->scene, path, n))
+        tile_add_alpha(sample->pass->tile, sample->x, sample->y, sample->filter_weight);
 }
 
 struct observer planes_observer(struct planes planes)

@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "base/os.h"
 #include "base/parallel.h"
+#include "integrators/prepare.h"
 #include "render/halves.h"
 #include "render/parameters.h"
 
@@ -25,7 +26,7 @@ struct run {
     struct render_job job;
     struct film *film;
     struct tiling tiling;
-    struct preparation prepared; /* blocks begin at multiples of their length, maybe INT_MAX: counted in 64 bits */
+    struct prepared prepared; /* blocks begin at multiples of their length, maybe INT_MAX: counted in 64 bits */
     int64_t begun;    /* tile passes of the first block that the film holds already */
     int64_t n_passes; /* of all blocks, with these */
     enum render_wish wish; /* the most urgent so far, of progress and of the noise */
@@ -163,11 +164,7 @@ static void run_all(struct run *r)
     for (int i = 0; i < n_slots; i++)
         r->tile[i].planes = r->film->planes;
     r->work = workspaces_new(r->job.n_threads, r->job.max_depth);
-    for (int i = 0; i < r->job.n_threads; i++)
-        r->work[i].scratch = method_scratch(&r->prepared);
     parallel_run(&r->parallel);
-    for (int i = 0; i < r->job.n_threads; i++)
-        method_scratch_free(&r->prepared, r->work[i].scratch);
     workspaces_free(r->work, r->job.n_threads);
     for (int i = 0; i < n_slots; i++)
         tile_free(&r->tile[i]);
@@ -176,7 +173,7 @@ static void run_all(struct run *r)
 }
 
 bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
-                    struct render_job *job, struct preparation *out, struct error *err)
+                    struct render_job *job, struct prepared *out, struct error *err)
 {
     const struct method *m = method_find(options->integrator, &scene->settings, err);
     job->scene = scene;
@@ -242,7 +239,7 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     struct run r = {.options = options, .film = film};
     if (!prepare(&r, scene, err))
         return false;
-    memcpy(film->number, r.prepared.number, sizeof film->number);
+    method_numbers(&r.prepared, film->number);
     bool ok = check_range(&r, err) && cut(&r, err);
     /* Learning that was cut short has learnt other things than what the film's samples go by: no more are added. */
     bool in_haste = r.wish != RENDER_GO_ON && holds_samples(film);

@@ -71,7 +71,7 @@ bool render_scene(const struct scene *scene, const struct render_options *option
  *   out   filled; method_release(out) afterwards
  * Returns false with a message when a parameter is bad; nothing needs release then. */
 bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
-                    struct render_job *job, struct preparation *out, struct error *err);
+                    struct render_job *job, struct prepared *out, struct error *err);
 
 /* --- planes.c, tiling.c, identity.c ------------------------------------------------------------------ */
 

@@ -91,6 +91,15 @@ struct envmap *envmap_load(const char *path, const struct budget *memory, struct
     return e;
 }
 
+struct envmap *envmap_of(const double *luminance, int width, int height)
+{
+    struct envmap *e = mem_alloc(1, sizeof *e);
+    e->image.width = width;
+    e->image.height = height;
+    build_blocks(e, luminance);
+    return e;
+}
+
 void envmap_free(struct envmap *e)
 {
     if (e == NULL)
@@ -107,6 +116,13 @@ static void direction_to_map(vec3 w, double *s, double *v)
     double phi = m_atan2(w.y, w.x);
     *s = (phi < 0 ? phi + 2 * PI : phi) / (2 * PI);
     *v = m_acos(clamp(w.z, -1, 1)) / PI;
+}
+
+vec3 envmap_direction(double s, double v)
+{
+    double sin_theta, cos_theta;
+    m_sincos(PI * v, &sin_theta, &cos_theta);
+    return cylindrical(sin_theta, 2 * PI * s, cos_theta);
 }
 
 rgb envmap_lookup(const struct envmap *e, vec3 w)
@@ -129,11 +145,9 @@ vec3 envmap_sample(const struct envmap *e, int block, double u1, double u2, doub
     int x0, x1, y0, y1, i = alias_sample(&e->block[block], u1, &pmf, &du);
     block_range(e, block, &x0, &x1, &y0, &y1);
     int x = x0 + i % (x1 - x0), y = y0 + i / (x1 - x0);
-    double phi = 2 * PI * (x + du) / e->image.width, theta = PI * (y + u2) / e->image.height;
-    double sin_theta, cos_theta;
-    m_sincos(theta, &sin_theta, &cos_theta);
-    *pdf_dir = texel_pdf(e, pmf, sin_theta);
-    return cylindrical(sin_theta, phi, cos_theta);
+    vec3 w = envmap_direction((x + du) / e->image.width, (y + u2) / e->image.height);
+    *pdf_dir = texel_pdf(e, pmf, safe_sqrt(1 - w.z * w.z));
+    return w;
 }
 
 double envmap_pdf(const struct envmap *e, vec3 w, int *block)

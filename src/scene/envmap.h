@@ -31,7 +31,11 @@ struct envmap {
 struct envmap *envmap_load(const char *path, const struct budget *memory, struct error *err);
 void envmap_free(struct envmap *e);
 
-/* envmap_lookup: radiance from unit direction w of light space, bilinear. */
+/* envmap_of: a map for drawing directions alone, in proportion to the luminance of each texel, [width*height]. */
+struct envmap *envmap_of(const double *luminance, int width, int height);
+
+/* envmap_direction: the direction of (s,v). envmap_lookup: radiance from unit direction w of light space, bilinear. */
+vec3 envmap_direction(double s, double v);
 rgb envmap_lookup(const struct envmap *e, vec3 w);
 
 /* envmap_bytes: what its tables take, 44 for a texel. */

@@ -29,7 +29,7 @@ struct noise_estimate {
 };
 
 /* What the method has chosen for itself. */
-enum { FILM_NUMBERS = 8 };
+enum { FILM_NUMBERS = 16 };
 struct film_number {
     const char *name; /* static */
     double value;

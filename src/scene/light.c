@@ -11,13 +11,21 @@
 
 int light_add(struct light_set *set, struct light l, const struct light_frame *frame)
 {
-    set->light = mem_append(set->light, (size_t)set->n, sizeof *set->light);
     l.frame = NULL;
     if (frame != NULL) {
         l.frame = mem_alloc(1, sizeof *l.frame);
         *l.frame = *frame;
         l.frame->volume = fabs(transform_determinant(&frame->to_world));
     }
+    if (l.kind == LIGHT_INFINITE) {
+        set->layer = mem_append(set->layer, (size_t)set->n_layers, sizeof *set->layer);
+        set->layer[set->n_layers++] = l;
+        if (set->n_layers > 1)
+            return set->sky;
+        set->sky = set->n;
+        l.frame = NULL;
+    }
+    set->light = mem_append(set->light, (size_t)set->n, sizeof *set->light);
     set->light[set->n] = l;
     return set->n++;
 }
@@ -53,10 +61,14 @@ void light_set_free(struct light_set *set)
     free(set->map);
     for (int i = 0; i < set->n; i++)
         free(set->light[i].frame);
+    for (int i = 0; i < set->n_layers; i++)
+        free(set->layer[i].frame);
     free(set->light);
-    free(set->infinite);
+    free(set->layer);
+    envmap_free(set->sum);
     alias_free(&set->choice);
-    free(set->light_of_cell);
+    free(set->cell);
+    free(set->before);
     memset(set, 0, sizeof *set);
 }
 
@@ -103,70 +115,135 @@ static double light_power(const struct light *l, const struct geometry *geo, dou
     return 0;
 }
 
-/* A constant sky is cut into SKY_BANDS x SKY_SECTORS cells of equal solid angle, by z and by azimuth. */
-enum { SKY_BANDS = 8, SKY_SECTORS = 16, SKY_CELLS = SKY_BANDS * SKY_SECTORS };
+/* A sky of one constant layer is cut into SKY_BANDS x SKY_SECTORS cells of equal solid angle, by z and by azimuth. */
+enum { SKY_BANDS = 8, SKY_SECTORS = 16 };
 
-static int cell_count(const struct light *l)
+/* The map by which directions of the sky are drawn, in the light space of its only layer or, of several, of the world;
+ * NULL: uniformly. */
+static const struct envmap *sky_map(const struct light_set *set)
 {
-    return l->kind != LIGHT_INFINITE ? 1 : l->frame->env != NULL ? envmap_blocks(l->frame->env) : SKY_CELLS;
+    return set->n_layers > 1 ? set->sum : set->layer[0].frame->env;
 }
 
-/* The power of each cell of a light, a share of the light's. */
-static void cell_powers(const struct light *l, double *power)
+static int sky_cells(const struct light_set *set)
 {
-    bool map = l->kind == LIGHT_INFINITE && l->frame->env != NULL;
+    return set->n_layers == 0 ? 0 : sky_map(set) != NULL ? envmap_blocks(sky_map(set)) : SKY_BANDS * SKY_SECTORS;
+}
+
+/* The map of several layers: the luminance of their sum, with a little everywhere. */
+static struct envmap *sum_of_layers(const struct light_set *set)
+{
+    int width = 64, height = 32;
+    double mean = 0;
+    for (int i = 0; i < set->n_layers; i++) {
+        const struct envmap *env = set->layer[i].frame->env;
+        width = env != NULL && env->image.width > width ? env->image.width : width;
+        height = env != NULL && env->image.height > height ? env->image.height : height;
+    }
+    double *luminance = mem_alloc((size_t)width * (size_t)height, sizeof *luminance);
+    for (int i = 0; i < width * height; i++) {
+        vec3 w = envmap_direction((i % width + 0.5) / width, (i / width + 0.5) / height);
+        luminance[i] = rgb_luminance(light_Le_sky(set, w, false));
+        mean += luminance[i] / width / height;
+    }
+    for (int i = 0; i < width * height; i++)
+        luminance[i] += 0.01 * mean;
+    struct envmap *sum = envmap_of(luminance, width, height);
+    free(luminance);
+    return sum;
+}
+
+/* The lights but for the sky, in cells of equal numbers, and then the sky's; power: out, [LAMP_CELLS + SKY_CELLS]. */
+static void make_cells(struct light_set *set, double *power)
+{
+    int lamps = set->n - (set->n_layers > 0), each = (lamps + LAMP_CELLS - 1) / LAMP_CELLS, sky = sky_cells(set);
+    set->cell = mem_alloc(LAMP_CELLS + SKY_CELLS, sizeof *set->cell);
+    set->before = mem_alloc((size_t)set->n, sizeof *set->before);
+    set->n_cells = 0;
+    for (int i = 0; i < set->n; i++) {
+        struct light *l = &set->light[i];
+        if (l->kind == LIGHT_INFINITE)
+            continue;
+        int c = set->n_cells - 1;
+        if (c < 0 || set->cell[c].n == each || set->cell[c].light + set->cell[c].n != i)
+            set->cell[c = set->n_cells++] = (struct light_cell){i, 0};
+        l->cell = c;
+        set->cell[l->cell].n++;
+        set->before[i] = power[l->cell];
+        power[l->cell] += l->power;
+    }
+    if (sky > 0)
+        set->light[set->sky].cell = set->n_cells;
     double all = 0;
-    for (int c = 0; map && c < l->n_cells; c++)
-        all += l->frame->env->block[c].total;
-    for (int c = 0; c < l->n_cells; c++)
-        power[c] = l->power * (!map ? 1.0 / l->n_cells : all > 0 ? l->frame->env->block[c].total / all : 0);
+    for (int c = 0; c < sky && sky_map(set) != NULL; c++)
+        all += sky_map(set)->block[c].total;
+    for (int c = 0; c < sky; c++) {
+        double share = sky_map(set) == NULL ? 1.0 / sky : all > 0 ? sky_map(set)->block[c].total / all : 0;
+        power[set->n_cells] = set->light[set->sky].power * share;
+        set->cell[set->n_cells++] = (struct light_cell){set->sky, 1};
+    }
 }
 
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius)
 {
     set->center = center;
     set->radius = radius;
-    set->seen_infinite = false;
-    set->n_infinite = set->n_cells = 0;
-    for (int i = 0; i < set->n; i++) {
-        struct light *l = &set->light[i];
-        l->power = light_power(l, geo, radius);
-        l->first_cell = set->n_cells;
-        l->n_cells = cell_count(l);
-        set->n_cells += l->n_cells;
-        if (l->kind != LIGHT_INFINITE)
-            continue;
-        set->infinite = mem_append(set->infinite, (size_t)set->n_infinite, sizeof *set->infinite);
-        set->infinite[set->n_infinite++] = i;
-        set->seen_infinite |= !l->hidden;
-    }
-    double *power = mem_alloc((size_t)set->n_cells, sizeof *power);
-    set->light_of_cell = mem_alloc((size_t)set->n_cells, sizeof *set->light_of_cell);
-    for (int i = 0; i < set->n; i++) {
-        cell_powers(&set->light[i], power + set->light[i].first_cell);
-        for (int c = 0; c < set->light[i].n_cells; c++)
-            set->light_of_cell[set->light[i].first_cell + c] = i;
-    }
+    if (set->n_layers > 1)
+        set->sum = sum_of_layers(set);
+    for (int i = 0; i < set->n; i++)
+        set->light[i].power = set->light[i].kind == LIGHT_INFINITE ? 0 : light_power(&set->light[i], geo, radius);
+    for (int i = 0; i < set->n_layers; i++)
+        set->light[set->sky].power += light_power(&set->layer[i], geo, radius);
+    double *power = mem_alloc(LAMP_CELLS + SKY_CELLS, sizeof *power);
+    make_cells(set, power);
     alias_build(&set->choice, power, set->n_cells);
     free(power);
 }
 
 /* --- the end point y0 -------------------------------------------------------------------------------- */
 
-static vec3 infinite_sample(const struct light *l, int cell, double u1, double u2, double *pdf_dir)
+/* The probability of a light in its cell. */
+static double share_of(const struct light_set *set, int light)
 {
-    if (l->frame->env == NULL) {
-        *pdf_dir = warp_sphere_pdf_w() * SKY_CELLS;
+    const struct light_cell *c = &set->cell[set->light[light].cell];
+    int last = c->light + c->n - 1;
+    double all = set->before[last] + set->light[last].power;
+    return c->n == 1 ? 1 : all > 0 ? set->light[light].power / all : 0;
+}
+
+/* Draw a light of a cell with the uniform number u. */
+static int light_of(const struct light_set *set, int cell, double u)
+{
+    const struct light_cell *c = &set->cell[cell];
+    int last = c->light + c->n - 1;
+    double all = set->before[last] + set->light[last].power;
+    int i = c->n == 1 ? last : c->light + cumulative_find(&set->before[c->light], c->n, u * all);
+    while (i > c->light && set->light[i].power == 0)
+        i--;
+    return i;
+}
+
+static vec3 sky_sample(const struct light_set *set, int cell, double u1, double u2, double *pdf_dir)
+{
+    const struct light *l = &set->layer[0];
+    if (sky_map(set) == NULL) {
+        *pdf_dir = warp_sphere_pdf_w() * SKY_BANDS * SKY_SECTORS;
         return warp_sphere((cell / SKY_SECTORS + u1) / SKY_BANDS, (cell % SKY_SECTORS + u2) / SKY_SECTORS);
     }
-    vec3 w = normalize(transform_vector(&l->frame->to_world, envmap_sample(l->frame->env, cell, u1, u2, pdf_dir)));
+    vec3 w = envmap_sample(sky_map(set), cell, u1, u2, pdf_dir);
+    if (set->n_layers > 1)
+        return w;
+    w = normalize(transform_vector(&l->frame->to_world, w));
     *pdf_dir *= solid_angle_back(l, transform_vector_back(&l->frame->to_world, w));
     return w;
 }
 
-/* Density of w within its cell; *cell is that cell's number within the light. */
-static double infinite_pdf(const struct light *l, vec3 w, int *cell)
+/* Density of w within its cell; *cell is that cell's number within the sky. */
+static double sky_pdf(const struct light_set *set, vec3 w, int *cell)
 {
+    const struct light *l = &set->layer[0];
+    if (set->n_layers > 1)
+        return envmap_pdf(set->sum, w, cell);
     if (l->frame->env != NULL) {
         vec3 v = transform_vector_back(&l->frame->to_world, w);
         return envmap_pdf(l->frame->env, normalize(v), cell) * solid_angle_back(l, v);
@@ -175,26 +252,21 @@ static double infinite_pdf(const struct light *l, vec3 w, int *cell)
     warp_sphere_inverse(w, &u1, &u2);
     int band = int_within(u1 * SKY_BANDS, 0, SKY_BANDS - 1), sector = int_within(u2 * SKY_SECTORS, 0, SKY_SECTORS - 1);
     *cell = band * SKY_SECTORS + sector;
-    return warp_sphere_pdf_w() * SKY_CELLS;
+    return warp_sphere_pdf_w() * SKY_BANDS * SKY_SECTORS;
 }
 
-static rgb infinite_Le(const struct light *l, vec3 w)
-{
-    return l->frame->env == NULL ? l->L : rgb_mul(l->L, envmap_lookup(l->frame->env, to_light_space(l, w)));
-}
-
-bool light_sample_cell(const struct light_set *set, const struct geometry *geo, int cell, double u1, double u2,
+bool light_sample_cell(const struct light_set *set, const struct geometry *geo, int cell, const double u[3],
                        struct light_point *out)
 {
     double pdf = 1;
     memset(out, 0, sizeof *out);
     out->cell = cell;
-    out->light = set->light_of_cell[cell];
+    out->light = light_of(set, cell, u[0]);
     const struct light *l = &set->light[out->light];
     switch (l->kind) {
     case LIGHT_AREA: {
         struct surface at;
-        if (!shape_sample(geo, l->prim, u1, u2, &at, &pdf))
+        if (!shape_sample(geo, l->prim, u[1], u[2], &at, &pdf))
             return false;
         out->p = at.p;
         out->n = at.ng;
@@ -204,10 +276,10 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
     case LIGHT_POINT:
     case LIGHT_SPOT: out->p = l->frame->position; break;
     case LIGHT_DISTANT: out->w = l->frame->direction; break;
-    case LIGHT_INFINITE: out->w = infinite_sample(l, cell - l->first_cell, u1, u2, &pdf); break;
+    case LIGHT_INFINITE: out->w = sky_sample(set, cell - l->cell, u[1], u[2], &pdf); break;
     }
-    out->pdf_cell = pdf;
-    out->pdf = alias_pmf(&set->choice, cell) * pdf;
+    out->pdf_cell = share_of(set, out->light) * pdf;
+    out->pdf = alias_pmf(&set->choice, cell) * out->pdf_cell;
     return pdf > 0;
 }
 
@@ -216,11 +288,6 @@ bool light_sample_cell(const struct light_set *set, const struct geometry *geo, 
 static rgb area_Le(const struct light *l, vec3 n, vec3 w)
 {
     return l->two_sided || dot(n, w) > 0 ? l->L : rgb_black();
-}
-
-double light_distance(const struct light_set *set, vec3 p, vec3 w)
-{
-    return fmax(set->radius - dot(sub(p, set->center), w), 0);
 }
 
 /* Parallel rays enter through a disk as wide as the scene, placed before it. [PBRT3 16.1.2] */
@@ -323,7 +390,7 @@ rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w)
     case LIGHT_POINT: return l->L;
     case LIGHT_SPOT: return rgb_scale(l->L, spot_falloff(l, w));
     case LIGHT_DISTANT: return l->L;
-    case LIGHT_INFINITE: return infinite_Le(l, neg(w));
+    case LIGHT_INFINITE: return light_Le_sky(set, neg(w), false);
     }
     return rgb_black();
 }
@@ -335,32 +402,37 @@ double light_pdf_surface(const struct light_set *set, const struct geometry *geo
     if (at->light < 0)
         return 0;
     const struct light *l = &set->light[at->light];
-    return alias_pmf(&set->choice, l->first_cell) * shape_pdf_a(geo, l->prim, at);
+    return alias_pmf(&set->choice, l->cell) * share_of(set, at->light) * shape_pdf_a(geo, l->prim, at);
 }
 
-rgb light_Le_environment(const struct light_set *set, vec3 w, bool seen)
+static rgb layer_Le(const struct light *l, vec3 w)
+{
+    return l->frame->env == NULL ? l->L : rgb_mul(l->L, envmap_lookup(l->frame->env, to_light_space(l, w)));
+}
+
+rgb light_Le_sky(const struct light_set *set, vec3 w, bool seen)
 {
     rgb sum = rgb_black();
-    for (int i = 0; i < set->n_infinite; i++) {
-        const struct light *l = &set->light[set->infinite[i]];
+    for (const struct light *l = set->layer; l < set->layer + set->n_layers; l++)
         if (!(seen && l->hidden))
-            sum = rgb_add(sum, infinite_Le(l, w));
-    }
+            sum = rgb_add(sum, layer_Le(l, w));
     return sum;
 }
 
-double light_pdf_towards(const struct light_set *set, int i, vec3 w, int *cell)
+bool light_sky_seen(const struct light_set *set)
 {
-    double pdf = infinite_pdf(&set->light[i], w, cell);
-    *cell += set->light[i].first_cell;
+    bool seen = false;
+    for (int i = 0; i < set->n_layers; i++)
+        seen |= !set->layer[i].hidden;
+    return seen;
+}
+
+double light_pdf_sky(const struct light_set *set, vec3 w, int *cell)
+{
+    *cell = -1;
+    if (set->n_layers == 0)
+        return 0;
+    double pdf = sky_pdf(set, w, cell);
+    *cell += set->light[set->sky].cell;
     return alias_pmf(&set->choice, *cell) * pdf;
-}
-
-double light_pdf_environment(const struct light_set *set, vec3 w)
-{
-    double sum = 0;
-    int cell;
-    for (int i = 0; i < set->n_infinite; i++)
-        sum += light_pdf_towards(set, set->infinite[i], w, &cell);
-    return sum;
 }

@@ -6,6 +6,9 @@
  * Lights are chosen in proportion to their power by an alias table; s = 1 and emission use the same choice and the
  * same density of y0, so one number serves both in the MIS weights.
  *
+ * A ray that leaves the scene meets all infinite lights at once. So they are one light, the sky, which is the sum of its
+ * layers. Its directions have one density, whichever layer sends light from there.
+ *
  * Tests: test_light.c.
  */
 #ifndef ASBDPT_LIGHT_H
@@ -52,6 +55,7 @@ enum light_kind {
  *   w          -                   -                  -                     unit, towards it       unit, towards it
  *   prim_id    shape_prim_id       0                  0                     0                      0
  *   pdf_cell   1/m^2               1                  1                     1                      1/sr
+ *   pdf_cell   (this, times the probability of the light in its cell)
  *   pdf        pdf_cell times the probability of the cell under `choice`, in all kinds
  *   emission's second draw is      a direction, 1/sr (area, point, spot)    an origin on a disk, 1/m^2
  */
@@ -70,43 +74,52 @@ struct light {
     int prim;
     int medium;              /* around it; area: unless its shape bounds media */
     int group;               /* see light_group */
-    int first_cell, n_cells; /* its cells, see below; set by light_prepare */
+    int cell;                /* its cell, see below; of the sky the first; set by light_prepare */
     rgb L;
-    double power;             /* estimate, W, luminance; set by light_prepare */
+    double power;            /* estimate, W, luminance; set by light_prepare */
     struct light_frame *frame; /* owned by the set; area: NULL, for there may be one for each triangle of a mesh */
 };
 
-/* Lights whose contributions a film can keep apart from others' (film.h). All infinite lights are of one group, since
- * an eye sub-path that leaves the scene meets them together. */
+/* Lights whose contributions a film can keep apart from others' (film.h). The sky is of one group. */
 struct light_group {
     char *name; /* owned; NULL: it has none */
     enum light_kind kind; /* of its first light */
 };
 enum { LIGHT_MAX_GROUPS = 64 }; /* that films keep */
 
-/* All lights of a scene and what sampling them needs. Sampling is done in cells: an infinite light is cut into cells of
- * directions, every other light is one cell. A cell is chosen first, then a point within it. */
+/* The sky is cut into cells of directions, at most SKY_CELLS. Every other light is in one cell, alone or with its
+ * neighbours if there are more than LAMP_CELLS. */
+struct light_cell {
+    int light, n; /* the first light and how many; of the sky 1 */
+};
+enum { LAMP_CELLS = 512, SKY_CELLS = 512 };
+
+/* All lights of a scene and what sampling them needs. A cell is chosen first, then a light in it by power, then a point
+ * on the light. */
 struct light_set {
     struct light *light; /* [n], owned */
     int n;
+    int sky;             /* number of the sky among them, if there are layers */
+    struct light *layer; /* [n_layers] infinite lights; owned */
+    int n_layers;
+    struct envmap *sum;  /* for drawing directions of several layers; NULL if there are fewer; owned */
     struct envmap **map; /* [n_maps], each of any number of lights; owned with what they point to */
     int n_maps;
     struct light_group *group; /* [n_groups], owned */
     int n_groups;
+    struct light_cell *cell;   /* [n_cells], owned */
     int n_cells;
-    int *light_of_cell;        /* [n_cells], owned */
+    double *before;            /* [n] power of the lights before this one in its cell; owned */
     struct alias_table choice; /* of a cell, by power */
     vec3 center;               /* bounding sphere of the scene */
     double radius;             /* > 0 */
-    int *infinite;             /* [n_infinite], owned: the lights of kind LIGHT_INFINITE */
-    int n_infinite;
-    bool seen_infinite;        /* one of them is not hidden */
 };
 
-/* Of each up to 512 cells are made, and every ray that leaves the scene asks all of them. */
-enum { LIGHT_MAX_INFINITE = 1 << 12 };
+/* Every ray that leaves the scene asks all of them. */
+enum { LIGHT_MAX_LAYERS = 1 << 12 };
 
-/* light_add: returns its number.  frame: copied; NULL for area lights */
+/* light_add: returns the number of the light; of an infinite light that of the sky.
+ *   frame  copied; NULL for area lights */
 int light_add(struct light_set *set, struct light l, const struct light_frame *frame);
 
 /* light_group: the group of that name, or, if there is none, or the name is NULL, a new one. Names are looked for among
@@ -119,11 +132,6 @@ int light_read_map(struct light_set *set, const char *path, const struct budget 
 /* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);
 void light_set_free(struct light_set *set);
-
-/* light_distance: how far light from infinity has come at p, in scene units; w is the unit direction towards it. It
- * comes from the plane across w that touches the scene's sphere, where light sub-paths of such a light begin, too. 0 if
- * p is beyond the plane, as a lens may be. */
-double light_distance(const struct light_set *set, vec3 p, vec3 w);
 
 /* Delta lights cannot be hit (s = 0 is impossible). */
 static inline bool light_is_delta(const struct light *l)
@@ -146,8 +154,9 @@ struct light_point {
 };
 
 /* light_sample_cell: draw a light point from a cell. False where none can be drawn, or where an area light has a hole
- * (its alpha texture is 0): nothing is emitted there, and the sample counts as black. */
-bool light_sample_cell(const struct light_set *set, const struct geometry *geo, int cell, double u1, double u2,
+ * (its alpha texture is 0): nothing is emitted there, and the sample counts as black.
+ *   u  uniform numbers, for the light and for the point */
+bool light_sample_cell(const struct light_set *set, const struct geometry *geo, int cell, const double u[3],
                        struct light_point *out);
 
 /* light_sample_emission: given y0, draw the direction (or, at infinity, the origin on a disk) of an emitted ray.
@@ -169,18 +178,17 @@ void light_emission_numbers(const struct light_set *set, const struct light_poin
  * (its inverse square law is the connection's G); distant: irradiance. */
 rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w);
 
-/* light_Le_environment: radiance of all infinite lights, or of those alone that the lens sees, for a ray leaving the
- * scene in unit direction w. */
-rgb light_Le_environment(const struct light_set *set, vec3 w, bool seen);
+/* light_Le_sky: radiance of the sky, or of those layers alone that the lens sees, for a ray leaving the scene in unit
+ * direction w. light_sky_seen: does the lens see any? */
+rgb light_Le_sky(const struct light_set *set, vec3 w, bool seen);
+bool light_sky_seen(const struct light_set *set);
 
-/* light_pdf_towards: density of the light point of infinite light number i in direction w (from the scene towards the
- * light), cells being chosen by power, 1/sr.  cell: out, the one it lies in */
-double light_pdf_towards(const struct light_set *set, int i, vec3 w, int *cell);
+/* light_pdf_sky: density of the light point in direction w (from the scene towards the sky), cells being chosen by
+ * power, 1/sr; 0 if there is no sky.
+ *   cell  out, the one it lies in; -1 if there is no sky */
+double light_pdf_sky(const struct light_set *set, vec3 w, int *cell);
 
-/* light_pdf_environment: the same by any infinite light: the sum over them. */
-double light_pdf_environment(const struct light_set *set, vec3 w);
-
-/* light_pdf_surface: the same of this point of an area light, 1/m^2. */
+/* light_pdf_surface: the same of this point of an area light, 1/m^2; 0 on other surfaces. */
 double light_pdf_surface(const struct light_set *set, const struct geometry *geo, const struct surface *at);
 
 #endif

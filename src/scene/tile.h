@@ -32,10 +32,9 @@ struct tile_pixels {
     int nx, ny, x, y; /* 0 <= x < nx, 0 <= y < ny tell the tiles apart */
 };
 
-/* pixels_all: of a tile alone. pixels_columns, pixels_rows, pixels_count: cells in which the tile has a pixel.
+/* pixels_columns, pixels_rows, pixels_count: cells in which the tile has a pixel.
  * pixels_get: the one in cell number i >= 0, row by row; false if there are not so many. pixels_cell: the number of the
  * cell of (x,y), in which the tile has one. */
-static inline struct tile_pixels pixels_all(struct pixel_rect r) { return (struct tile_pixels){r, 1, 1, 0, 0}; }
 static inline int pixels_columns(struct tile_pixels p) { return (rect_width(p.rect) - p.x + p.nx - 1) / p.nx; }
 static inline int pixels_rows(struct tile_pixels p) { return (rect_height(p.rect) - p.y + p.ny - 1) / p.ny; }
 static inline int pixels_count(struct tile_pixels p) { return pixels_columns(p) * pixels_rows(p); }

@@ -12,7 +12,7 @@
 /* A key: level (2 bits), face (3 bits, never 0), x, y, z (19 bits each). */
 enum { AXIS_BITS = 19, FACE_SHIFT = 3 * AXIS_BITS, LEVEL_SHIFT = FACE_SHIFT + 3 };
 
-void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_levels, int limit)
+void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int limit)
 {
     const double SHIFT = 0.3819660112501051; /* in cubes; 2 minus the golden ratio */
     vec3 size = sub(high, low);
@@ -24,19 +24,20 @@ void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_level
     r->last[0] = int_within((size.x + shift) * r->per_metre, 0, cells);
     r->last[1] = int_within((size.y + shift) * r->per_metre, 0, cells);
     r->last[2] = int_within((size.z + shift) * r->per_metre, 0, cells);
-    r->n_levels = n_levels;
     r->limit = limit;
     for (r->n_slots = 1; r->n_slots < 2 * (size_t)limit; r->n_slots *= 2)
         ;
     r->slot = mem_alloc(r->n_slots, sizeof *r->slot);
-    r->region = mem_alloc((size_t)limit, sizeof *r->region);
-    r->region[r->n++] = (struct region){.above = -1, .level = n_levels};
+    r->above = mem_alloc((size_t)limit, sizeof *r->above);
+    r->level = mem_alloc((size_t)limit, sizeof *r->level);
+    r->level[r->n++] = REGION_LEVELS;
 }
 
 void regions_free(struct regions *r)
 {
     free(r->slot);
-    free(r->region);
+    free(r->above);
+    free(r->level);
 }
 
 /* 1..6: the axis and sign nearest to a unit normal; 7 if there is no normal. */
@@ -80,11 +81,12 @@ static int add_region(struct regions *r, uint64_t key, int level)
 {
     if (slot_of(r, key)->key == key)
         return slot_of(r, key)->number;
-    int above = level + 1 < r->n_levels ? add_region(r, key_above(key), level + 1) : 0;
+    int above = level + 1 < REGION_LEVELS ? add_region(r, key_above(key), level + 1) : 0;
     if (r->n >= r->limit)
         return above;
     *slot_of(r, key) = (struct region_slot){key, r->n};
-    r->region[r->n] = (struct region){above, level};
+    r->above[r->n] = above;
+    r->level[r->n] = level;
     return r->n++;
 }
 
@@ -92,7 +94,7 @@ int regions_add(struct regions *r, uint64_t key) { return add_region(r, key, 0);
 
 int regions_find(const struct regions *r, uint64_t key)
 {
-    for (int level = 0; r->n_slots > 0 && level < r->n_levels; level++, key = key_above(key)) {
+    for (int level = 0; r->n_slots > 0 && level < REGION_LEVELS; level++, key = key_above(key)) {
         const struct region_slot *s = slot_of(r, key);
         if (s->key == key)
             return s->number;

@@ -5,6 +5,13 @@
  * twice as wide as those of the level below. A hash table with open addressing has only those regions that a vertex has
  * been found in. Another point belongs to the finest known region that contains it, or to region 0, the whole scene.
  * Regions of all levels are numbered in the order in which they are added, a region after those that contain it.
+ *
+ * Counts in the MIS weights depend on regions (counts.h), so both walks that can make a path must find the same region
+ * for a vertex. They compute its position in different ways, and rounding may carry a point on the border of two cubes
+ * into either. Scenes have floors and tables at round heights. So cubes are shifted by an irrational fraction of their
+ * width: no flat surface at a round coordinate lies on a border.
+ *
+ * Tests: test_regions.c.
  */
 #ifndef ASBDPT_TABLES_REGIONS_H
 #define ASBDPT_TABLES_REGIONS_H
@@ -13,35 +20,31 @@
 #include <stdint.h>
 
 #include "base/vec.h"
+#include "tables/table.h"
+
+enum { REGION_LEVELS = 4 };
 
 struct region_slot {
     uint64_t key; /* level, coordinates of the cube and face, packed; 0: free */
     int32_t number;
 };
 
-struct region {
-    int above; /* the region of the next level that contains it; -1 for region 0 */
-    int level; /* 0: the finest; n_levels: region 0 */
-};
-
 struct regions {
     vec3 origin;              /* corner of cube (0,0,0) */
     double per_metre;         /* cubes of level 0 per unit of length */
     int last[3];              /* the last cube along each axis */
-    int n_levels;             /* 1 .. REGION_LEVELS */
     int limit;                /* largest number of regions */
     struct region_slot *slot; /* [n_slots], owned */
     size_t n_slots;           /* a power of 2, at least 2 limit; 0: there is only region 0 */
-    struct region *region;    /* [limit], owned */
+    int *above, *level;       /* [limit] the tree of regions (struct axis); owned */
     int n;                    /* number of regions of all levels, >= 1 */
 };
 
-enum { REGION_LEVELS = 4 };
+static inline struct axis regions_axis(const struct regions *r) { return (struct axis){r->n, r->above, r->level}; }
 
 /* regions_init: start with region 0 alone. The diagonal of the box from `low` to `high` is `cells` cubes of level 0
- * long. Points outside the box belong to the outermost cubes. Cubes are shifted by an irrational fraction of their
- * width, so that a floor or table at a round height does not lie on the border of two. */
-void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int n_levels, int limit);
+ * long. Points outside the box belong to the outermost cubes. */
+void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int limit);
 void regions_free(struct regions *r);
 
 /* regions_key: the key of the region of level 0 of a surface point. `side` is the unit normal of its side, or 0 for a

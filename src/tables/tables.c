@@ -4,16 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-const struct tables NO_TABLES = {.guide = {.n = 0}};
+const struct tables NO_TABLES = {.use = NULL};
 
 void tables_free(struct tables *t)
 {
-    regions_free(&t->eye);
-    regions_free(&t->light);
-    free(t->importance.E);
-    free(t->importance.vertices);
-    guide_free(&t->guide);
-    emission_free(&t->emission);
-    free(t->pairs.h);
+    regions_free(&t->regions);
+    free(t->use);
+    free(t->vertices);
+    table_free(&t->direct);
+    table_free(&t->pairs);
+    table_free(&t->emission);
     memset(t, 0, sizeof *t);
 }

@@ -1,10 +1,8 @@
 /* connect.c: see connect.h. */
 #include "transport/connect.h"
 
-#include "tables/emit.h"
-#include "transport/counts.h"
-
-static struct connection nothing(void) { return (struct connection){.light = -1, .cell = -1}; }
+#include "base/alias.h"
+#include "tables/emission.h"
 
 /* Scattering at a surface vertex towards wi: factor of the throughput, and both densities (1/sr). */
 struct scatter {
@@ -24,7 +22,7 @@ static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, en
 /* Media between vertex a and a point on primitive `to`, at a distance in direction w. Their transmittance is a factor
  * of c's value. The densities of the passage are factors of the densities of both ends, and so of the sums (5) of
  * mis.h. */
-static inline void pass_media(const struct scene *scene, const struct mis_counts *counts, const struct vertex *a,
+static inline void pass_media(const struct scene *scene, const struct counts *counts, const struct vertex *a,
                               vec3 w, double distance, uint64_t to, struct connection *c, double *side_a,
                               double *side_b)
 {
@@ -37,43 +35,48 @@ static inline void pass_media(const struct scene *scene, const struct mis_counts
     *side_b *= mis_raise(counts, way.density[1]);
 }
 
-struct connection connect_hit(const struct scene *scene, const struct mis_counts *counts, const struct vertex *prev,
+struct connection connect_hit(const struct scene *scene, const struct counts *counts, const struct vertex *prev,
                               const struct vertex *z, int t)
 {
     const struct light_set *lights = &scene->lights;
-    struct light_point at = {.light = -1};
-    vec3 start = prev->p; /* a point on the light sub-path's first ray */
-    rgb Le;
-    if (z->lamp != NULL)
-        z = z->lamp;
-    if (z->kind == VERTEX_ESCAPED) {
-        Le = light_Le_environment(lights, neg(z->wo), t == 2);
-        at.w = neg(z->wo);
-    } else if (z->kind == VERTEX_SURFACE && z->light >= 0 && !(t == 2 && lights->light[z->light].hidden)) {
-        at = vertex_light_point(z);
-        Le = light_Le(lights, &at, z->wo);
-        start = z->p;
-    } else {
-        return nothing();
-    }
-    struct connection c = nothing();
-    c.value = rgb_mul(z->beta, Le); /* C* = alpha_t Le [V97 10.2] */
-    c.length = z->length;
-    c.light = at.light < 0 ? lights->infinite[0] : at.light;
-    if (rgb_is_black(c.value))
-        return nothing();
-    if (t == 2) {
-        c.weight = 1;
+    struct connection c = {.light = -1};
+    z = z->lamp != NULL ? z->lamp : z;
+    if (z->light < 0 || (t == 2 && z->kind == VERTEX_SURFACE && lights->light[z->light].hidden))
         return c;
-    }
-    double c_e = 0; /* n of s = 1, which connects prev to z; z->mis_c is n of s >= 2 */
-    if (!z->prev_delta)
-        c_e = n_direct(counts, lights, prev->eye_region, prev->eye_end, z->cell, neg(z->wo));
+    struct light_point at = vertex_light_point(z);
+    c.light = z->light;
+    rgb Le = z->kind == VERTEX_ESCAPED ? light_Le_sky(lights, at.w, t == 2) : light_Le(lights, &at, z->wo);
+    c.value = rgb_mul(z->beta, Le); /* C* = alpha_t Le [V97 10.2] */
+    c.weight = 1;
+    if (rgb_is_black(c.value) || t == 2)
+        return c;
+    /* n of s = 1, which connects prev to z; z->mis_c is n of s >= 2 */
+    double c_e = z->prev_delta ? 0 : n_direct(counts, prev->region, prev->eye_end, z->cell);
     /* density of the direction of the light sub-path's first ray; at infinity, of its origin */
-    double pdf_emit = emit_pdf(&counts_tables(counts)->emission, lights, &at, start, z->wo);
+    const vec3 start = z->kind == VERTEX_ESCAPED ? prev->p : z->p;
+    double pdf_emit = emission_pdf(&counts->tables->emission, lights, &at, start, z->wo);
     double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, c_e, pdf_emit, z->mis); /* mis.h (5) */
     c.weight = mis_weight(counts, counts->hit[prev->eye_end], 0, eye_side); /* mis.h (7), A_light being 0 */
     return c;
+}
+
+bool connect_light_draw(const struct scene *scene, const struct counts *counts, const struct vertex *z,
+                        struct sampler *sampler, int i, int n, struct light_point *at, double *pdf)
+{
+    const struct light_set *lights = &scene->lights;
+    const struct table *table = &counts->tables->direct;
+    double u[3], pmf;
+    double number = below_one((i + sampler_number(sampler, DRAW_LIGHT)) / n);
+    sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
+    at->light = at->cell = -1;
+    if (!vertex_connectible(z) || lights->choice.n == 0)
+        return false;
+    int cell = table->rows > 0 ? table_draw(table, z->region, table_all(table), number, &pmf, &u[0])
+                               : alias_sample(&lights->choice, number, &pmf, &u[0]);
+    if (!light_sample_cell(lights, &scene->geo, cell, u, at))
+        return false;
+    *pdf = pmf * at->pdf_cell;
+    return at->pdf > 0;
 }
 
 bool connect_light(const struct scene *scene, const struct vertex *z, const struct light_point *at, double pdf,
@@ -98,30 +101,12 @@ bool connect_light(const struct scene *scene, const struct vertex *z, const stru
     double at_light = light->kind == LIGHT_AREA ? abs_dot(at->n, w) * spread : spread;
     /* C* = (Le / pdf) c alpha_t, c = G f: the cosine at z is in the factor [V97 10.2] */
     rgb value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / pdf));
-    *out = (struct lit){z, *at, pdf, value, at_z.pdf, at_z.pdf_rev, at_light, w, distance, spread};
+    *out = (struct lit){.z = z, .at = *at, .pdf = pdf, .value = value, .pdf_z = at_z.pdf, .pdf_rev_z = at_z.pdf_rev,
+                        .at_light = at_light, .w = w, .distance = distance, .spread = spread};
     return !rgb_is_black(value);
 }
 
-bool connect_light_point(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                         struct sampler *sampler, int i, int n, struct lit *out)
-{
-    double u[3];
-    u[0] = below_one((i + sampler_number(sampler, DRAW_LIGHT)) / n);
-    sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
-    const struct light_set *lights = &scene->lights;
-    struct light_point at;
-    double pmf;
-    out->value = rgb_black();
-    if (!vertex_connectible(z) || lights->choice.n == 0)
-        return false;
-    int cell = guide_draw(&counts_tables(counts)->guide, lights, z->eye_region, u[0], &pmf);
-    if (!light_sample_cell(lights, &scene->geo, cell, u[1], u[2], &at) || !(at.pdf > 0))
-        return false;
-    at.cell = cell;
-    return connect_light(scene, z, &at, pmf * at.pdf_cell, out);
-}
-
-struct connection connect_lit(const struct scene *scene, const struct mis_counts *counts, const struct lit *l)
+struct connection connect_lit(const struct scene *scene, const struct counts *counts, const struct lit *l)
 {
     const struct light_set *lights = &scene->lights;
     const struct vertex *z = l->z;
@@ -129,31 +114,29 @@ struct connection connect_lit(const struct scene *scene, const struct mis_counts
     bool parallel = light_at_infinity(&lights->light[at->light]);
     if (rgb_is_black(l->value) || !(parallel ? scene_lit_from(scene, z->p, z->prim_id, at->w)
                                              : scene_lit(scene, z->p, z->prim_id, at->p, at->prim_id)))
-        return nothing();
+        return (struct connection){.light = -1};
     double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
     /* mis.h (5); the light side has the strategy s = 0 alone */
-    double light = mis_side(counts, l->pdf_z * l->at_light, vertex_light_pdf(lights, at), hit, 0, 0);
-    double pdf_emit = emit_pdf(&counts_tables(counts)->emission, lights, at, z->p, neg(l->w));
+    double light = mis_side(counts, l->pdf_z * l->at_light, at->pdf, hit, 0, 0);
+    double pdf_emit = emission_pdf(&counts->tables->emission, lights, at, z->p, neg(l->w));
     double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
-    double count = n_direct(counts, lights, z->eye_region, z->eye_end, at->cell, at->w);
-    struct connection c = nothing();
-    c.value = l->value;
-    c.length = z->length + (parallel ? light_distance(lights, z->p, l->w) : l->distance);
+    double count = n_direct(counts, z->region, z->eye_end, at->cell);
+    struct connection c = {.value = l->value, .light = at->light};
     pass_media(scene, counts, z, l->w, l->distance, at->prim_id, &c, &eye, &light);
     c.weight = mis_weight(counts, count, light, eye); /* mis.h (7) */
-    c.end = parallel ? at->w : at->p;
-    c.light = at->light;
-    c.cell = at->cell;
-    c.pdf = l->pdf;
     return c;
 }
 
-struct connection connect_direct(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
-                                 struct sampler *sampler, int i, int n)
+struct connection connect_direct(const struct scene *scene, const struct counts *counts, const struct vertex *z,
+                                 struct sampler *sampler, int i, int n, struct light_point *y0)
 {
     struct lit l;
-    return connect_light_point(scene, counts, z, sampler, i, n, &l) ? connect_lit(scene, counts, &l) : nothing();
+    double pdf;
+    struct connection c = {.light = -1};
+    if (connect_light_draw(scene, counts, z, sampler, i, n, y0, &pdf) && connect_light(scene, z, y0, pdf, &l))
+        c = connect_lit(scene, counts, &l);
+    return c;
 }
 
 bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *out)
@@ -173,36 +156,36 @@ bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *
     struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
     /* C* = alpha_s c alpha_t, c = f G f: both cosines are in the factors [V97 10.2] */
     rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), 1 / d2));
-    *out = (struct joint){y, z, value, at_y.pdf, at_z.pdf, at_y.pdf_rev, at_z.pdf_rev, distance, w,
-                          vertex_cosine(y, w) / d2, vertex_cosine(z, w) / d2};
+    *out = (struct joint){.y = y, .z = z, .value = value, .pdf_y = at_y.pdf, .pdf_z = at_z.pdf,
+                          .pdf_rev_y = at_y.pdf_rev, .pdf_rev_z = at_z.pdf_rev, .length = distance, .w = w,
+                          .area_y = vertex_cosine(y, w) / d2, .area_z = vertex_cosine(z, w) / d2};
     return !rgb_is_black(value);
 }
 
-struct connection connect_joint(const struct scene *scene, const struct mis_counts *counts, const struct joint *j)
+struct connection connect_joint(const struct scene *scene, const struct counts *counts, const struct joint *j)
 {
     const struct vertex *y = j->y, *z = j->z;
-    struct connection c = nothing();
+    struct connection c = {.light = -1};
     if (rgb_is_black(j->value) || !scene_visible(scene, z->p, z->prim_id, y->p, y->prim_id))
         return c;
     /* mis.h (5), of both sides */
     double light = mis_side(counts, j->pdf_z * j->area_y, y->pdf_fwd, y->mis_c, j->pdf_rev_y, y->mis);
     double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
     c.value = j->value;
-    c.length = y->length + j->length + z->length;
-    double n = n_connect(counts, y->light_region, z->eye_region, z->eye_end);
+    double n = n_pair(counts, z->region, z->eye_end, y->region);
     pass_media(scene, counts, z, j->w, j->length, y->prim_id, &c, &eye, &light);
     c.weight = mis_weight(counts, n, light, eye); /* mis.h (7) */
     return c;
 }
 
-struct connection connect_pair(const struct scene *scene, const struct mis_counts *counts, const struct vertex *y,
+struct connection connect_pair(const struct scene *scene, const struct counts *counts, const struct vertex *y,
                                const struct vertex *z)
 {
     struct joint j;
-    return connect_join(y, z, &j) ? connect_joint(scene, counts, &j) : nothing();
+    return connect_join(y, z, &j) ? connect_joint(scene, counts, &j) : (struct connection){.light = -1};
 }
 
-struct connection connect_lens(const struct scene *scene, const struct mis_counts *counts, const struct vertex *light,
+struct connection connect_lens(const struct scene *scene, const struct counts *counts, const struct vertex *light,
                                int s, struct sampler *sampler)
 {
     const struct vertex *y = &light[s - 1];
@@ -210,35 +193,33 @@ struct connection connect_lens(const struct scene *scene, const struct mis_count
     if (scene->camera.lens_radius > 0)
         sampler_pair(sampler, DRAW_LENS_POINT, u);
     if (!vertex_connectible(y))
-        return nothing();
+        return (struct connection){.light = -1};
     vec3 lens = camera_sample_lens(&scene->camera, y->p, u[0], u[1]);
     vec3 d = sub(y->p, lens);
     double d2 = length2(d);
     if (!(d2 > 0) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
-        return nothing();
+        return (struct connection){.light = -1};
     double distance = sqrt(d2);
     vec3 w = mul(d, 1 / distance);
-    struct connection c = nothing();
-    c.length = y->length + distance;
+    struct connection c = {.light = -1};
     double J = camera_project(&scene->camera, lens, w, &c.px, &c.py);
     const double rx = scene->filter.radius[0], ry = scene->filter.radius[1];
     if (J == 0 || c.px < -rx || c.py < -ry || c.px > scene->width + rx || c.py > scene->height + ry)
-        return nothing();
+        return (struct connection){.light = -1};
     struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
     /* C* = alpha_s f (We cos / lens density) [V97 10.2], and We cos / (lens density) = J, see camera.h. */
     double density = J * camera_spread(&scene->camera, d2);
     c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, density));
     if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->prim_id))
-        return nothing();
+        return (struct connection){.light = -1};
     /* The light walk counted y as a later hit. Next to the lens it is the first hit, so c_e differs from y->mis_c. If
      * s = 2, the count of s = 0 in y->mis differs, too. */
-    double c_e = c_light(counts, &scene->lights, &light[s - 2], y, FIRST_HIT);
+    double c_e = c_light(counts, &light[s - 2], y, FIRST_HIT);
     double mis = y->mis, eye_side = 0;
     if (s == 2 && !light_is_delta(&scene->lights.light[light[0].light]))
         mis = mis_step(counts, counts->hit[FIRST_HIT], 0, 0, light[0].pdf_fwd, y->back);
     double light_side = mis_side(counts, density * vertex_cosine(y, w), y->pdf_fwd, c_e, at_y.pdf_rev, mis);
     pass_media(scene, counts, y, neg(w), distance, 0, &c, &light_side, &eye_side);
-    c.weight = mis_weight(counts, counts->splat, light_side, eye_side); /* mis.h (7) */
-    c.end = lens;
+    c.weight = mis_weight(counts, counts->lens, light_side, eye_side); /* mis.h (7) */
     return c;
 }

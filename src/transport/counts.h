@@ -1,62 +1,70 @@
-/* counts.h: how many samples a strategy takes for a path (mis.h). The number n is a function of the two ends of the
- * connecting edge: a number of struct mis_counts times factors from tables for the places of the two ends (tables.h). A
- * walk that arrives at the second end knows both, so every strategy computes the same number for the same path.
+/* counts.h: how many samples each kind of strategy takes, and how many these count as in the weights (mis.h).
+ *
+ *   hit     s = 0          the eye walk meets a light
+ *   direct  s = 1          connection to a new point on a light
+ *   pair    s >= 2, t >= 2 connection to a light vertex
+ *   lens    s >= 2, t = 1  connection of a light vertex to the lens
+ *
+ * The number n of a strategy for a path is a function of the two ends of the connecting edge: a number of struct counts
+ * times a ratio of a table for the places of the two ends (tables.h). A walk that arrives at the second end knows both,
+ * so every strategy computes the same number for the same path.
+ *
+ * The balance heuristic compares second moments. The samples of some strategies are better distributed than independent
+ * samples and have less variance. Such a strategy deserves a higher count, a credit [Grittmann 2019]. The weights still
+ * add up to 1.
  */
 #ifndef ASBDPT_COUNTS_H
 #define ASBDPT_COUNTS_H
 
+#include <stdbool.h>
+
 #include "tables/tables.h"
-#include "transport/vertex.h"
 
-/* How many samples of each kind a method takes, in each iteration. */
+/* Where the eye sub-path of a strategy with t >= 2 ends: at a vertex that the camera sees directly or through delta
+ * lobes alone, or at a later vertex. */
+enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
+
+/* How many samples a method takes, in each iteration of a pixel. */
 struct numbers {
-    int path_pixels;     /* pixels per light sub-path; 0: there are no light sub-paths */
-    int draws[EYE_ENDS]; /* light vertices that an eye vertex is joined to; BDPT: all vertices of one sub-path, once */
-    int light_points;    /* points on lights that a first hit is joined to; a later hit is joined to one */
-    bool path_tracing;   /* does it use the strategies of path tracing, s = 0 (t >= 3) and s = 1? */
+    int light_points;     /* points on lights that a first hit is joined to; a later hit is joined to one. 0: the method
+                           * does not use the strategies of path tracing, s = 0 (t >= 3) and s = 1 */
+    int draws[EYE_ENDS];  /* light vertices that an eye vertex is joined to; BDPT: all vertices of one sub-path, once */
+    int path_pixels;      /* pixels per light sub-path; 0: there are no light sub-paths */
 };
 
-/* One eye sub-path, one light sub-path, and all connections between them. */
-#define NUMBERS_OF_BDPT {.path_pixels = 1, .draws = {1, 1}, .light_points = 1, .path_tracing = true}
+/* An eye sub-path alone; an eye sub-path, a light sub-path, and all connections between them. */
+#define NUMBERS_OF_PT {.light_points = 1}
+#define NUMBERS_OF_BDPT {.light_points = 1, .draws = {1, 1}, .path_pixels = 1}
 
-/* How many independent samples one sample counts as (see struct mis_counts). */
-struct credits {
-    double direct; /* direct light at a first hit: s = 1, and s = 0 if the edge before the light begins there */
-    double draw;   /* s >= 2, t >= 2 */
+/* What they count as; 0: the method does not use the strategy.
+ *
+ * A light walk cannot know which kind of eye vertex it is at, and takes every vertex for a later hit. This is wrong
+ * only at its last vertex if the lens is next (connect_lens). Between any other first hit and the lens there are delta
+ * lobes, where no strategy ends. */
+struct counts {
+    double hit[EYE_ENDS];    /* t >= 3; by the kind of z_{t-2} */
+    double direct[EYE_ENDS]; /* times the ratio of tables->direct */
+    double pair[EYE_ENDS];   /* times the ratio of tables->pairs */
+    double lens;             /* light sub-paths, those of all pixels of the film */
+    const struct tables *tables;
+    bool power;              /* power heuristic instead of the balance heuristic */
 };
-static const struct credits NO_CREDITS = {1, 1};
 
-/* counts_of: the counts in the weights: numbers times credits.
+/* counts_of: numbers times credits.
+ *   direct  credit of direct light at a first hit: s = 1, and s = 0 if the edge before the light begins there
+ *   pair    credit of s >= 2, t >= 2
  *   pixels  number of pixels of the film; a light sub-path may reach each of them */
-struct mis_counts counts_of(struct numbers n, struct credits c, double pixels);
+struct counts counts_of(struct numbers n, double direct, double pair, double pixels, const struct tables *tables);
 
-static inline const struct tables *counts_tables(const struct mis_counts *c)
+/* n_direct: n of the strategy s = 1 that joins an eye vertex in a region to a point of a light cell.
+ * n_pair: n of the strategy that joins an eye vertex in region e to a light vertex in region l. */
+static inline double n_direct(const struct counts *c, int region, enum eye_end end, int cell)
 {
-    return c->tables != NULL ? c->tables : &NO_TABLES;
+    return c->direct[end] * table_ratio(&c->tables->direct, region, cell);
 }
-
-/* n_connect: n of the strategy s >= 2, t >= 2 with its light end in region l and its eye end in region e. Draws do not
- * count as more samples than there are sub-paths to draw from. */
-static inline double n_connect(const struct mis_counts *c, int l, int e, enum eye_end end)
+static inline double n_pair(const struct counts *c, int e, enum eye_end end, int l)
 {
-    double n = c->connect[end] * pairs_worth(&counts_tables(c)->pairs, e, l);
-    return c->most > 0 ? n * c->most / (n + c->most) : n;
+    return c->pair[end] * table_ratio(&c->tables->pairs, e, l);
 }
-
-/* n_direct: n of the strategy s = 1, t >= 2 that joins a surface point in region e to the light point y_0.
- *   cell, w  of y_0, see guide_density */
-static inline double n_direct(const struct mis_counts *c, const struct light_set *lights, int e, enum eye_end end,
-                              int cell, vec3 w)
-{
-    double n = c->direct[end];
-    return n > 0 ? n * guide_density(&counts_tables(c)->guide, lights, e, cell, w) : 0;
-}
-
-/* c_light: c_e of mis.h (3) for vertex y of a light sub-path: n of the strategy that connects prev, the vertex before,
- * to y, which then is an eye vertex of kind `end`; 0 if prev was left by a delta lobe.
- * c_eye: the same for vertex z of an eye sub-path, which then is the light vertex that is connected to prev. */
-double c_light(const struct mis_counts *c, const struct light_set *lights, const struct vertex *prev,
-               const struct vertex *y, enum eye_end end);
-double c_eye(const struct mis_counts *c, const struct vertex *prev, const struct vertex *z);
 
 #endif

@@ -29,8 +29,8 @@
  * A delta lobe has the coefficient of a delta distribution instead of a density. R and F have the same distribution, so
  * it cancels in R/F (bsdf.h).
  *
- * The sample counts n describe a method (struct mis_counts). The counts may differ between paths, as long as every
- * strategy computes the same number for the same path.
+ * The sample counts n describe a method (counts.h). The counts may differ between paths, as long as every strategy
+ * computes the same number for the same path.
  *
  * VCM [Georgiev 2012] and SmallVCM have three partial sums. Two of them are ours divided by F_e (in struct vertex:
  * mis_c / pdf_fwd and mis / pdf_fwd):
@@ -45,55 +45,30 @@
 #ifndef ASBDPT_MIS_H
 #define ASBDPT_MIS_H
 
-#include <stdbool.h>
-
-struct tables;
-
-/* Where the eye sub-path of a strategy with t >= 2 ends: at a vertex that the camera sees directly or through delta
- * lobes alone, or at a later vertex. */
-enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
-
-/* How many samples each kind of strategy takes per pixel and iteration; 0: the method does not use the strategy. A
- * method may count a strategy for more samples than it takes: the weights still add up to 1. The balance heuristic
- * compares second moments. The samples of some strategies are better distributed than independent samples and have less
- * variance. Such a strategy deserves a higher count, a credit [Grittmann 2019].
- *
- * A light walk cannot know which kind of eye vertex it is at, and takes every vertex for a later hit. This is wrong
- * only at its last vertex if the lens is next (connect_lens). Between any other first hit and the lens there are delta
- * lobes, where no strategy ends. */
-struct mis_counts {
-    double hit[EYE_ENDS];     /* s = 0, t >= 3: the eye walk meets a light; by the kind of z_{t-2} */
-    double direct[EYE_ENDS];  /* s = 1: connection to a new point on a light */
-    double connect[EYE_ENDS]; /* s >= 2, t >= 2: connection to light vertices */
-    double most;              /* bound of n_connect: the number of sub-paths that share a pool; 0: no bound */
-    double splat;             /* s >= 2, t = 1: light sub-paths joined to the lens, those of all pixels of the film */
-    const struct tables *tables; /* factors of connect and direct by place, and of the density of the light walk's
-                                  * first ray (counts.h); NULL: none */
-    bool power;               /* power heuristic instead of the balance heuristic */
-};
+#include "transport/counts.h"
 
 /* mis_raise: a density or count to the power of the heuristic. */
-static inline double mis_raise(const struct mis_counts *m, double x) { return m->power ? x * x : x; }
+static inline double mis_raise(const struct counts *m, double x) { return m->power ? x * x : x; }
 
 /* mis_step: (6), from vertex e to e+1.
  *   c        c_e, or 0 if the walk left e by a delta lobe
  *   pdf_rev  1/sr, of continuing from e to e-1
  *   mis, F   of vertex e
  *   g        1/m^2: turns a density per steradian at e+1 into one per area at e */
-static inline double mis_step(const struct mis_counts *m, double c, double pdf_rev, double mis, double F, double g)
+static inline double mis_step(const struct counts *m, double c, double pdf_rev, double mis, double F, double g)
 {
     return mis_raise(m, g) * (mis_raise(m, c) + mis_raise(m, pdf_rev) * mis) / mis_raise(m, F);
 }
 
 /* mis_side: (5): A_e, the sum over the strategies of one side, relative to one sample of strategy s.
  *   R        density of vertex e in the other walk, same measure as F */
-static inline double mis_side(const struct mis_counts *m, double R, double F, double c, double pdf_rev, double mis)
+static inline double mis_side(const struct counts *m, double R, double F, double c, double pdf_rev, double mis)
 {
     return mis_raise(m, R) / mis_raise(m, F) * (mis_raise(m, c) + mis_raise(m, pdf_rev) * mis);
 }
 
 /* mis_weight: (7): w_s from the sums of the two sides and the strategy's own count n. */
-static inline double mis_weight(const struct mis_counts *m, double n, double light_side, double eye_side)
+static inline double mis_weight(const struct counts *m, double n, double light_side, double eye_side)
 {
     double own = mis_raise(m, n);
     return own / (own + light_side + eye_side);

@@ -1,8 +1,8 @@
 /* observer.h: functions that are called with every path that a method makes.
  *
- * A render is a sum of weighted paths. pixel_sample.c calls the observers in the one place where it adds a path, so
- * they get the same numbers as the film. Added up in their order, the contributions with t >= 2 are the value that the
- * film receives, to the last bit. Without an observer this costs the comparison of a pointer.
+ * A render is a sum of weighted paths. sample.c calls the observers in the one place where it adds a path, so they get
+ * the same numbers as the film. Added up in their order, the contributions with t >= 2 are the value that the film
+ * receives, to the last bit. Without an observer this costs the comparison of a pointer.
  *
  * Tests: test_trace.c.
  */
@@ -11,30 +11,31 @@
 
 #include "transport/connect.h"
 
-struct pixel_sample;
+struct sample;
 
 /* One strategy (s,t) that was tried: a path, or nothing if the value is black. */
 struct joined {
     int s, t;
-    const struct vertex *y, *z;  /* its ends y_{s-1} and z_{t-1}; the vertices before each are in front of it in memory.
-                                  * y: NULL if s <= 1; z: NULL if t = 1, or if it is not the sample's own vertex */
-    const struct connection *c;  /* value C*, weight, length, light, point on light or lens */
+    const struct vertex *light;  /* [s] the light sub-path; NULL if s <= 1 */
+    const struct vertex *z;      /* z_{t-1}; the vertices before it are in front of it in memory. NULL if t = 1, or if it
+                                  * is not the sample's own vertex */
+    const struct connection *c;  /* value C*, weight, light */
+    const struct light_point *y0; /* s = 1: the light point that was drawn; else NULL */
     double pmf;                  /* probability with which it was chosen; 1: there was no choice */
     double scale;                /* other factors of C*: 1/number of samples, 1/pmf, filter */
     rgb added;                   /* C* times scale times weight; t = 1: at raster point (c->px, c->py) */
 };
 
 /* joined_light: number of the light that a path begins on. */
-static inline int joined_light(const struct joined *j) { return j->s > 1 ? j->y[1 - j->s].light : j->c->light; }
+static inline int joined_light(const struct joined *j) { return j->s > 1 ? j->light[0].light : j->c->light; }
 
 /* Each function may be NULL. Its arguments are valid only during the call. */
 struct observer {
     void *context; /* passed to all functions */
     /* A sub-path that the sample uses, possibly more than once; RADIANCE: its eye sub-path. */
-    void (*walked)(void *context, const struct pixel_sample *sample, enum transport mode, const struct vertex *path,
-                   int n);
+    void (*walked)(void *context, const struct sample *sample, enum transport mode, const struct vertex *path, int n);
     /* A path is about to be added to the sample's sums (t >= 2), or to the tile's splats. */
-    void (*joined)(void *context, const struct pixel_sample *sample, const struct joined *path);
+    void (*joined)(void *context, const struct sample *sample, const struct joined *path);
     const struct observer *next; /* the next observer, or NULL */
 };
 

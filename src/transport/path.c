@@ -3,8 +3,22 @@
 
 #include <string.h>
 
-#include "tables/emit.h"
-#include "transport/counts.h"
+#include "tables/emission.h"
+
+double c_light(const struct counts *c, const struct vertex *prev, const struct vertex *y, enum eye_end end)
+{
+    if (y->prev_delta)
+        return 0;
+    return prev->kind == VERTEX_LIGHT ? n_direct(c, y->region, end, prev->cell)
+                                      : n_pair(c, y->region, end, prev->region);
+}
+
+double c_eye(const struct counts *c, const struct vertex *prev, const struct vertex *z)
+{
+    if (z->prev_delta)
+        return 0;
+    return prev->kind == VERTEX_LENS ? c->lens : n_pair(c, prev->region, prev->eye_end, z->region);
+}
 
 /* The density per area is F_e of mis.h: the density per steradian times the cosine over distance^2 [PBRT3 5.5.3]. The
  * vertex's `mis` is equation (6) there. */
@@ -31,22 +45,22 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
     }
 }
 
-/* The ray met no surface. If there are infinite lights, or if it passed a see-through light, the eye sub-path ends on
- * them. Its density is that of the direction. [PBRT3 16.3.5] */
+/* The ray met no surface. If there is a sky, or if it passed a see-through light, the eye sub-path ends there. Its
+ * density is that of the direction. [PBRT3 16.3.5] */
 static bool escape(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                    const struct vertex *lamp)
 {
-    if (w->scene->lights.n_infinite == 0 && lamp == NULL)
+    const struct light_set *lights = &w->scene->lights;
+    if (lights->n_layers == 0 && lamp == NULL)
         return false;
     memset(v, 0, sizeof *v);
     v->kind = VERTEX_ESCAPED;
-    v->light = v->cell = -1;
+    v->pdf_origin = light_pdf_sky(lights, from->ray.d, &v->cell);
+    v->light = v->cell >= 0 ? lights->sky : -1;
     v->lamp = lamp;
     v->prev_delta = from->delta;
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
-    v->length = prev->length + light_distance(&w->scene->lights, from->ray.o, from->ray.d);
-    v->pdf_origin = light_pdf_environment(&w->scene->lights, from->ray.d);
     measure(w, v, prev, from, 1); /* per steradian, as if at distance 1 */
     return true;
 }
@@ -62,13 +76,12 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->ng = at->ng;
     v->prev_delta = from->delta;
     v->light = at->light;
-    v->cell = at->light < 0 ? -1 : w->scene->lights.light[at->light].first_cell;
+    v->cell = at->light < 0 ? -1 : w->scene->lights.light[at->light].cell;
     v->p = at->p;
     v->prim_id = at->prim_id;
     v->wo = neg(from->ray.d);
     v->beta = from->beta;
-    v->pdf_origin = mode == RADIANCE && at->light >= 0 ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
-    v->length = prev->length + sqrt(d2);
+    v->pdf_origin = mode == RADIANCE ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
     measure(w, v, prev, from, d2);
     return true;
 }
@@ -92,17 +105,13 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
 {
     if (!meet(w, v, prev, from, at, mode))
         return false;
-    const struct tables *tables = counts_tables(w->counts);
     bool first =
         prev->kind == VERTEX_LENS || (prev->kind == VERTEX_SURFACE && prev->eye_end == FIRST_HIT && from->delta);
     v->eye_end = mode == RADIANCE && first ? FIRST_HIT : LATER_HIT;
     v->material = at->material;
-    v->pdf_rev = 0;
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
-    v->eye_region = region_at(&tables->eye, v->p, vertex_side(v));
-    v->light_region = region_at(&tables->light, v->p, vertex_side(v));
-    v->mis_c = mode == RADIANCE ? c_eye(w->counts, prev, v)
-                                : c_light(w->counts, &w->scene->lights, prev, v, LATER_HIT);
+    v->region = region_at(&w->counts->tables->regions, v->p, vertex_side(v));
+    v->mis_c = mode == RADIANCE ? c_eye(w->counts, prev, v) : c_light(w->counts, prev, v, LATER_HIT);
     return true;
 }
 
@@ -173,7 +182,6 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
         n++;
         if (n == max_vertices || !walk_leave(w, &path[n - 1], mode, &from))
             break;
-        path[n - 1].pdf_rev = from.pdf_rev;
         if (n > 2 && !survives(w, rgb_max(from.beta) / first, &from.beta))
             break;
     }
@@ -218,23 +226,22 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
     sampler_pair(w->sampler, DRAW_EMISSION, direction);
     struct light_point at;
     struct departure from = {.pdf = 0};
-    double pdf;
-    rgb emitted = emit_sample(&counts_tables(w->counts)->emission, &w->scene->lights, &w->scene->geo, u, direction, &at,
-                              &from.ray, &pdf, &from.pdf);
-    if (max_vertices < 1 || !(pdf > 0) || rgb_is_black(emitted))
+    rgb emitted = emission_sample(&w->counts->tables->emission, &w->scene->lights, &w->scene->geo, u, direction, &at,
+                                  &from.ray, &from.pdf);
+    if (max_vertices < 1 || !(from.pdf > 0) || rgb_is_black(emitted))
         return 0;
     vertex_light_end(w->scene, w->counts, &at, &path[0]);
     path[0].beta = light_Le(&w->scene->lights, &at, from.ray.d);
-    from.beta = rgb_scale(emitted, 1 / (at.pdf * pdf)); /* alpha_2 of [V97 eq. 10.6] */
+    from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf)); /* alpha_2 of [V97 eq. 10.6] */
     from.ray.tmin = ray_margin(from.ray.o) * (at.prim_id != 0 ? -1 : 1);
     return walk_on(w, from, path, 1, max_vertices, IMPORTANCE);
 }
 
-double path_importance(const struct importance *importance, const struct vertex *light, int n)
+double path_use(const struct tables *tables, const struct vertex *light, int n)
 {
     double sum = 0;
     for (int i = 1; i < n; i++)
         if (vertex_connectible(&light[i]))
-            sum += rgb_luminance(light[i].beta) * importance_in(importance, light[i].light_region);
+            sum += rgb_luminance(light[i].beta) * tables->use[light[i].region];
     return sum;
 }

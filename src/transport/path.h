@@ -21,7 +21,7 @@
 
 #include "base/mem.h"
 #include "base/sampler.h"
-#include "tables/importance.h"
+#include "transport/mis.h"
 #include "transport/vertex.h"
 
 enum { PATH_MAX_DEPTH = 1000 }; /* largest maxdepth accepted */
@@ -29,7 +29,7 @@ enum { PATH_MAX_DEPTH = 1000 }; /* largest maxdepth accepted */
 /* The parameters of a walk. */
 struct walk {
     const struct scene *scene;
-    const struct mis_counts *counts;
+    const struct counts *counts;
     struct arena *arena; /* holds the lobes of the vertices */
     struct sampler *sampler;
     double rr_threshold; /* fraction of the first throughput below which Russian roulette begins; 0: never */
@@ -56,9 +56,15 @@ static inline double path_throughput(const struct vertex *light, int n)
     return n < 1 ? 0 : rgb_mean(light[n - 1].beta);
 }
 
-/* path_importance: the sum of I (importance.h) over the connectible vertices y_1 .. of a light sub-path: how much of it
- * the camera can use. */
-double path_importance(const struct importance *importance, const struct vertex *light, int n);
+/* path_use: the sum of luminance(beta) times `use` of the place (tables.h) over the connectible vertices y_1 .. of a
+ * light sub-path: how much of it the camera can use. */
+double path_use(const struct tables *tables, const struct vertex *light, int n);
+
+/* c_light: c_e of mis.h (3) for vertex y of a light sub-path: n of the strategy that connects prev, the vertex before,
+ * to y, which then is an eye vertex of kind `end`; 0 if prev was left by a delta lobe.
+ * c_eye: the same for vertex z of an eye sub-path, which then is the light vertex that is connected to prev. */
+double c_light(const struct counts *c, const struct vertex *prev, const struct vertex *y, enum eye_end end);
+double c_eye(const struct counts *c, const struct vertex *prev, const struct vertex *z);
 
 /* --- the walk itself, step by step -------------------------------------------------------------------- */
 

@@ -6,7 +6,7 @@
 #define ASBDPT_TRANSPORT_TILE_PASS_H
 
 #include "scene/film.h"
-#include "transport/path.h"
+#include "transport/pool.h"
 
 struct observer;
 
@@ -35,16 +35,15 @@ struct pass_size {
     int tile;   /* pixels along the side, at most MAX_TILE_SIZE */
     int spread; /* tiles that are interleaved on each axis, so that errors that pixels share form no squares */
 };
-enum { LONGEST_BLOCK = 32, DEFAULT_TILE_SIZE = 16, MAX_TILE_SIZE = 32, POOL_SPREAD = 4 };
+enum { LONGEST_BLOCK = 32, DEFAULT_TILE_SIZE = 16, POOL_SPREAD = 4 };
 
 /* Memory of one thread, which all its tile passes use. */
 struct workspace {
-    struct arena arena;
-    struct vertex *eye, *light; /* [max_depth + 2] each; owned */
-    void *scratch;              /* of the method; may be NULL */
+    struct arena arena; /* of one sample */
+    struct vertex *eye; /* [max_depth + 2], owned */
+    struct pool pool;
 };
 
-/* workspaces_new: arenas and sub-paths for n threads; `scratch` is left NULL. */
 struct workspace *workspaces_new(int n, int max_depth);
 void workspaces_free(struct workspace *work, int n);
 

@@ -7,40 +7,33 @@
 #include "material/bsdf.h"
 #include "scene/light.h"
 #include "scene/passage.h"
-#include "transport/mis.h"
+#include "transport/counts.h"
 
 enum vertex_kind {
     VERTEX_LENS,    /* z_0 */
     VERTEX_LIGHT,   /* y_0 */
     VERTEX_SURFACE, /* a scattering point, possibly on an area light */
     VERTEX_MEDIUM,  /* a scattering point within a medium */
-    VERTEX_ESCAPED  /* a direction: the end of an eye sub-path that left the scene, for infinite lights or a `lamp` */
+    VERTEX_ESCAPED  /* a direction: the end of an eye sub-path that left the scene, for the sky or a `lamp` */
 };
 
 /* The meaning of the fields depends on the kind. A dash: not used. Densities are those of the vertex in its own walk.
  * They are per area, or per solid angle for directions towards infinity.
  *
  *                LENS         LIGHT (y_0)                       SURFACE                      ESCAPED
- *   light, cell  -1           its light and light cell          of the area light, or -1     -1
+ *   light, cell  -1           its light and light cell          of the area light, or -1     of the sky, or -1
  *   p            on the lens  on the light; at infinity -       the point                    -
  *   ng           0            area light: its normal; else 0    geometric normal             0
  *   prim_id      0            area light: see shape.h; else 0   see shape.h                  0
- *   length       0            0                                 scene units, see below       scene units
  *   wo           0            at infinity: towards the light    towards the previous vertex  inwards
  *   beta         1            radiance or intensity emitted     throughput on arrival        throughput on arrival
  *                             towards y_1 (no throughput)
  *   pdf_fwd      1, unused    1/m^2; at infinity 1/sr           1/m^2                        1/sr
  *   pdf_origin   -            -                                 eye walk, on a light:        1/sr, of y_0 in this
  *                                                               density of y_0 here, 1/m^2   direction
- *   pdf_rev      -            -                                 1/sr, of the other walk      -
- *                                                               continuing to the previous
- *                                                               vertex; 0 at the last vertex
- *   regions      -            -                                 by tables.h                  -
+ *   region       -            -                                 by tables.h                  -
  *   bsdf         -            -                                 its scattering               -
  *   lamp         -            -                                 eye walk: see below          see below
- *
- * `length` is the sum of the lengths of all edges up to this vertex. An edge to infinity begins where light_distance
- * (light.h) says. The refractive index does not change a length.
  *
  * A vertex within a medium (scene/medium.h) has the fields of a SURFACE, with ng 0, prim_id WITHIN_MEDIUM and pdf_fwd
  * per volume, 1/m^3.
@@ -57,27 +50,24 @@ struct vertex {
     int light, cell;
     vec3 p, ng;
     uint64_t prim_id;
-    double length;
     vec3 wo; /* unit */
     rgb beta;
-    double pdf_fwd, pdf_origin, pdf_rev;
+    double pdf_fwd, pdf_origin;
     int material; /* of the surface, index into scene->material */
     int medium;   /* of the edge that ends here; LENS, LIGHT: of the place */
     double back;  /* g of mis.h: turns a density per steradian here into one per area at the previous vertex */
     double mis;   /* mis_e of mis.h */
     double mis_c; /* c_e of mis.h, if this vertex is not left by a delta lobe */
-    int eye_region, light_region;
+    int region;
     struct bsdf bsdf;
     const struct vertex *lamp; /* see above; NULL: none */
 };
 
-/* vertex_light_pdf: pdf_fwd of y_0 for a point drawn on a light (light.h).
- * vertex_light_end: fill in that y_0, without beta. */
-double vertex_light_pdf(const struct light_set *lights, const struct light_point *at);
-void vertex_light_end(const struct scene *scene, const struct mis_counts *counts, const struct light_point *at,
+/* vertex_light_end: fill in the y_0 of a point drawn on a light (light.h), without beta. */
+void vertex_light_end(const struct scene *scene, const struct counts *counts, const struct light_point *at,
                       struct vertex *out);
 
-/* vertex_light_point: the light_point of a y_0, or of a surface on an area light. */
+/* vertex_light_point: the light_point of a y_0, of a surface on an area light, or of an escaped vertex. */
 struct light_point vertex_light_point(const struct vertex *v);
 
 /* vertex_at_infinity: y_0 of an infinite or distant light. */

@@ -1,7 +1,7 @@
 /* claims.c: see claims.h. */
 #include "lab/claims.h"
 
-#include "lab/table.h"
+#include "lab/md_table.h"
 
 static const struct claim CLAIMS[] = {
     {.method = "cbdpt", .over = "bdpt", .below = 0.1, .lacks = "the paper's runs on CPU and GPU together",
@@ -74,17 +74,17 @@ enum verdict_of claim_judge(const struct results *r, const struct claim *c, enum
     return c->lacks != NULL ? CLAIM_NOT_JUDGED : below ? CLAIM_FOUND : above ? CLAIM_NOT_FOUND : CLAIM_OPEN;
 }
 
-static void claim_row(struct table *t, const struct claim *c, enum verdict_of v, const struct interval ratio[N_SQUARES],
-                      int n)
+static void claim_row(struct md_table *t, const struct claim *c, enum verdict_of v,
+                      const struct interval ratio[N_SQUARES], int n)
 {
     static const char *const verdicts[] = {"**found**", "**not found**", "cannot tell", "not judged: "};
-    table_add(t, "%s: %s", method_short(c->method), c->text);
-    table_add(t, "%s / %s < %.2g%s%s", method_short(c->method), method_short(c->over), c->below,
+    md_add(t, "%s: %s", method_short(c->method), c->text);
+    md_add(t, "%s / %s < %.2g%s%s", method_short(c->method), method_short(c->over), c->below,
               c->at == AT_EQUAL_SAMPLES ? ", equal samples" : "", c->alone ? ", the choice alone" : "");
     for (int k = 0; k < N_SQUARES; k++)
-        table_add_interval(t, ratio[k], "");
-    table_add(t, "%d%s%s", n, c->where != NULL ? ", " : "", c->where != NULL ? c->where : "");
-    table_add(t, "%s%s", verdicts[v], c->lacks != NULL ? c->lacks : "");
+        md_add_interval(t, ratio[k], "");
+    md_add(t, "%d%s%s", n, c->where != NULL ? ", " : "", c->where != NULL ? c->where : "");
+    md_add(t, "%s%s", verdicts[v], c->lacks != NULL ? c->lacks : "");
 }
 
 void claims_table(FILE *f, const struct results *r, enum half half)
@@ -97,19 +97,19 @@ void claims_table(FILE *f, const struct results *r, enum half half)
         v[i] = claim_judge(r, &CLAIMS[i], half, ratio[i], &n[i]);
         judged += v[i] < CLAIM_NOT_JUDGED;
     }
-    struct table t =
-        table_begin(f, "Claims: squared error over that of another method after the same CPU time, or the same "
+    struct md_table t =
+        md_begin(f, "Claims: squared error over that of another method after the same CPU time, or the same "
                     "samples, geometric mean over scenes with its 95 %% interval; found if below the number claimed by "
                     "all three, not found if above by one. By chance at most one in forty is found that is only as "
                     "good as the number: %.1f of the %d judged here", judged / 40.0, judged);
-    table_column(&t, "claim");
-    table_column(&t, "criterion");
+    md_column(&t, "claim");
+    md_column(&t, "criterion");
     for (int k = 0; k < N_SQUARES; k++)
-        table_column(&t, "%s", EQUAL_NAMES[k]);
-    table_column(&t, "scenes");
-    table_column(&t, "verdict");
+        md_column(&t, "%s", EQUAL_NAMES[k]);
+    md_column(&t, "scenes");
+    md_column(&t, "verdict");
     for (int i = 0; i < N; i++)
         if (v[i] != CLAIM_UNMEASURED)
             claim_row(&t, &CLAIMS[i], v[i], ratio[i], n[i]);
-    table_end(&t);
+    md_end(&t);
 }

@@ -6,7 +6,9 @@
 #include "base/os.h"
 #include "cli/job_options.h"
 #include "image/image.h"
+#include "integrators/prepare.h"
 #include "lab/commands.h"
+#include "lab/race_table.h"
 #include "lab/tree.h"
 
 static const char *const LIGHT_NAMES[] = {
@@ -109,28 +111,56 @@ static bool print_picture(const char *path, struct error *err)
 
 /* --- the command --------------------------------------------------------------------------------------- */
 
+struct info_options {
+    struct job_options job;
+    bool race;
+};
+
+/* By asbdpt, unless another integrator was named. */
+static bool print_race(const struct scene *scene, const struct job_options *o, const struct method *m,
+                       struct error *err)
+{
+    struct render_options render = job_render(o, scene, m);
+    struct render_job job = {.scene = NULL};
+    struct prepared prepared;
+    if (method_has(m, "race") == NULL)
+        return error_usage(err, "--race: %s has no race; select=subspaces of asbdpt has", m->name);
+    if (!render_prepare(scene, &render, render_crop(scene), &job, &prepared, err))
+        return false;
+    const struct race_result result = race_result(&prepared);
+    race_print_table(stdout, &result);
+    method_release(&prepared);
+    return true;
+}
+
 static int run(void *options)
 {
-    const struct job_options *o = options;
+    struct info_options *info = options;
+    struct job_options *o = &info->job;
     struct scene scene;
     const struct method *integrator;
     double start = os_wall_seconds();
     struct error err;
     if (extension(o->scene_path) != NULL)
         return print_picture(o->scene_path, &err) ? EXIT_OK : fail(&err);
+    if (info->race && o->integrator == NULL)
+        o->integrator = "asbdpt";
     int status = job_load(o, &scene, &integrator);
     if (status != EXIT_OK)
         return status;
     print_scene(&scene, integrator, os_wall_seconds() - start);
+    bool ok = !info->race || print_race(&scene, o, integrator, &err);
     scene_free(&scene);
-    return EXIT_OK;
+    return ok ? EXIT_OK : fail(&err);
 }
 
 static const struct option OPTIONS[] = {
-    {"FILE", NULL, OPTION_TEXT, offsetof(struct job_options, scene_path), 1, .help = "a scene file, or a picture"},
-    {.others = JOB_OPTIONS},
+    {"FILE", NULL, OPTION_TEXT, offsetof(struct info_options, job.scene_path), 1, .help = "a scene file, or a picture"},
+    {"--race", NULL, OPTION_ON, offsetof(struct info_options, race),
+     .help = "also what the race before a render predicts, by asbdpt unless --integrator names another"},
+    {.others = RUN_OPTIONS},
 };
 
 const struct command command_info = {
     "info", "describe a scene, or a picture", {"SCENE.pbrt [options]", "PICTURE"}, OPTIONS,
-    sizeof(struct job_options), run, true, "info scenes/bathroom.pbrt"};
+    sizeof(struct info_options), run, true, "info scenes/bathroom.pbrt"};

@@ -7,7 +7,7 @@
 #include "lab/claims.h"
 #include "lab/equal.h"
 #include "lab/pictures.h"
-#include "lab/table.h"
+#include "lab/md_table.h"
 
 /* The methods that a table or figure shows, the first of them that which all are compared with. */
 struct view {
@@ -38,18 +38,18 @@ static const char *label(const struct results *e, int method) { return e->plan->
 /* --- tables ------------------------------------------------------------------------------------------ */
 
 /* A ratio and what it is of. */
-static void add_of(struct table *t, double ratio, const char *of)
+static void add_of(struct md_table *t, double ratio, const char *of)
 {
     if (isfinite(ratio))
-        table_add(t, "%.3g %s", ratio, of);
+        md_add(t, "%.3g %s", ratio, of);
     else
-        table_add_missing(t, 1);
+        md_add_missing(t, 1);
 }
 
-static void square_columns(struct table *t)
+static void square_columns(struct md_table *t)
 {
     for (int k = 0; k < N_SQUARES; k++)
-        table_column(t, "%s", EQUAL_NAMES[k]);
+        md_column(t, "%s", EQUAL_NAMES[k]);
 }
 
 static bool is_ours(const struct results *e, int method)
@@ -58,7 +58,7 @@ static bool is_ours(const struct results *e, int method)
 }
 
 /* Of each scene the best method that is not asbdpt's, over the first; and the default over that. */
-static void best_rival_rows(struct table *t, const struct results *e, const struct view *view)
+static void best_rival_rows(struct md_table *t, const struct results *e, const struct view *view)
 {
     struct view rivals = {.n = 0};
     int ours = -1;
@@ -68,63 +68,63 @@ static void best_rival_rows(struct table *t, const struct results *e, const stru
         else if (strcmp(label(e, view->method[i]), "subspaces") == 0)
             ours = view->method[i];
     for (int row = 0; row < 2 && ours >= 0 && rivals.n > 1; row++) {
-        table_add(t, row == 0 ? "best rival" : "%s over best rival", label(e, ours));
-        table_add_missing(t, 1);
+        md_add(t, row == 0 ? "best rival" : "%s over best rival", label(e, ours));
+        md_add_missing(t, 1);
         for (int k = 0; k < N_SQUARES; k++) {
             struct interval i = equal_over_best(e, row == 0 ? 0 : ours, rivals.method, rivals.n, (enum square)k);
-            table_add_interval(t, row == 0 ? (struct interval){1 / i.value, 1 / i.high, 1 / i.low} : i, "");
+            md_add_interval(t, row == 0 ? (struct interval){1 / i.value, 1 / i.high, 1 / i.low} : i, "");
         }
-        table_add_missing(t, 3);
+        md_add_missing(t, 3);
     }
 }
 
 static void summary_table(FILE *f, const struct results *e, enum half half)
 {
     struct view view = view_of(e, half);
-    struct table t =
-        table_begin(f, "Squared error over that of %s after the same CPU time: geometric mean over %d scene%s with "
+    struct md_table t =
+        md_begin(f, "Squared error over that of %s after the same CPU time: geometric mean over %d scene%s with "
                     "its 95 %% interval, and the ends of relmse. 0.59: the same noise in 59 %% of the time. Price: "
                     "time of a sample over that of %s. Best rival: in each scene the method of others with the least "
                     "error that has no mark",
                     label(e, 0), e->plan->n_scenes, e->plan->n_scenes == 1 ? "" : "s", label(e, 0));
-    table_column(&t, "method");
-    table_column(&t, "price");
+    md_column(&t, "method");
+    md_column(&t, "price");
     square_columns(&t);
-    table_column(&t, "best");
-    table_column(&t, "worst");
-    table_column(&t, "marked in");
+    md_column(&t, "best");
+    md_column(&t, "worst");
+    md_column(&t, "marked in");
     for (int i = 1; i < view.n; i++) {
         int v = view.method[i], n;
         struct equal_ends s = equal_ends(e, v, SQUARE_RELMSE);
-        table_add(&t, "%s", label(e, v));
-        table_add(&t, "%.2f", equal_price(e, v));
+        md_add(&t, "%s", label(e, v));
+        md_add(&t, "%.2f", equal_price(e, v));
         for (int k = 0; k < N_SQUARES; k++)
-            table_add_interval(&t, equal_mean(e, v, 0, (enum square)k, AT_EQUAL_TIME, NULL, &n), "");
+            md_add_interval(&t, equal_mean(e, v, 0, (enum square)k, AT_EQUAL_TIME, NULL, &n), "");
         add_of(&t, s.best, s.best_scene);
         add_of(&t, s.worst, s.worst_scene);
-        table_add(&t, "%d", results_marked(e, v));
+        md_add(&t, "%d", results_marked(e, v));
     }
     best_rival_rows(&t, e, &view);
-    table_end(&t);
+    md_end(&t);
 }
 
 static void ratio_table(FILE *f, const struct results *e, enum half half, enum square which)
 {
     struct view view = view_of(e, half);
-    struct table t =
-        table_begin(f, "%s: squared error over that of %s, with its 95 %% interval over %d seed%s", EQUAL_NAMES[which],
+    struct md_table t =
+        md_begin(f, "%s: squared error over that of %s, with its 95 %% interval over %d seed%s", EQUAL_NAMES[which],
                     label(e, 0), e->plan->n_seeds, e->plan->n_seeds == 1 ? "" : "s");
-    table_column(&t, "method");
+    md_column(&t, "method");
     for (const struct scene_results *s = e->scene; s < e->scene + e->plan->n_scenes; s++)
-        table_column(&t, s->mark[0] == MARK_NONE ? "%s, %dx%d" : "%s, %dx%d (%s: %s)", s->name, s->width, s->height,
+        md_column(&t, s->mark[0] == MARK_NONE ? "%s, %dx%d" : "%s, %dx%d (%s: %s)", s->name, s->width, s->height,
                      label(e, 0), MARKS[s->mark[0]]);
     for (int v = 1; v < view.n; v++) {
-        table_add(&t, "%s", label(e, view.method[v]));
+        md_add(&t, "%s", label(e, view.method[v]));
         for (int i = 0; i < e->plan->n_scenes; i++)
-            table_add_interval(&t, equal_ratio(&e->scene[i], view.method[v], 0, which),
+            md_add_interval(&t, equal_ratio(&e->scene[i], view.method[v], 0, which),
                                MARKS[e->scene[i].mark[view.method[v]]]);
     }
-    table_end(&t);
+    md_end(&t);
 }
 
 /* What was given, and what it came to. */
@@ -178,19 +178,19 @@ static void services_table(FILE *f, const struct results *e)
 {
     const struct methods *m = &e->plan->methods;
     int n;
-    struct table t =
-        table_begin(f, "What shared techniques contribute: squared error of a method with all over that without, "
+    struct md_table t =
+        md_begin(f, "What shared techniques contribute: squared error of a method with all over that without, "
                     "after the same CPU time, geometric mean over scenes with its 95 %% interval");
-    table_column(&t, "method");
+    md_column(&t, "method");
     square_columns(&t);
     for (int v = 1; v < m->n; v++)
         for (int with = v + 1; with < m->n; with++)
             if (strcmp(m->item[v].label, m->item[with].label) == 0) {
-                table_add(&t, "%s", m->item[v].label);
+                md_add(&t, "%s", m->item[v].label);
                 for (int k = 0; k < N_SQUARES; k++)
-                    table_add_interval(&t, equal_mean(e, with, v, (enum square)k, AT_EQUAL_TIME, NULL, &n), "");
+                    md_add_interval(&t, equal_mean(e, with, v, (enum square)k, AT_EQUAL_TIME, NULL, &n), "");
             }
-    table_end(&t);
+    md_end(&t);
 }
 
 static void write_half(FILE *f, const struct results *e, enum half half)

@@ -40,6 +40,40 @@ bool method_observable(const struct method *m, struct error *err)
            error_set(err, "%s goes from sample to sample over the whole picture: no pixel has one to tell of", m->name);
 }
 
+const char *method_why(const struct method *m)
+{
+    static const struct {
+        const char *name, *why;
+    } REASONS[] = {
+        {"bins", "of the pixel's bins of two light sub-paths one is visited, of its two elements one taken with "
+                 "probability beta_e^2 / (beta_0^2 + beta_1^2); no weight makes up for it"},
+        {"pool", "alias table over the K light sub-paths of the tile, one bin for each pixel; q_k = (1 - delta) I_k / "
+                 "sum I + delta / K, I the sub-path's importance; scale 1 / (K q)"},
+        {"vertices", "C draws for each eye vertex from an alias table over the connectible vertices of the tile's K "
+                     "light sub-paths, q in proportion to luminance(beta) n(x); scale 1 / (C K q)"},
+        {"subspaces", "C draws for each eye vertex from the connectible vertices of the tile's K light sub-paths, in "
+                      "proportion to ratio(e,l) luminance(beta), by the regions of both; scale 1 / (C K P)"},
+        {"cbdpt", "M of the tile's K light sub-paths, in random order, all used equally often; scale 1 / M"},
+        {"lvc", "C draws for each eye vertex from the V connectible vertices of the tile's K light sub-paths, all "
+                "equally likely; scale V / (C K)"},
+        {"mbdpt", "one of the tile's K light sub-paths for each strategy, by a shifted lattice over eye and light "
+                  "sub-paths sorted by length or throughput, each equally likely; scale 1"},
+        {"pcbdpt", "C draws for each eye vertex from the tile's light vertices, P the mean of the PMFs of the records "
+                   "nearby and of the uniform choice; scale 1 / (C K P)"},
+        {"ris", "one draw for each eye vertex from the tile's light vertices, by one of the records nearby or "
+                "uniformly; scale 1 / (K P)"},
+        {"ris2", "one draw for each eye vertex, by one of the records nearby or uniformly, from light vertices drawn "
+                 "before in proportion to luminance(beta), which have a factor u for that; scale u / (K P)"},
+        {"spcbpt", "C draws for each eye vertex: a light subspace by Gamma(e,l), of the eye vertex' subspace, then one "
+                   "of its vertices in proportion to luminance(beta); scale 1 / (C K P)"},
+        {"vcm", "the pixel's own light sub-path, and all of the tile's light vertices within the radius; scale 1, of "
+                "merges 1 / (K pi r^2)"}};
+    for (size_t i = 0; i < sizeof REASONS / sizeof *REASONS; i++)
+        if (strcmp(REASONS[i].name, m->select != NULL ? m->select : m->name) == 0)
+            return REASONS[i].why;
+    return m->build != NULL ? m->help : NULL;
+}
+
 /* Is there such an integrator, and has it these parameters, with such values? */
 static bool check(const struct measured *m, struct error *err)
 {
@@ -123,8 +157,8 @@ void methods_all(char out[METHODS_TEXT])
 /* Services are parameters that several methods have, some all of them: how they are off and on. */
 static const struct {
     const char *name, *value[N_HALVES];
-} SERVICES[] = {{"guide", {"off", "on"}}, {"emission", {"1", "0.2"}}, {"credit", {"1", "4"}},
-                {"tile", {"16", "32"}},     {"spread", {"1", "4"}}};
+} SERVICES[] = {{"guide", {"off", "on"}}, {"emission", {"1", "0.2"}}, {"tile", {"16", "32"}},
+                {"spread", {"1", "4"}}};
 
 const char *const HALVES[N_HALVES] = {"The choice alone", "With all services"};
 

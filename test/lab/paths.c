@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/os.h"
+#include "caustics/derived.h"
 #include "lab/methods.h"
 
 /* The paths of one tile pass. */
@@ -20,7 +21,7 @@ struct lists {
     const struct path_taker *taker;
 };
 
-static void joined(void *context, const struct pixel_sample *sample, const struct joined *p)
+static void joined(void *context, const struct sample *sample, const struct joined *p)
 {
     struct list *list = context;
     rgb value = rgb_scale(p->c->value, p->scale);
@@ -29,7 +30,7 @@ static void joined(void *context, const struct pixel_sample *sample, const struc
     list->item = mem_grow(list->item, &list->capacity, list->n + 1, sizeof *list->item);
     const struct path_told told = {p->s, p->t, sample->x, sample->y, p->c->px, p->c->py,
                                    {(float)value.r, (float)value.g, (float)value.b}, (float)p->c->weight,
-                                   p->c->length};
+                                   path_length(sample->pass->job->scene, p)};
     list->item[list->n++] = told;
 }
 

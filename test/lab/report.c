@@ -6,7 +6,7 @@
 
 #include "lab/numbers.h"
 #include "lab/pictures.h"
-#include "lab/table.h"
+#include "lab/md_table.h"
 
 #define PLUS_MINUS "\xc2\xb1" /* U+00B1 in UTF-8 */
 
@@ -36,61 +36,61 @@ static double printed(const char *scene, const char *method, long spp)
 }
 
 /* "mean +- error" with as many digits after the point as show two of the error's. */
-static void add_estimate(struct table *t, double mean, double error)
+static void add_estimate(struct md_table *t, double mean, double error)
 {
     int digits = error > 0 && isfinite(error) ? 1 - (int)floor(log_ten(error)) : 0;
     digits = digits < 0 ? 0 : digits > 6 ? 6 : digits;
     if (!isfinite(mean))
-        table_add_missing(t, 1);
+        md_add_missing(t, 1);
     else if (!isfinite(error) || error == 0)
-        table_add(t, "%.4g", mean);
+        md_add(t, "%.4g", mean);
     else
-        table_add(t, "%.*f " PLUS_MINUS " %.*f", digits, mean, digits, error);
+        md_add(t, "%.*f " PLUS_MINUS " %.*f", digits, mean, digits, error);
 }
 
-static void add_columns(struct table *t, const char *const *name, int n)
+static void add_columns(struct md_table *t, const char *const *name, int n)
 {
     for (int i = 0; i < n; i++)
-        table_column(t, "%s", name[i]);
+        md_column(t, "%s", name[i]);
 }
 
 /* --- the table --------------------------------------------------------------------------------------- */
 
 /* A row is a method in a scene after a step. */
-static struct table begin_rows(FILE *f)
+static struct md_table begin_rows(FILE *f)
 {
     static const char *const heads[] = {"spp", "method", "RMSE", "over the first's [95 %]", "printed", "seconds",
                                         "cost over the first's [95 %]", "mean off by, %", "tested"};
-    struct table t = table_begin(f, "RMSE on the 8-bit scale, mean over seeds and its standard error; printed: the "
+    struct md_table t = md_begin(f, "RMSE on the 8-bit scale, mean over seeds and its standard error; printed: the "
                                  "dissertation's; cost: squared error times seconds of CPU");
     add_columns(&t, heads, 9);
     return t;
 }
 
-static void add_row(struct table *t, const struct scene_results *s, int method, int step)
+static void add_row(struct md_table *t, const struct scene_results *s, int method, int step)
 {
     const struct plan *p = s->plan;
     double theirs = printed(s->name, p->methods.item[method].text, p->spp[step]);
     bool last = step == plan_last_step(p) && method < p->n_compared;
     struct estimate rmse = results_mean(s, method, step, Q_RMSE8), seconds = results_mean(s, method, step, Q_SECONDS);
     struct estimate off = results_mean(s, method, step, Q_MEAN_ERROR);
-    table_add(t, "%s", p->methods.item[method].text);
+    md_add(t, "%s", p->methods.item[method].text);
     add_estimate(t, rmse.mean, rmse.error);
     if (method > 0)
-        table_add_interval(t, results_over_first(s, method, step, false), "");
+        md_add_interval(t, results_over_first(s, method, step, false), "");
     else
-        table_add_missing(t, 1);
+        md_add_missing(t, 1);
     if (isfinite(theirs))
-        table_add(t, "%.4f", theirs);
+        md_add(t, "%.4f", theirs);
     else
-        table_add_missing(t, 1);
+        md_add_missing(t, 1);
     add_estimate(t, seconds.mean, seconds.error);
     if (method > 0)
-        table_add_interval(t, results_over_first(s, method, step, true), "");
+        md_add_interval(t, results_over_first(s, method, step, true), "");
     else
-        table_add_missing(t, 1);
+        md_add_missing(t, 1);
     add_estimate(t, 100 * off.mean, 100 * off.error);
-    table_add(t, "%s", last && s->mark[method] != MARK_NONE ? MARKS[s->mark[method]] : "-");
+    md_add(t, "%s", last && s->mark[method] != MARK_NONE ? MARKS[s->mark[method]] : "-");
 }
 
 static void scene_table(FILE *f, const struct results *r, const struct scene_results *s)
@@ -99,30 +99,30 @@ static void scene_table(FILE *f, const struct results *r, const struct scene_res
     if (isfinite(s->reference.mean_error))
         snprintf(own, sizeof own, "%.2g %%", 100 * s->reference.mean_error);
     fprintf(f, "The standard error of the reference's own mean is %s.\n\n", own);
-    struct table t = begin_rows(f);
+    struct md_table t = begin_rows(f);
     for (int v = 0; v < r->plan->methods.n; v++)
         for (int i = 0; i < r->plan->n_steps; i++) {
-            table_add(&t, "%ld", r->plan->spp[i]);
+            md_add(&t, "%ld", r->plan->spp[i]);
             add_row(&t, s, v, i);
         }
-    table_end(&t);
+    md_end(&t);
 }
 
 static void setup_table(FILE *f, const struct results *r)
 {
     static const char *const heads[] = {"scene",     "pixels",           "maxdepth",
                                         "reference", "its noise, 8-bit", "error of its mean, %"};
-    struct table t = table_begin(f, "What was measured, against what");
+    struct md_table t = md_begin(f, "What was measured, against what");
     add_columns(&t, heads, 6);
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++) {
-        table_add(&t, "%.90s", s->name);
-        table_add(&t, "%d x %d", s->width, s->height);
-        table_add(&t, "%d", s->max_depth);
-        table_add(&t, "%.240s", s->reference.origin);
+        md_add(&t, "%.90s", s->name);
+        md_add(&t, "%d x %d", s->width, s->height);
+        md_add(&t, "%d", s->max_depth);
+        md_add(&t, "%.240s", s->reference.origin);
         add_estimate(&t, s->reference.noise8, NAN);
         add_estimate(&t, 100 * s->reference.mean_error, NAN);
     }
-    table_end(&t);
+    md_end(&t);
 }
 
 /* --- the page ------------------------------------------------------------------------------------------ */

@@ -5,6 +5,7 @@
 
 #include "base/mem.h"
 #include "base/os.h"
+#include "integrators/prepare.h"
 
 bool timed_film(const struct scene *scene, const struct render_options *o, struct film *film, struct timed *out,
                 struct error *err)
@@ -41,7 +42,7 @@ bool timed_prepare(const struct scene *scene, const struct render_options *o, do
                    struct error *err)
 {
     struct render_job job = {.scene = NULL};
-    struct preparation prepared;
+    struct prepared prepared;
     double start = os_cpu_seconds();
     if (!render_prepare(scene, o, render_crop(scene), &job, &prepared, err))
         return false;

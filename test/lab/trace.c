@@ -4,24 +4,36 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "caustics/delta.h"
+#include "caustics/derived.h"
+#include "integrators/prepare.h"
 #include "lab/methods.h"
+
+static void free_path(struct trace_path *path)
+{
+    free(path->vertex);
+    free(path->pdf_rev);
+}
 
 void trace_free(struct trace *trace)
 {
     for (int i = 0; i < trace->n_lights; i++)
-        free(trace->light[i].vertex);
-    free(trace->eye.vertex);
+        free_path(&trace->light[i]);
+    free_path(&trace->eye);
     free(trace->light);
     free(trace->connection);
     memset(trace, 0, sizeof *trace);
 }
 
 /* Copy the vertices that are not there yet. */
-static void copy(struct trace_path *to, const struct vertex *path, int n)
+static void copy(struct trace_path *to, const struct vertex *path, int n, enum transport mode)
 {
     to->source = path;
     to->vertex = mem_grow(to->vertex, &to->capacity, (size_t)n, sizeof *to->vertex);
+    to->pdf_rev = mem_grow(to->pdf_rev, &to->pdf_capacity, (size_t)n, sizeof *to->pdf_rev);
     for (; to->n < n; to->n++) {
+        if (to->n > 0)
+            to->pdf_rev[to->n - 1] = vertex_pdf_rev(&path[to->n - 1], &path[to->n], mode);
         to->vertex[to->n] = path[to->n];
         to->vertex[to->n].bsdf.lobe = NULL;
         to->vertex[to->n].lamp = NULL;
@@ -35,40 +47,61 @@ static int light_path(struct trace *trace, const struct vertex *path, int n)
     while (i < trace->n_lights && trace->light[i].source != path)
         i++;
     if (i == trace->n_lights) {
-        struct trace_path empty = {NULL, 0, 0, NULL};
+        struct trace_path empty = {.n = 0};
         trace->light = mem_grow(trace->light, &trace->light_capacity, (size_t)i + 1, sizeof *trace->light);
         trace->light[trace->n_lights++] = empty;
     }
-    copy(&trace->light[i], path, n);
+    copy(&trace->light[i], path, n, IMPORTANCE);
     return i;
 }
 
-static bool watches(const struct trace *trace, const struct pixel_sample *sample)
+static bool watches(const struct trace *trace, const struct sample *sample)
 {
     return trace->x == sample->x && trace->y == sample->y && trace->iteration == sample->iteration;
 }
 
-static void walked(void *context, const struct pixel_sample *sample, enum transport mode, const struct vertex *path,
+static void walked(void *context, const struct sample *sample, enum transport mode, const struct vertex *path,
                    int n)
 {
     struct trace *trace = context;
     if (!watches(trace, sample))
         return;
     if (mode == IMPORTANCE) {
+        trace->lens = sample->sampler;
         light_path(trace, path, n);
         return;
     }
     trace->filter_weight = sample->filter_weight;
-    copy(&trace->eye, path, n);
+    copy(&trace->eye, path, n, RADIANCE);
 }
 
-static void joined(void *context, const struct pixel_sample *sample, const struct joined *p)
+/* The point of the lens: one was drawn for each s from 2 on. */
+static vec3 lens_end(const struct trace *trace, const struct camera *camera, const struct joined *p)
+{
+    struct sampler sampler = trace->lens;
+    double u[2];
+    for (int s = 2; s < p->s && camera->lens_radius > 0; s++)
+        sampler_pair(&sampler, DRAW_LENS_POINT, u);
+    return lens_drawn(camera, p->light[p->s - 1].p, sampler);
+}
+
+static vec3 end_of(const struct trace *trace, const struct scene *scene, const struct joined *p)
+{
+    if (p->t == 1)
+        return lens_end(trace, &scene->camera, p);
+    if (p->s != 1 || p->y0->light < 0)
+        return vec(0, 0, 0);
+    return light_at_infinity(&scene->lights.light[p->y0->light]) ? p->y0->w : p->y0->p;
+}
+
+static void joined(void *context, const struct sample *sample, const struct joined *p)
 {
     struct trace *trace = context;
     if (!watches(trace, sample))
         return;
-    int light = p->s > 1 ? light_path(trace, p->y - (p->s - 1), p->s) : -1;
-    struct trace_connection made = {p->s, p->t, light, p->pmf, *p->c, p->scale, p->added};
+    int light = p->s > 1 ? light_path(trace, p->light, p->s) : -1;
+    const struct scene *scene = sample->pass->job->scene;
+    struct trace_connection made = {p->s, p->t, light, p->pmf, *p->c, end_of(trace, scene, p), p->scale, p->added};
     size_t n = (size_t)trace->n_connections + 1;
     trace->connection = mem_grow(trace->connection, &trace->connection_capacity, n, sizeof *trace->connection);
     trace->connection[trace->n_connections++] = made;
@@ -90,10 +123,9 @@ double trace_pdf_rev(const struct scene *scene, const struct trace_path *path, i
         return -1;
     const struct vertex *v = &path->vertex[i], *next = &path->vertex[i + 1];
     if (vertex_at_infinity(scene, v))
-        return next->pdf_rev;
-    double cosine = length2(v->ng) > 0 ? abs_dot(v->ng, next->wo) : 1;
+        return path->pdf_rev[i + 1];
     double spread = next->kind == VERTEX_ESCAPED ? 1 : 1 / length2(sub(v->p, next->p));
-    return next->pdf_rev * cosine * spread;
+    return path->pdf_rev[i + 1] * vertex_cosine(v, next->wo) * spread;
 }
 
 /* --- rendering --------------------------------------------------------------------------------------- */
@@ -116,7 +148,7 @@ static bool pixels_have(struct tile_pixels p, int x, int y)
 }
 
 /* The tile pass that holds the pixel, of iterations `first` to below `end`. */
-static void observe(const struct render_job *job, const struct preparation *prepared, const struct trace *trace,
+static void observe(const struct render_job *job, const struct prepared *prepared, const struct trace *trace,
                     long first, long end, const struct observer *observer)
 {
     const struct tiling tiling = tiling_of(job->film_rect, &prepared->size);
@@ -125,24 +157,24 @@ static void observe(const struct render_job *job, const struct preparation *prep
     int64_t number = 0;
     while (!pixels_have(tiling_pixels(&tiling, number), trace->x, trace->y))
         number++;
-    work->scratch = method_scratch(prepared);
     struct tile_pass pass = {job, first, end, &tile, work, observer};
     tile_start(&tile, tiling_pixels(&tiling, number), job->film_rect, &job->scene->filter);
     prepared->method->render(prepared, &pass);
     tile_free(&tile);
-    method_scratch_free(prepared, work->scratch);
     workspaces_free(work, 1);
 }
 
 /* From where what the sample depends on begins: in blocks of a length that the integrator has chosen one iteration
  * builds on another. */
-void trace_sample(const struct render_job *job, const struct preparation *prepared, struct trace *trace)
+void trace_sample(const struct render_job *job, const struct prepared *prepared, struct trace *trace)
 {
     const struct observer observer = {.context = trace, .walked = walked, .joined = joined};
     long block = prepared->size.block > 0 ? prepared->size.block : 1;
     observe(job, prepared, trace, trace->iteration / block * block, trace->iteration + 1, &observer);
-    trace->why = prepared->method->why;
-    memcpy(trace->number, prepared->number, sizeof trace->number);
+    bool chooses = prepared->method->draw == NULL || prepared->numbers.path_pixels > 0;
+    trace->why = chooses ? method_why(prepared->method) : NULL;
+    trace->race = race_result(prepared);
+    method_numbers(prepared, trace->number);
 }
 
 /* The sample that contributes most to the pixel. */
@@ -155,7 +187,7 @@ struct brightest {
 };
 
 /* Nothing that is added is negative, so the last sum of a sample is its brightest. */
-static void add_path(void *context, const struct pixel_sample *sample, const struct joined *path)
+static void add_path(void *context, const struct sample *sample, const struct joined *path)
 {
     struct brightest *b = context;
     if (b->trace->x != sample->x || b->trace->y != sample->y || path->t < 2)
@@ -168,7 +200,7 @@ static void add_path(void *context, const struct pixel_sample *sample, const str
     }
 }
 
-static long find_brightest(const struct render_job *job, const struct preparation *prepared, const struct trace *trace,
+static long find_brightest(const struct render_job *job, const struct prepared *prepared, const struct trace *trace,
                            long end)
 {
     struct brightest found = {.trace = trace, .summed = -1};
@@ -184,7 +216,7 @@ bool trace_render(const struct scene *scene, const struct render_options *option
 {
     struct pixel_rect film = render_crop(scene);
     struct render_job job = {.scene = NULL};
-    struct preparation prepared;
+    struct prepared prepared;
     const struct method *m = method_find(options->integrator, &scene->settings, err);
     if (m == NULL || !method_observable(m, err) || !check_sample(options, film, trace, err) ||
         !render_prepare(scene, options, film, &job, &prepared, err))

@@ -7,13 +7,15 @@
 #ifndef ASBDPT_TRACE_H
 #define ASBDPT_TRACE_H
 
+#include "lab/race_table.h"
 #include "render/render.h"
 
 /* Copies of vertices, without their lobes and `lamp`, which do not outlive the sample. */
 struct trace_path {
     struct vertex *vertex; /* [n], owned */
+    double *pdf_rev;       /* [n - 1] vertex_pdf_rev (caustics/delta.h) of all but the last; owned */
     int n;
-    size_t capacity;
+    size_t capacity, pdf_capacity;
     const struct vertex *source; /* what was copied: how a sub-path is recognised */
 };
 
@@ -22,7 +24,8 @@ struct trace_connection {
     int s, t;
     int light;           /* number of the light sub-path; -1: none (s <= 1) */
     double pmf;          /* probability with which it was chosen; 1: there was no choice */
-    struct connection c; /* value C*, weight, end point */
+    struct connection c; /* value C*, weight, raster point, light */
+    vec3 end;            /* s = 1: the point on the light; at infinity, its direction. t = 1: on the lens */
     double scale;        /* what else C* is multiplied by: numbers of samples, filter, 1/probabilities of a choice */
     rgb added;           /* C* times scale times weight, as it was added; t = 1: at raster point (c.px, c.py) */
 };
@@ -33,6 +36,7 @@ struct trace {
     int x, y;       /* the sample to watch */
     long iteration; /* TRACE_BRIGHTEST: the one that contributes most to the pixel, light joined to the lens left out */
     double filter_weight;
+    struct sampler lens; /* as it was before it drew lens points for the latest light sub-path */
     struct trace_path eye;
     struct trace_path *light; /* [n_lights], those that were connected or chosen; owned */
     int n_lights;
@@ -40,6 +44,7 @@ struct trace {
     int n_connections;
     size_t light_capacity, connection_capacity;
     const char *why;   /* how the method chooses what to connect with; NULL: it does not */
+    struct race_result race;
     struct film_number number[FILM_NUMBERS]; /* what it has chosen for itself, ended by a NULL name */
 };
 
@@ -53,7 +58,7 @@ bool trace_render(const struct scene *scene, const struct render_options *option
                   struct error *err);
 
 /* trace_sample: the same by a method that render_prepare has prepared, of a sample that there is. */
-void trace_sample(const struct render_job *job, const struct preparation *prepared, struct trace *trace);
+void trace_sample(const struct render_job *job, const struct prepared *prepared, struct trace *trace);
 
 /* trace_sum: what was added to the sample's own pixel: all with t >= 2, in their order. */
 rgb trace_sum(const struct trace *trace);

@@ -65,6 +65,7 @@ void trace_tell(FILE *f, const struct trace_story *s, bool all)
         fprintf(f, "  and %d light walks more.\n", t->n_lights - 1);
     if (t->why != NULL)
         fprintf(f, "CHOICE of what to connect with: %s\n", t->why);
+    race_print_winner(f, &t->race);
     fprintf(f, "Strategies (s,t) join s light and t eye vertices: %d tried, %d brought light to the pixel%s\n",
             tried[0], bright[0], bright[0] > TOLD ? ", most of all:" : bright[0] > 0 ? ":" : ".");
     print_most(f, t);

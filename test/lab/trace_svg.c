@@ -315,11 +315,11 @@ static void draw_connection(FILE *f, const struct view *v, const struct trace *t
     bool nothing = rgb_is_black(c->c.value);
     if (c->s == 0 || (nothing && (c->s == 1 || c->t == 1)))
         return; /* joins nothing, or it is not known where to */
-    vec3 z = c->t > 1 ? t->eye.vertex[c->t - 1].p : c->c.end, y = c->c.end;
+    vec3 z = c->t > 1 ? t->eye.vertex[c->t - 1].p : c->end, y = c->end;
     if (c->s > 1)
         y = t->light[c->light].vertex[c->s - 1].p;
     else if (light_at_infinity(&v->scene->lights.light[c->c.light]))
-        y = add(z, mul(c->c.end, 0.3 * v->scene->lights.radius));
+        y = add(z, mul(c->end, 0.3 * v->scene->lights.radius));
     snprintf(title, sizeof title, "(%d,%d): C* %.3g, weight %.3g, adds %.3g", c->s, c->t, rgb_luminance(c->c.value),
              c->c.weight, brought);
     draw_line(f, v, y, z, nothing ? GREY : GREEN, nothing ? 0.7 : 0.6 + 4 * safe_sqrt(brought / most), nothing, title);

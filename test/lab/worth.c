@@ -8,18 +8,17 @@
 #include "base/maths.h"
 #include "base/mem.h"
 #include "base/number.h"
-#include "tables/tables.h"
+#include "integrators/prepare.h"
 #include "render/aov.h"
-#include "transport/pixel_sample.h"
 
 enum { LIGHT_PATHS = 64 * 1024, GAP = 8, LABEL = 24, TEXT = 2 };
 
 struct view {
     struct render_job job;
-    const struct tables *tables;
-    struct mis_counts counts; /* for the walks, which look regions up; the weights are not used */
+    struct counts counts; /* for the walks, which look regions up; the weights are not used */
     struct workspace *work;
-    const double *h; /* [light regions], of the eye region of the point */
+    struct vertex *light; /* [max_depth + 1] */
+    const double *ratio;  /* [regions] of the region of the point */
     float *worth, *draws;
 };
 
@@ -44,7 +43,7 @@ static void map_worth(const struct view *v)
     const struct scene *s = v->job.scene;
     for (int y = 0; y < s->height; y++)
         for (int x = 0; x < s->width; x++)
-            v->worth[y * s->width + x] = look(v, x, y) ? float_within(v->h[v->work->eye[1].light_region]) : 0;
+            v->worth[y * s->width + x] = look(v, x, y) ? float_within(v->ratio[v->work->eye[1].region]) : 0;
 }
 
 /* Adds p to the pixel in which the camera sees the light vertex y, if it does. */
@@ -59,7 +58,7 @@ static void add_draw(const struct view *v, const struct vertex *y, double p)
         v->draws[(int)py * s->width + (int)px] += float_within(p);
 }
 
-/* Twice the same light sub-paths: the sum of h L of all their vertices, then each one's share of it. */
+/* Twice the same light sub-paths: the sum of ratio L of all their vertices, then each one's share of it. */
 static void map_draws(const struct view *v)
 {
     double total = 0;
@@ -68,14 +67,14 @@ static void map_draws(const struct view *v)
             arena_reset(&v->work->arena);
             struct sampler sampler = sampler_start(v->job.seed, RNG_LIGHT, (uint64_t)k, 0);
             struct walk w = walk_of(v, &sampler);
-            int n = path_light(&w, v->work->light, v->job.max_depth + 1);
+            int n = path_light(&w, v->light, v->job.max_depth + 1);
             for (int i = 1; i < n; i++) {
-                const struct vertex *y = &v->work->light[i];
-                double hL = vertex_connectible(y) ? v->h[y->light_region] * rgb_luminance(y->beta) : 0;
+                const struct vertex *y = &v->light[i];
+                double worth = vertex_connectible(y) ? v->ratio[y->region] * rgb_luminance(y->beta) : 0;
                 if (pass == 0)
-                    total += hL;
-                else if (hL > 0)
-                    add_draw(v, y, hL / total);
+                    total += worth;
+                else if (worth > 0)
+                    add_draw(v, y, worth / total);
             }
         }
 }
@@ -83,13 +82,13 @@ static void map_draws(const struct view *v)
 static bool fill(struct view *v, int x, int y, struct error *err)
 {
     const struct scene *s = v->job.scene;
-    if (v->tables == NULL || v->tables->pairs.h == NULL)
+    if (v->counts.tables->pairs.rows < 2)
         return error_set(err, "this selection learns nothing about pairs of places; select=subspaces does");
     if (x < 0 || y < 0 || x >= s->width || y >= s->height)
         return error_usage(err, "--pixel %d,%d lies outside the film of %dx%d", x, y, s->width, s->height);
     if (!look(v, x, y))
         return error_set(err, "no surface that can be connected to is seen through pixel %d,%d", x, y);
-    v->h = pairs_row(&v->tables->pairs, v->work->eye[1].eye_region);
+    v->ratio = table_row(&v->counts.tables->pairs, v->work->eye[1].region);
     map_worth(v);
     map_draws(v);
     return true;
@@ -99,15 +98,16 @@ bool worth_values(const struct scene *scene, const struct render_options *option
                   float *draws, struct error *err)
 {
     struct view v = {.worth = worth, .draws = draws};
-    struct preparation prepared;
+    struct prepared prepared;
     struct pixel_rect all = {0, 0, scene->width, scene->height};
     if (!render_prepare(scene, options, all, &v.job, &prepared, err))
         return false;
-    v.counts = ((const struct frozen *)prepared.state)->counts;
-    v.tables = v.counts.tables;
+    v.counts = prepared.counts;
+    v.light = mem_alloc((size_t)v.job.max_depth + 1, sizeof *v.light);
     v.work = workspaces_new(1, v.job.max_depth);
     bool ok = fill(&v, x, y, err);
     workspaces_free(v.work, 1);
+    free(v.light);
     method_release(&prepared);
     return ok;
 }

@@ -1,10 +1,10 @@
-/* worth.h: a picture of what `select = subspaces` has learnt (pairs.h), seen from one surface point.
+/* worth.h: a picture of what `select = subspaces` has learnt (the pairs of tables.h), seen from one surface point.
  *
  * The point is what the camera sees through the middle of a pixel. Three pictures side by side, the point marked:
  *   scene   the colours of what is seen, as lit from the camera
- *   worth   of every surface seen: h(e,l), what a light vertex there is worth to the point
+ *   worth   of every surface seen: ratio(e,l), what a light vertex there is worth to the point
  *   draws   where the light vertices are that the point would draw: light sub-paths projected onto the film, each
- *           vertex with its probability h L, as far as the camera sees it
+ *           vertex with its probability in proportion to ratio L, as far as the camera sees it
  * The last two are coloured by their logarithm, over a factor of WORTH_RANGE below their largest value. A bar below
  * them shows the colours.
  *

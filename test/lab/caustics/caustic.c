@@ -6,8 +6,7 @@
 #include "base/alias.h"
 #include "base/number.h"
 #include "caustics/lamp.h"
-#include "tables/emit.h"
-#include "transport/counts.h"
+#include "tables/emission.h"
 
 /* What of a shape group chains may go by. */
 struct caster {
@@ -97,12 +96,11 @@ static int pierced(const struct caustics *all, const struct quest *q, int *group
     }
 }
 
-static struct quest quest_for(const struct pixel_sample *sample, struct arena *arena, const struct vertex *z,
-                              const struct light_point *y)
+static struct quest quest_for(const struct sample *sample, const struct vertex *z, const struct light_point *y)
 {
-    bool parallel = y->light < 0 || light_at_infinity(&sample->scene->lights.light[y->light]);
-    struct quest q = {sample->scene, arena, z, y, parallel, -1, 1, 0};
-    return q;
+    const struct scene *scene = sample->pass->job->scene;
+    bool parallel = light_at_infinity(&scene->lights.light[y->light]);
+    return (struct quest){scene, &sample->pass->work->arena, z, y, parallel, -1, 1, 0};
 }
 
 static bool same_chain(vec3 from, const vec3 *x, int k, const struct specular_chain *c)
@@ -161,38 +159,36 @@ struct arrival {
 };
 
 /* J is the same both ways except for the squared ratio of the refractive indices at the ends. */
-static struct makers makers_of(const struct mis_counts *n, const struct quest *q, const struct specular_chain *c,
+static struct makers makers_of(const struct counts *n, const struct quest *q, const struct specular_chain *c,
                                struct arrival at)
 {
     const struct light_set *lights = &q->scene->lights;
     const struct light_point *y = q->y;
-    const struct light *light = y->light >= 0 ? &lights->light[y->light] : NULL; /* NULL: infinite, as yet unknown */
-    double J = specular_area(q, c), cos_y = light != NULL && light->kind == LIGHT_AREA ? abs_dot(y->n, c->d) : 1;
-    bool sky = light == NULL || light->kind == LIGHT_INFINITE;
-    double pdf_y = sky ? light_pdf_environment(lights, y->w) : y->pdf; /* as an escaping ray sees it */
+    const struct light *light = &lights->light[y->light];
+    double J = specular_area(q, c), cos_y = light->kind == LIGHT_AREA ? abs_dot(y->n, c->d) : 1;
     double walked = at.pdf > 0 ? at.pdf : 1;
-    struct makers m = {walked * pdf_y * q->chosen * J, 0, 0};
-    if (light == NULL || !light_is_delta(light))
+    struct makers m = {walked * y->pdf * q->chosen * J, 0, 0};
+    if (!light_is_delta(light))
         m.hit = n->hit[LATER_HIT] * walked * c->choice * cos_y * bsdf_eval(&q->z->bsdf, at.wo, c->w, RADIANCE).pdf;
     if (at.pdf > 0)
-        m.splat = n->splat * pdf_y * c->choice * abs_dot(q->z->ng, c->w) / sqr(c->eta) *
-                  emit_pdf(&counts_tables(n)->emission, lights, y, c->p, neg(c->d));
+        m.splat = n->lens * y->pdf * c->choice * abs_dot(q->z->ng, c->w) / sqr(c->eta) *
+                  emission_pdf(&n->tables->emission, lights, y, c->p, neg(c->d));
     return m;
 }
 
-static double share(const struct mis_counts *n, double own, struct makers m)
+static double share(const struct counts *n, double own, struct makers m)
 {
     double all = mis_raise(n, m.connect) + mis_raise(n, m.hit) + mis_raise(n, m.splat);
     return all > 0 ? mis_raise(n, own) / all : 0;
 }
 
-static struct connection contribution(const struct mis_counts *counts, const struct quest *q,
+static struct connection contribution(const struct counts *counts, const struct quest *q,
                                       const struct specular_chain *c, double pdf)
 {
     const struct scene *scene = q->scene;
     const struct light_point *y = q->y;
     const struct vertex *z = q->z;
-    struct connection out = {.light = y->light, .cell = y->cell, .end = q->parallel ? y->w : y->p, .pdf = y->pdf};
+    struct connection out = {.light = y->light};
     bool area = scene->lights.light[y->light].kind == LIGHT_AREA;
     double cosines = scatter_cosine(z, c->w, RADIANCE) * (area ? abs_dot(y->n, c->d) : 1);
     rgb Le = light_Le(&scene->lights, y, neg(c->d)), f = bsdf_eval(&z->bsdf, z->wo, c->w, RADIANCE).f;
@@ -203,25 +199,25 @@ static struct connection contribution(const struct mis_counts *counts, const str
     if (q->parallel ? scene_lit_from(scene, c->p, c->prim_id, c->d)
                     : scene_lit(scene, c->p, c->prim_id, y->p, y->prim_id))
         out.value = value;
-    out.length = z->length + c->length +
-                 (q->parallel ? light_distance(&scene->lights, c->p, c->d) : length(sub(y->p, c->p)));
     struct makers m = makers_of(counts, q, c, (struct arrival){z->wo, pdf});
     out.weight = share(counts, m.connect, m);
     return out;
 }
 
-static struct one_more_path made(const struct mis_counts *counts, const struct quest *q,
-                                 const struct specular_chain *c, double pdf)
+static struct one_more_path made(const struct counts *counts, const struct quest *q, const struct specular_chain *c,
+                                 double pdf)
 {
-    const struct one_more_path out = {contribution(counts, q, c, pdf), q->k};
-    return out;
+    struct vertex *passed = arena_alloc(q->arena, (size_t)q->k * sizeof *passed);
+    for (int i = 0; i < q->k; i++)
+        passed[i] = (struct vertex){.kind = VERTEX_SURFACE, .light = -1, .cell = -1, .p = c->at[i]};
+    return (struct one_more_path){contribution(counts, q, c, pdf), *q->y, passed, q->k};
 }
 
-static int connect(const struct one_more *self, struct pixel_sample *sample, struct arena *arena,
-                   const struct vertex *eye, int t, struct one_more_path out[ONE_MORE_MOST])
+static int connect(const struct one_more *self, struct sample *sample, const struct vertex *eye, int t,
+                   struct one_more_path out[ONE_MORE_MOST])
 {
     const struct caustics *all = (const void *)self;
-    const struct scene *scene = sample->scene;
+    const struct scene *scene = sample->pass->job->scene;
     const struct vertex *z = &eye[t - 1];
     double pdf = t == 2 ? z->pdf_fwd : 0;
     struct light_point y;
@@ -230,8 +226,8 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, str
         return 0;
     if (!lamp_draw(scene, &sample->sampler, &y) || !(y.pdf > 0))
         return 0;
-    struct quest q = quest_for(sample, arena, z, &y);
-    int n = 0, room = sample->max_depth + 1 - t, through = psi_through(all, &q, c);
+    struct quest q = quest_for(sample, z, &y);
+    int n = 0, room = sample->pass->job->max_depth + 1 - t, through = psi_through(all, &q, c);
     for (int i = 0; i < through && q.k <= room; i++)
         out[n++] = made(sample->counts, &q, &c[i], pdf);
     double which = sampler_number(&sample->sampler, DRAW_LIGHT_END);
@@ -243,11 +239,10 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, str
 }
 
 /* A path that others have made: its k vertices from z on are x, x[step] ..., then y. False if Psi has no such chain. */
-static bool in_psi(const struct caustics *all, const struct pixel_sample *sample, struct arena *arena,
-                   const struct vertex *z, int step, int k, const struct light_point *y, struct arrival at,
-                   struct makers *out)
+static bool in_psi(const struct caustics *all, const struct sample *sample, const struct vertex *z, int step, int k,
+                   const struct light_point *y, struct arrival at, struct makers *out)
 {
-    struct quest q = quest_for(sample, arena, z, y);
+    struct quest q = quest_for(sample, z, y);
     struct specular_chain found[STARTS];
     vec3 p[SPECULAR_LONGEST];
     if (k < 1 || k > all->longest || all->left[!(at.pdf > 0)])
@@ -267,10 +262,9 @@ static bool in_psi(const struct caustics *all, const struct pixel_sample *sample
     return false;
 }
 
-static void weigh_hit(const struct caustics *all, const struct pixel_sample *sample, struct arena *arena,
-                      const struct vertex *eye, int t, double *weight)
+static void weigh_hit(const struct caustics *all, const struct sample *sample, const struct joined *j, double *weight)
 {
-    const struct vertex *end = &eye[t - 1], *z = end - 1;
+    const struct vertex *end = j->z, *z = end - 1, *first = j->z + 2 - j->t;
     struct makers m;
     while (z[1].prev_delta)
         z--;
@@ -279,36 +273,36 @@ static void weigh_hit(const struct caustics *all, const struct pixel_sample *sam
     struct light_point y = vertex_light_point(end);
     y.w = neg(end->wo);
     y.pdf = end->pdf_origin;
-    struct arrival at = {z->wo, z == &eye[1] ? z->pdf_fwd : 0};
-    if (z->kind == VERTEX_SURFACE && z->eye_end == FIRST_HIT && in_psi(all, sample, arena, z, 1, k, &y, at, &m))
+    struct arrival at = {z->wo, z == first ? z->pdf_fwd : 0};
+    if (z->kind == VERTEX_SURFACE && z->eye_end == FIRST_HIT && in_psi(all, sample, z, 1, k, &y, at, &m))
         *weight = share(sample->counts, m.hit, m);
 }
 
-static void weigh_lens(const struct caustics *all, const struct pixel_sample *sample, struct arena *arena,
-                       const struct vertex *light, int s, vec3 lens, double *weight)
+static void weigh_lens(const struct caustics *all, const struct sample *sample, const struct joined *j, vec3 lens,
+                       double *weight)
 {
-    const struct camera *camera = &sample->scene->camera;
-    const struct vertex *z = &light[s - 1];
+    const struct camera *camera = &sample->pass->job->scene->camera;
+    const struct vertex *light = j->light, *z = &light[j->s - 1];
     struct light_point y = vertex_light_point(&light[0]);
     struct makers m;
     double px, py;
     vec3 d = sub(z->p, lens), w = normalize(d);
     double pdf = camera_project(camera, lens, w, &px, &py) * camera_spread(camera, length2(d));
     y.pdf = light[0].pdf_fwd;
-    for (int i = 2; i < s; i++)
+    for (int i = 2; i < j->s; i++)
         if (!light[i].prev_delta)
             return;
-    if (in_psi(all, sample, arena, z, -1, s - 2, &y, (struct arrival){neg(w), pdf * abs_dot(z->ng, w)}, &m))
+    if (in_psi(all, sample, z, -1, j->s - 2, &y, (struct arrival){neg(w), pdf * abs_dot(z->ng, w)}, &m))
         *weight = share(sample->counts, m.splat, m);
 }
 
-static void weigh(const struct one_more *self, const struct pixel_sample *sample, struct arena *arena,
-                  const struct vertex *path, int s, int t, struct connection *c)
+static void weigh(const struct one_more *self, const struct sample *sample, const struct joined *j, vec3 lens,
+                  struct connection *c)
 {
-    if (s == 0)
-        weigh_hit((const void *)self, sample, arena, path, t, &c->weight);
-    else if (t == 1)
-        weigh_lens((const void *)self, sample, arena, path, s, c->end, &c->weight);
+    if (j->s == 0)
+        weigh_hit((const void *)self, sample, j, &c->weight);
+    else if (j->t == 1)
+        weigh_lens((const void *)self, sample, j, lens, &c->weight);
 }
 
 /* --- what chains can go by --------------------------------------------------------------------------- */
@@ -360,14 +354,13 @@ struct trial {
 
 /* Without a chain of weight w that contributes X, the second moment is larger by X^2 / (1 - w); others find the rest
  * of what the chain found, t = 1 with them, which is not tried. */
-static struct trial try_chains(const struct one_more *self, struct pixel_sample *sample, struct arena *arena,
-                               const struct vertex *eye, int n)
+static struct trial try_chains(const struct one_more *self, struct sample *sample, const struct vertex *eye, int n)
 {
     const double MOST = 100; /* chance decides whether more is seen */
     struct one_more_path more[ONE_MORE_MOST];
     struct trial out = {rgb_luminance(sample->value), {0, 0}};
     for (int t = 2; t <= n; t++)
-        for (int i = eye[t - 1].kind == VERTEX_SURFACE ? connect(self, sample, arena, eye, t, more) : 0; i-- > 0;) {
+        for (int i = eye[t - 1].kind == VERTEX_SURFACE ? connect(self, sample, eye, t, more) : 0; i-- > 0;) {
             double C = rgb_luminance(more[i].c.value), w = more[i].c.weight;
             out.brings += C * (1 - w);
             out.tail[t > 2] += sqr(C * w) * fmin(1 / (1 - w), MOST);
@@ -386,15 +379,16 @@ static double relative_tail(const struct trial *trial, int n, int which)
     return sum;
 }
 
-bool caustics_pay(struct one_more *self, const struct render_job *job, const struct mis_counts *counts)
+bool caustics_pay(struct one_more *self, const struct render_job *job, const struct prepared *method)
 {
+    const struct counts *counts = &method->counts;
     const double LEAST = 0.5; /* chains make a sample several times as expensive */
     struct caustics *all = (void *)self;
     struct render_job other = *job;
     struct pixel_rect film = job->film_rect;
     struct workspace *work = workspaces_new(1, job->max_depth);
     struct tile tile = {.sum = NULL};
-    int n = int_within(pixel_light_count(job) / 8, 256, 4096);
+    int n = int_within((double)rect_pixels(film) / 8, 256, 4096);
     struct trial *trial = mem_alloc((size_t)n, sizeof *trial);
     bool delta = false;
     other.seed = other.eye_seed = hash_combine(job->seed, 0xbb67ae8584caa73bu); /* unlike the render's */
@@ -403,19 +397,19 @@ bool caustics_pay(struct one_more *self, const struct render_job *job, const str
         sampler_r2(i, &u, &v);
         int x = film.x0 + (int)(u * rect_width(film)), y = film.y0 + (int)(v * rect_height(film));
         struct tile_pass pass = {&other, i, i + 1, &tile, work, NULL};
-        tile_start(&tile, pixels_all((struct pixel_rect){x, y, x + 1, y + 1}), film, &job->scene->filter);
+        tile_start(&tile, (struct tile_pixels){{x, y, x + 1, y + 1}, 1, 1, 0, 0}, film, &job->scene->filter);
         arena_reset(&work->arena);
-        struct pixel_sample sample = pixel_sample_begin(&pass, counts, x, y, i);
-        int length = pixel_eye_path(&pass, &sample, work->eye, job->max_depth + 2);
-        one_more_sum_eye(&sample, &work->arena, &all->more, work->eye, length);
-        trial[i] = try_chains(&all->more, &sample, &work->arena, work->eye, length);
+        struct sample sample = sample_begin(&pass, counts, method->numbers.light_points, x, y, i);
+        int length = sample_eye_path(&sample, work->eye, job->max_depth + 2);
+        one_more_sum_eye(&sample, &all->more, work->eye, length);
+        trial[i] = try_chains(&all->more, &sample, work->eye, length);
     }
     tile_free(&tile);
     workspaces_free(work, 1);
     for (int i = 0; i < job->scene->lights.n; i++)
         delta |= light_is_delta(&job->scene->lights.light[i]);
     for (int i = 0; i < 2; i++)
-        all->left[i] = !(relative_tail(trial, n, i) > LEAST) && !(delta && (i > 0 || counts->splat == 0));
+        all->left[i] = !(relative_tail(trial, n, i) > LEAST) && !(delta && (i > 0 || counts->lens == 0));
     free(trial);
     return !all->left[0] || !all->left[1];
 }

@@ -42,8 +42,8 @@
 struct one_more *caustics_new(const struct scene *scene, int longest);
 void caustics_free(struct one_more *self); /* NULL: nothing */
 
-/* caustics_pay: leave to s = 0 and t = 1 what they make well enough by the counts that the method has settled; nothing
- * that they cannot make. False if that leaves nothing. */
-bool caustics_pay(struct one_more *self, const struct render_job *job, const struct mis_counts *counts);
+/* caustics_pay: leave to s = 0 and t = 1 what they make well enough by the counts of the method; nothing that they
+ * cannot make. False if that leaves nothing. */
+bool caustics_pay(struct one_more *self, const struct render_job *job, const struct prepared *method);
 
 #endif

@@ -4,7 +4,11 @@
 bool lamp_point(const struct light_set *lights, const struct geometry *geo, const double u[3], struct light_point *out)
 {
     const struct alias_table *choice = &lights->choice;
-    return choice->n > 0 && light_sample_cell(lights, geo, alias_sample(choice, u[0], NULL, NULL), u[1], u[2], out);
+    double in_cell[3] = {0, u[1], u[2]};
+    if (choice->n == 0)
+        return false;
+    int cell = alias_sample(choice, u[0], NULL, &in_cell[0]);
+    return light_sample_cell(lights, geo, cell, in_cell, out);
 }
 
 bool lamp_draw(const struct scene *scene, struct sampler *sampler, struct light_point *out)
@@ -15,7 +19,7 @@ bool lamp_draw(const struct scene *scene, struct sampler *sampler, struct light_
     return lamp_point(&scene->lights, &scene->geo, u, out);
 }
 
-struct connection lamp_connect(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+struct connection lamp_connect(const struct scene *scene, const struct counts *counts, const struct vertex *z,
                                const struct light_point *at, double pdf)
 {
     struct lit l = {.value = rgb_black()};
@@ -26,14 +30,10 @@ struct connection lamp_connect(const struct scene *scene, const struct mis_count
 
 struct lamp_way lamp_way(const struct scene *scene, vec3 p, const struct light_point *at)
 {
-    struct lamp_way way = {.d2 = 1, .parallel = light_at_infinity(&scene->lights.light[at->light])};
-    vec3 d = way.parallel ? at->w : sub(at->p, p);
-    double distance = length(d);
-    way.w = mul(d, 1 / distance);
-    way.length = way.parallel ? light_distance(&scene->lights, p, way.w) : distance;
-    if (!way.parallel)
-        way.d2 = length2(d);
-    return way;
+    if (light_at_infinity(&scene->lights.light[at->light]))
+        return (struct lamp_way){at->w, 1};
+    vec3 d = sub(at->p, p);
+    return (struct lamp_way){normalize(d), length2(d)};
 }
 
 bool lamp_seen(const struct scene *scene, vec3 p, uint64_t prim_id, const struct light_point *at)

@@ -15,15 +15,13 @@ bool lamp_point(const struct light_set *lights, const struct geometry *geo, cons
 bool lamp_draw(const struct scene *scene, struct sampler *sampler, struct light_point *out);
 
 /* lamp_connect: connect_direct for a point that is known, found with that density. */
-struct connection lamp_connect(const struct scene *scene, const struct mis_counts *counts, const struct vertex *z,
+struct connection lamp_connect(const struct scene *scene, const struct counts *counts, const struct vertex *z,
                                const struct light_point *at, double pdf);
 
 /* The way from a point of the scene to one on a light. */
 struct lamp_way {
-    vec3 w;        /* unit */
-    double d2;     /* distance squared, by which densities per area differ from those of directions; at infinity 1 */
-    double length; /* of a path's edge */
-    bool parallel; /* at infinity */
+    vec3 w;    /* unit */
+    double d2; /* distance squared, by which densities per area differ from those of directions; at infinity 1 */
 };
 struct lamp_way lamp_way(const struct scene *scene, vec3 p, const struct light_point *at);
 

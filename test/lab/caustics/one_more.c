@@ -2,166 +2,187 @@
 #include "caustics/one_more.h"
 
 #include <assert.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "caustics/derived.h"
+#include "integrators/prepare.h"
 #include "render/methods.h"
 
 const char *const ONE_MORE_METHODS[] = {"bdpt", "pt", "asbdpt", NULL};
 
 /* --- a sample ---------------------------------------------------------------------------------------- */
 
-static void weigh_again(const struct one_more *more, const struct pixel_sample *sample, struct arena *arena,
-                        const struct vertex *path, int s, int t, struct connection *c)
+static void weigh_again(const struct one_more *more, const struct sample *sample, struct joined *j, vec3 lens,
+                        struct connection *c)
 {
+    j->c = c;
     if (more->weigh != NULL && !rgb_is_black(c->value))
-        more->weigh(more, sample, arena, path, s, t, c);
+        more->weigh(more, sample, j, lens, c);
 }
 
-static void sum_more(struct pixel_sample *sample, struct arena *arena, const struct one_more *more,
-                     const struct vertex *eye, int t)
+/* The eye sub-path's first t vertices with those that were passed behind them. */
+static const struct vertex *whole(const struct sample *sample, const struct vertex *eye, int t,
+                                  const struct one_more_path *made)
+{
+    size_t n = (size_t)(t + made->n_passed);
+    struct vertex *path = arena_alloc(&sample->pass->work->arena, n * sizeof *path);
+    memcpy(path, eye, (size_t)t * sizeof *path);
+    memcpy(path + t, made->passed, (size_t)made->n_passed * sizeof *path);
+    return path;
+}
+
+static void sum_more(struct sample *sample, const struct one_more *more, const struct vertex *eye, int t)
 {
     struct one_more_path made[ONE_MORE_MOST];
-    int n = more->connect(more, sample, arena, eye, t, made);
-    for (int i = 0; i < n; i++)
-        pixel_add(sample, &made[i].c, 1, t + made[i].passed, NULL, &eye[t - 1], NO_CHOICE);
-}
-
-static void sum_direct(struct pixel_sample *sample, struct arena *arena, const struct one_more *more,
-                       const struct vertex *eye, int t)
-{
-    const struct vertex *z = &eye[t - 1];
-    int n = z->eye_end == FIRST_HIT ? sample->light_points : 1;
-    const struct choice each = {1, 1.0 / n};
-    for (int i = 0; i < n; i++) {
-        struct connection c = connect_direct(sample->scene, sample->counts, z, &sample->sampler, i, n);
-        weigh_again(more, sample, arena, eye, 1, t, &c);
-        pixel_add(sample, &c, 1, t, NULL, z, each);
+    int n = more->connect(more, sample, eye, t, made);
+    for (const struct one_more_path *m = made; m < made + n; m++) {
+        int length = t + m->n_passed;
+        bool told = m->n_passed > 0 && sample->pass->observer != NULL;
+        const struct vertex *path = told ? whole(sample, eye, t, m) : eye;
+        sample_add(sample, (struct joined){.s = 1, .t = length, .z = told ? &path[length - 1] : &eye[t - 1],
+                                           .c = &m->c, .y0 = &m->y0, .pmf = 1, .scale = 1});
     }
 }
 
-void one_more_sum_eye(struct pixel_sample *sample, struct arena *arena, const struct one_more *more,
-                      const struct vertex *eye, int n)
+static void sum_direct(struct sample *sample, const struct one_more *more, const struct vertex *eye, int t)
 {
+    const struct vertex *z = &eye[t - 1];
+    int n = z->eye_end == FIRST_HIT ? sample->light_points : 1;
+    for (int i = 0; i < n; i++) {
+        struct light_point y0;
+        struct connection c = connect_direct(sample->pass->job->scene, sample->counts, z, &sample->sampler, i, n, &y0);
+        struct joined j = {.s = 1, .t = t, .z = z, .y0 = &y0, .pmf = 1, .scale = 1.0 / n};
+        weigh_again(more, sample, &j, z->p, &c);
+        sample_add(sample, j);
+    }
+}
+
+void one_more_sum_eye(struct sample *sample, const struct one_more *more, const struct vertex *eye, int n)
+{
+    const struct render_job *job = sample->pass->job;
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
-        struct connection c = connect_hit(sample->scene, sample->counts, z - 1, z, t);
-        weigh_again(more, sample, arena, eye, 0, t, &c);
-        pixel_add(sample, &c, 0, t, NULL, z, NO_CHOICE);
-        if (z->kind == VERTEX_SURFACE && t <= sample->max_depth + 1) {
-            sum_direct(sample, arena, more, eye, t);
-            sum_more(sample, arena, more, eye, t);
+        struct connection c = connect_hit(job->scene, sample->counts, z - 1, z, t);
+        struct joined j = {.t = t, .z = z, .pmf = 1, .scale = 1};
+        weigh_again(more, sample, &j, z->p, &c);
+        sample_add(sample, j);
+        if (z->kind == VERTEX_SURFACE && t <= job->max_depth + 1) {
+            sum_direct(sample, more, eye, t);
+            sum_more(sample, more, eye, t);
         }
     }
 }
 
-/* As pixel_splat_path. */
-static void splat(struct pixel_sample *sample, struct arena *arena, const struct one_more *more,
-                  const struct vertex *light, int n_light, double scale)
+/* As sample_lens. */
+static void sum_lens(struct sample *sample, const struct one_more *more, const struct vertex *light, int n,
+                     double scale)
 {
-    for (int s = 2; s <= n_light && s <= sample->max_depth + 1; s++) {
-        struct connection c = connect_lens(sample->scene, sample->counts, light, s, &sample->sampler);
-        weigh_again(more, sample, arena, light, s, 1, &c);
-        pixel_splat(sample, &c, s, &light[s - 1], scale / sample->counts->splat);
+    const struct render_job *job = sample->pass->job;
+    for (int s = 2; s <= n && s <= job->max_depth + 1; s++) {
+        vec3 lens = lens_drawn(&job->scene->camera, light[s - 1].p, sample->sampler);
+        struct connection c = connect_lens(job->scene, sample->counts, light, s, &sample->sampler);
+        struct joined j = {.s = s, .t = 1, .light = light, .pmf = 1, .scale = scale / sample->counts->lens};
+        weigh_again(more, sample, &j, lens, &c);
+        sample_splat(sample, j);
     }
 }
 
-static void render_alone(const struct frozen *f, const struct one_more *more, const struct tile_pass *pass, int x,
-                         int y, long iteration)
+/* --- a tile pass, as in loop.c, but for one_more_sum_eye and sum_lens ---------------------------------- */
+
+/* Those of every path_pixels-th of the pixels. */
+static void fill_pool(const struct prepared *p, const struct tile_pass *pass, struct tile_pixels pixels, long iteration)
 {
-    struct workspace *work = pass->work;
-    const struct mis_counts *counts = &f->counts;
-    arena_reset(&work->arena);
-    struct pixel_sample sample = pixel_sample_begin(pass, counts, x, y, iteration);
-    int n_eye = pixel_eye_path(pass, &sample, work->eye, sample.max_depth + 2), n_light = 0;
-    if (counts->splat > 0)
-        n_light = pixel_light_path(pass, counts, x, y, (uint64_t)iteration, &work->arena, work->light);
-    one_more_sum_eye(&sample, &work->arena, more, work->eye, n_eye);
-    if (counts->connect[FIRST_HIT] > 0)
-        pixel_sum_pairs(&sample, work->eye, n_eye, work->light, n_light, NO_CHOICE);
-    splat(&sample, &work->arena, more, work->light, n_light, 1);
-    pixel_sample_end(&sample);
+    struct pool *pool = &pass->work->pool;
+    pool_clear(pool);
+    for (int i = 0, x, y; pixels_get(pixels, i, &x, &y); i += p->numbers.path_pixels) {
+        struct vertex *path = pool_room(pool, (size_t)p->max_depth + 1);
+        pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, &pool->arena, path));
+    }
 }
 
-static void render_shared(const struct preparation *m, const struct one_more *more, const struct tile_pass *pass, int x,
-                          int y, int number, long iteration)
+static void join(const struct prepared *p, const struct index *index, struct sample *sample, int number,
+                 const struct vertex *z, int t)
 {
+    int C = p->numbers.draws[z->eye_end];
+    for (int i = 0; i < C && t <= p->max_depth && vertex_connectible(z); i++) {
+        struct drawn drawn;
+        if (p->method->draw(p, index, sample, number, z, i, C, &drawn))
+            sample_pairs(sample, &drawn, z, t, 1 / (C * sample->pass->work->pool.n * drawn.pmf));
+    }
+}
+
+static void render_pixel(const struct prepared *p, const struct one_more *more, const struct tile_pass *pass,
+                         const struct index *index, int number, int x, int y, long iteration)
+{
+    struct vertex *eye = pass->work->eye;
+    struct pool *pool = &pass->work->pool;
+    struct tile_pixels pixels = pass->tile->pixels;
+    bool shared = p->method->build != NULL;
+    int each = p->numbers.path_pixels, k = 0;
     arena_reset(&pass->work->arena);
-    struct pooled_pixel p = pooled_begin(m, pass, x, y, number, iteration);
-    one_more_sum_eye(&p.sample, &pass->work->arena, more, p.eye, p.n);
-    pooled_connect(m, pass, &p);
-    if (p.light != NULL)
-        splat(&p.sample, &pass->work->arena, more, p.light, p.n_light, p.scale);
-    pixel_sample_end(&p.sample);
+    if (!shared) {
+        pixels = (struct tile_pixels){{x, y, x + 1, y + 1}, 1, 1, 0, 0};
+        number = 0;
+        if (each > 0)
+            fill_pool(p, pass, pixels, iteration);
+    }
+    struct sample sample = sample_begin(pass, &p->counts, p->numbers.light_points, x, y, iteration);
+    sample.choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
+    int n = sample_eye_path(&sample, eye, p->max_depth + 2);
+    one_more_sum_eye(&sample, more, eye, n);
+    for (int t = 2; t <= n && each > 0 && p->method->draw != NULL; t++)
+        join(p, index, &sample, number, &eye[t - 1], t);
+    if (each > 0 && number % each == 0) {
+        k = number / each;
+        sum_lens(&sample, more, pool_path(pool, k), pool->length[k], pixels_count(pixels) / ((double)pool->n * each));
+    }
+    sample_end(&sample);
 }
 
-void one_more_render(const struct preparation *m, const struct one_more *more, const struct tile_pass *pass)
+void one_more_render(const struct prepared *p, const struct one_more *more, const struct tile_pass *pass)
 {
-    bool shared = m->method->draw != NULL || m->method->connect != NULL;
+    bool shared = p->method->build != NULL && p->numbers.path_pixels > 0;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
-        if (shared)
-            pooled_fill(m, pass, iteration);
+        const struct index *index = NULL;
+        if (shared) {
+            fill_pool(p, pass, pass->tile->pixels, iteration);
+            index = p->method->build(p, pass, iteration);
+        }
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
-            if (shared)
-                render_shared(m, more, pass, x, y, i, iteration);
-            else
-                render_alone(m->state, more, pass, x, y, iteration);
+            render_pixel(p, more, pass, index, i, x, y, iteration);
     }
 }
 
 /* --- rows -------------------------------------------------------------------------------------------- */
 
 /* A method that is at its usual parameters is never refused. */
-void one_more_prepare(const struct render_job *job, struct preparation *out)
+void one_more_prepare(const struct render_job *job, struct prepared *p)
 {
-    struct one_more_state *s = out->state;
+    struct one_more_own *own = p->own;
     const struct settings usual = {0};
     struct render_job other = *job;
     struct error err;
-    s->scene = *job->scene;
-    s->scene.settings = usual;
-    other.scene = &s->scene;
-    bool ok = method_prepare(method_find(ONE_MORE_METHODS[s->with], &usual, &err), &other, &s->method, &err);
+    own->scene = *job->scene;
+    own->scene.settings = usual;
+    other.scene = &own->scene;
+    bool ok = method_prepare(method_find(ONE_MORE_METHODS[own->with], &usual, &err), &other, &own->method, &err);
     assert(ok);
     (void)ok;
-    out->size = s->method.size;
-    memcpy(out->number, s->method.number, sizeof out->number);
+    p->size = own->method.size;
+    p->numbers = own->method.numbers;
+    p->tables->regions.n = own->method.tables->regions.n;
+    memcpy(p->runner, own->method.runner, sizeof p->runner);
+    p->n_runners = own->method.n_runners;
+    p->winner = own->method.winner;
 }
 
-const struct mis_counts *one_more_counts(const struct one_more_state *s)
-{
-    return &((const struct frozen *)s->method.state)->counts;
-}
+void one_more_release(struct prepared *p) { method_release(&((struct one_more_own *)p->own)->method); }
 
-void one_more_release(void *state)
+void one_more_pass(const struct prepared *p, const struct tile_pass *pass)
 {
-    struct one_more_state *s = state;
-    method_release(&s->method);
-}
-
-/* The other method finds its own scratch in the workspace. */
-void one_more_pass(const struct preparation *m, const struct tile_pass *pass)
-{
-    const struct one_more_state *s = m->state;
-    struct one_more_scratch *scratch = pass->work->scratch;
-    pass->work->scratch = scratch->own;
-    if (s->more != NULL)
-        one_more_render(&s->method, s->more, pass);
+    const struct one_more_own *own = p->own;
+    if (own->more != NULL)
+        one_more_render(&own->method, own->more, pass);
     else
-        s->method.method->render(&s->method, pass);
-    pass->work->scratch = scratch;
-}
-
-void one_more_scratch(void *scratch, const void *state)
-{
-    const struct one_more_state *s = state;
-    struct one_more_scratch *out = scratch;
-    out->method = &s->method;
-    out->own = method_scratch(&s->method);
-}
-
-void one_more_scratch_free(void *scratch)
-{
-    struct one_more_scratch *s = scratch;
-    method_scratch_free(s->method, s->own);
+        own->method.method->render(&own->method, pass);
 }

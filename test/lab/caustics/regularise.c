@@ -28,9 +28,9 @@ struct regularise {
 
 /* Is there no strategy for the path of which z = eye[t-1], left by a delta lobe, is the last vertex before its light? A
  * vertex can be joined to where it was left by another lobe. */
-static bool without_rival(const struct mis_counts *counts, const struct vertex *eye, int t)
+static bool without_rival(const struct counts *counts, const struct vertex *eye, int t)
 {
-    bool scattered = false, light_paths = counts->splat > 0;
+    bool scattered = false, light_paths = counts->lens > 0;
     for (int i = 1; i < t - 1; i++) {
         bool here = !eye[i + 1].prev_delta;
         if (here && light_paths && !eye[i].prev_delta)
@@ -54,15 +54,14 @@ static rgb spread(const struct vertex *z, vec3 w, double eps)
 }
 
 /* By a copy of the sampler: what other strategies draw is the same as without. */
-static int connect(const struct one_more *self, struct pixel_sample *sample, struct arena *arena,
-                   const struct vertex *eye, int t, struct one_more_path out[ONE_MORE_MOST])
+static int connect(const struct one_more *self, struct sample *sample, const struct vertex *eye, int t,
+                   struct one_more_path out[ONE_MORE_MOST])
 {
     const struct regularise *r = (const void *)self;
-    const struct scene *scene = sample->scene;
+    const struct scene *scene = sample->pass->job->scene;
     const struct vertex *z = &eye[t - 1];
     struct sampler draws = sample->sampler;
     struct light_point y;
-    (void)arena;
     if (z->bsdf.n_lobes == z->bsdf.n_smooth || !without_rival(sample->counts, eye, t))
         return 0;
     if (!lamp_draw(scene, &draws, &y) || !light_is_delta(&scene->lights.light[y.light]))
@@ -73,36 +72,33 @@ static int connect(const struct one_more *self, struct pixel_sample *sample, str
                           1 / (y.pdf * way.d2));
     if (rgb_is_black(value) || !rgb_is_finite(value) || !lamp_seen(scene, z->p, z->prim_id, &y))
         return 0;
-    const struct one_more_path made = {{.value = value, .weight = 1, .length = z->length + way.length,
-                                        .end = way.parallel ? y.w : y.p, .light = y.light, .cell = y.cell,
-                                        .pdf = y.pdf}, 0};
-    out[0] = made;
+    out[0] = (struct one_more_path){{.value = value, .weight = 1, .light = y.light}, y, NULL, 0};
     return 1;
 }
 
 /* --- the row ----------------------------------------------------------------------------------------- */
 
-struct regularise_state {
-    struct one_more_state base;
+struct regularise_own {
+    struct one_more_own base;
     struct regularise own;
 };
 
-static void prepare(const struct render_job *job, struct preparation *out)
+static void prepare(const struct render_job *job, struct prepared *p)
 {
-    struct regularise_state *s = out->state;
-    one_more_prepare(job, out);
+    struct regularise_own *s = p->own;
+    one_more_prepare(job, p);
     s->own.more.connect = connect;
     s->base.more = &s->own.more;
 }
 
-static const struct field PARAMETERS[] = {
-    ONE_MORE_WITH(regularise_state),
-    {"angle", FIELD_NUMBER, offsetof(struct regularise_state, own.eps_1), 0.1, 1e-6, 1,
+static const struct field OWN[] = {
+    ONE_MORE_WITH(regularise_own),
+    {"angle", FIELD_NUMBER, offsetof(struct regularise_own, own.eps_1), 0.1, 1e-6, 1,
      "by which mirrors and glass are blurred, in radians, at first", NULL},
     {.name = NULL}};
 
 const struct method method_regularise = {
     .name = "regularise", .check = surfaces_alone,
     .help = "mirrors and glass are blurred where nothing else finds a light; biased",
-    .parameters = PARAMETERS, .state_size = sizeof(struct regularise_state), .prepare = prepare,
-    .release = one_more_release, ONE_MORE_ROW};
+    .own = OWN, .own_size = sizeof(struct regularise_own), .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
+    .release = one_more_release, .render = one_more_pass};

@@ -1,9 +1,9 @@
 /* surfaces.c: see surfaces.h. */
 #include "caustics/surfaces.h"
 
-bool surfaces_alone(const void *state, const struct scene *scene, struct error *err)
+bool surfaces_alone(const struct prepared *p, const struct scene *scene, struct error *err)
 {
-    (void)state;
+    (void)p;
     return scene->media.n == 0 ||
            error_set(err, "this integrator knows of surfaces alone, and the scene has media; bdpt can render it");
 }

@@ -2,9 +2,8 @@
 #ifndef ASBDPT_SURFACES_H
 #define ASBDPT_SURFACES_H
 
-#include "base/error.h"
-#include "scene/scene.h"
+#include "integrators/method.h"
 
-bool surfaces_alone(const void *state, const struct scene *scene, struct error *err);
+bool surfaces_alone(const struct prepared *p, const struct scene *scene, struct error *err);
 
 #endif

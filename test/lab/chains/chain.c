@@ -44,9 +44,9 @@ void chain_candidate(struct chain *c, long i)
 
 /* --- preparing --------------------------------------------------------------------------------------- */
 
-void chain_prepare(const struct chain_rules *rules, const struct render_job *job, struct preparation *out)
+void chain_prepare(const struct chain_rules *rules, const struct render_job *job, struct prepared *out)
 {
-    struct chains *all = out->state;
+    struct chains *all = out->own;
     const struct pixel_rect film = job->film_rect;
     const double *radius = job->scene->filter.radius;
     double pixels = (double)rect_width(film) * rect_height(film);
@@ -56,7 +56,8 @@ void chain_prepare(const struct chain_rules *rules, const struct render_job *job
     all->width = rect_width(film) - 1 + 2 * radius[0];
     all->height = rect_height(film) - 1 + 2 * radius[1];
     all->scale = all->width * all->height / pixels;
-    all->frozen.counts.splat = all->width * all->height;
+    all->counts = counts_of(out->numbers, 1, 1, all->width * all->height, out->tables);
+    all->counts.power = job->power_heuristic;
     all->lengths = rules->by_length ? job->max_depth + 1 : 1;
     all->each = all->starts > 0 ? all->starts : rules->by_length ? EACH : ALL_LENGTHS;
     if (all->each > MOST_STATES / all->lengths)
@@ -64,15 +65,19 @@ void chain_prepare(const struct chain_rules *rules, const struct render_job *job
     out->size.block = CHAIN_BLOCK;
 }
 
-void chain_scratch(void *scratch, const void *state)
+struct chain *chain_new(const struct prepared *m, const struct render_job *job, struct workspace *work)
 {
-    struct chain *c = scratch;
-    c->all = state;
+    struct chain *c = mem_alloc(1, sizeof *c);
+    c->all = m->own;
+    c->job = job;
+    c->work = work;
+    c->light = mem_alloc((size_t)job->max_depth + 1, sizeof *c->light);
     c->before = mem_alloc((size_t)c->all->lengths * (size_t)c->all->each + 1, sizeof *c->before);
     if (c->all->rules->own_size > 0) {
         c->now.own = mem_alloc(1, c->all->rules->own_size);
         c->next.own = mem_alloc(1, c->all->rules->own_size);
     }
+    return c;
 }
 
 static void free_state(const struct chain_rules *rules, struct chain_state *s)
@@ -85,12 +90,13 @@ static void free_state(const struct chain_rules *rules, struct chain_state *s)
     tile_free(&s->heard);
 }
 
-void chain_scratch_free(void *scratch)
+void chain_free(struct chain *c)
 {
-    struct chain *c = scratch;
     free_state(c->all->rules, &c->now);
     free_state(c->all->rules, &c->next);
     free(c->before);
+    free(c->light);
+    free(c);
 }
 
 /* --- one chain --------------------------------------------------------------------------------------- */
@@ -137,18 +143,13 @@ static void send(const struct chain *c, const struct tile_pass *pass, const stru
         tile->full(tile->context, tile);
 }
 
-void chain_render(const struct preparation *m, const struct tile_pass *pass)
+void chain_render(const struct prepared *m, const struct tile_pass *pass)
 {
-    struct chain *c = pass->work->scratch;
+    struct chain *c = chain_new(m, pass->job, pass->work);
     long n = pixels_count(pass->tile->pixels) * (pass->end - pass->first);
     double held = 0; /* what the present state has counted since it was reached */
-    (void)m;
-    c->job = pass->job;
-    c->work = pass->work;
     start(c, pass);
-    if (!(c->b > 0))
-        return;
-    for (; n > 0 && !pass_enough(c->job); n--) {
+    for (; c->b > 0 && n > 0 && !pass_enough(c->job); n--) {
         double a = chain_propose(c);
         held += 1 - a;
         if (rng_uniform(&c->rng) < a) {
@@ -160,4 +161,5 @@ void chain_render(const struct preparation *m, const struct tile_pass *pass)
         }
     }
     send(c, pass, &c->now, held);
+    chain_free(c);
 }

@@ -40,22 +40,23 @@ struct chain_state {
 
 struct chain_rules;
 
-/* Frozen state of a method. */
+/* What a method has besides what all methods have (prepared->own). */
 struct chains {
-    struct frozen frozen;   /* counts.splat is the area of the raster: one light sub-path for one eye sub-path on it */
     int starts;             /* parameters; 0: as chain_prepare thinks best */
     double sigma, large_step;
     const struct chain_rules *rules;
+    struct counts counts;   /* of bdpt; lens is the area of the raster: one light sub-path for one eye sub-path on it */
     double x, y, width, height; /* the raster: the film, and as far around it as the filter reaches */
     double scale;               /* raster area for each pixel */
     int lengths, each;          /* independent states: so many of each of so many lengths, from 2 vertices on */
 };
 
-/* The memory of one thread. */
+/* One chain after another, of one thread. */
 struct chain {
     const struct chains *all;
     const struct render_job *job;
     struct workspace *work;
+    struct vertex *light; /* [max_depth + 1] a light sub-path; owned */
     struct rng rng; /* of this chain */
     uint64_t pass;  /* a number that no other chain has */
     double *before; /* [lengths * each + 1], sums of the I of its independent states; owned */
@@ -78,9 +79,7 @@ struct chain_rules {
 };
 
 /* Of a row of the table. */
-#define CHAIN_ROW                                                                                                      \
-    .numbers = NUMBERS_OF_BDPT, .state_size = sizeof(struct chains), .scratch_size = sizeof(struct chain),             \
-    .render = chain_render, .scratch_init = chain_scratch, .scratch_free = chain_scratch_free
+#define CHAIN_ROW .numbers = NUMBERS_OF_BDPT, .own_size = sizeof(struct chains), .render = chain_render
 
 /* chain_propose: what is proposed, by the rules. chain_swap: go there. */
 double chain_propose(struct chain *c);
@@ -93,10 +92,13 @@ void chain_candidate(struct chain *c, long i);
  * I. Returns b; 0: they were all dark, or it was enough, and there is no chain. */
 double chain_start(struct chain *c, double u);
 
-/* For rows of the table: prepare with these rules, render, and give back. The scratch of a method is a struct chain. */
-void chain_prepare(const struct chain_rules *rules, const struct render_job *job, struct preparation *out);
-void chain_render(const struct preparation *m, const struct tile_pass *pass);
-void chain_scratch(void *scratch, const void *state);
-void chain_scratch_free(void *scratch);
+/* For rows of the table: prepare with these rules; render. */
+void chain_prepare(const struct chain_rules *rules, const struct render_job *job, struct prepared *out);
+void chain_render(const struct prepared *m, const struct tile_pass *pass);
+
+/* chain_new: the memory of a chain that has not begun; chain_free releases it.
+ *   work  of the thread */
+struct chain *chain_new(const struct prepared *m, const struct render_job *job, struct workspace *work);
+void chain_free(struct chain *c);
 
 #endif

@@ -1,8 +1,6 @@
 /* follow.c: see follow.h. */
 #include "chains/follow.h"
 
-#include "transport/counts.h"
-
 /* Leave y_0, or a surface by a lobe that is not delta, in a given direction. */
 static bool depart_towards(const struct walk *w, struct vertex *v, vec3 wi, struct departure *out)
 {
@@ -17,7 +15,7 @@ static bool depart_towards(const struct walk *w, struct vertex *v, vec3 wi, stru
     } else {
         struct bsdf_value b = bsdf_eval(&v->bsdf, v->wo, wi, IMPORTANCE);
         from.pdf = b.pdf;
-        from.pdf_rev = v->pdf_rev = b.pdf_rev;
+        from.pdf_rev = b.pdf_rev;
         from.beta = rgb_mul(v->beta, rgb_scale(b.f, scatter_cosine(v, wi, IMPORTANCE) / b.pdf));
     }
     *out = from;
@@ -36,17 +34,14 @@ int follow_light(const struct walk *w, const struct path_stop *stop, int n, stru
         d = mul(d, 1 / sqrt(d2));
         if (!(stop[i - 1].delta ? walk_leave(w, prev, IMPORTANCE, &from) : depart_towards(w, prev, d, &from)))
             return i;
-        prev->pdf_rev = from.pdf_rev;
         from.ray.d = d;
         *v = stop[i].v;
         v->prev_delta = from.delta;
         v->wo = neg(d);
         v->beta = from.beta;
-        v->pdf_rev = 0;
-        v->length = prev->length + (parallel ? light_distance(&w->scene->lights, v->p, prev->wo) : sqrt(d2));
         walk_measure(w, v, prev, &from, d2);
         v->eye_end = LATER_HIT;
-        v->mis_c = c_light(w->counts, &w->scene->lights, prev, v, LATER_HIT);
+        v->mis_c = c_light(w->counts, prev, v, LATER_HIT);
     }
     return n;
 }

@@ -15,8 +15,7 @@
  * the lobe, so it is a coordinate of the state like those of primary.h. Offsets are between r1 and r2 pixels,
  * r = r2 exp(-u ln(r2/r1)), as likely from there to here [V97 11.4.3].
  *
- * Left out: deletion of a part, and perturbations of several chains. Paths to one of several infinite lights, which
- * s = 0 cannot tell apart, have new paths alone.
+ * Left out: deletion of a part, and perturbations of several chains.
  *
  * Tests: test_chains.c.
  */
@@ -57,7 +56,7 @@ static void begin_path(struct mlt_path *path, int k)
     path->L[LENS_PERTURBATION] = path->L[CAUSTIC_PERTURBATION] = -1;
 }
 
-/* x_0 where an eye sub-path came to a light (s = 0; an infinite one: the first), or drawn with these numbers (s = 1) */
+/* x_0 where an eye sub-path came to a light (s = 0), or drawn with these numbers (s = 1) */
 static void light_end(const struct chain *c, const struct vertex *z, const double *u, struct vertex *out)
 {
     const struct scene *scene = c->job->scene;
@@ -66,30 +65,29 @@ static void light_end(const struct chain *c, const struct vertex *z, const doubl
     if (z == NULL) {
         lamp_point(lights, &scene->geo, u, &at);
     } else if (z->lamp == NULL && z->kind == VERTEX_ESCAPED) {
-        at.light = lights->infinite[0];
+        at.light = lights->sky;
         at.w = neg(z->wo);
-        at.pdf = light_pdf_towards(lights, at.light, at.w, &at.cell);
+        at.pdf = light_pdf_sky(lights, at.w, &at.cell);
     } else {
         z = z->lamp != NULL ? z->lamp : z;
         at = vertex_light_point(z);
         at.pdf = z->pdf_origin;
     }
-    vertex_light_end(scene, &c->all->frozen.counts, &at, out);
+    vertex_light_end(scene, &c->all->counts, &at, out);
 }
 
 /* m, l and what can be done, from which vertices are left by delta lobes. */
 static void sort_path(const struct chain *c, struct mlt_path *path)
 {
     const struct vertex *end = &path->x[0].v;
-    const struct light_set *lights = &c->job->scene->lights;
     int k = path->k;
     for (path->m = k - 1; path->m > 0 && path->x[path->m].delta;)
         path->m--;
     for (path->l = k - 2; path->l > 0 && path->x[path->l].delta;)
         path->l--;
-    bool one = end->pdf_fwd > 0 && !(lights->n_infinite > 1 && lights->light[end->light].kind == LIGHT_INFINITE);
-    path->can[LENS_PERTURBATION] = one && (path->m < 2 || !path->x[path->m - 1].delta);
-    path->can[CAUSTIC_PERTURBATION] = one && path->m == k - 1 && path->l >= 0 && path->l < k - 2 &&
+    bool known = end->pdf_fwd > 0;
+    path->can[LENS_PERTURBATION] = known && (path->m < 2 || !path->x[path->m - 1].delta);
+    path->can[CAUSTIC_PERTURBATION] = known && path->m == k - 1 && path->l >= 0 && path->l < k - 2 &&
                                       !(path->l == 0 && vertex_at_infinity(c->job->scene, end));
 }
 
@@ -97,7 +95,7 @@ static void sort_path(const struct chain *c, struct mlt_path *path)
 static void keep_strategy(struct chain *c, const struct strategy *from)
 {
     struct mlt_path *path = c->next.own;
-    const struct vertex *eye = c->work->eye, *light = c->work->light;
+    const struct vertex *eye = c->work->eye, *light = c->light;
     const double *eye_u = c->next.number[EYE_NUMBERS].number + (lensed(c) ? 4 : 2);
     const double *light_u = c->next.number[LIGHT_NUMBERS].number + 5;
     int s = from->s, t = from->t, k = s + t - 1;
@@ -146,8 +144,8 @@ static bool remake_lens(struct primary *p, const struct mlt_path *path, const st
                         struct strategy *to, struct connection *out)
 {
     const struct scene *scene = p->chain->job->scene;
-    const struct mis_counts *counts = &p->chain->all->frozen.counts;
-    struct vertex *light = p->chain->work->light, *z;
+    const struct counts *counts = &p->chain->all->counts;
+    struct vertex *light = p->chain->light, *z;
     struct walk w = primary_walk(p, LIGHT_NUMBERS);
     int s = to->s = path->m, t = to->t = path->k + 1 - s;
     put(p, EYE_NUMBERS, move->raster, 2);
@@ -174,7 +172,7 @@ static bool remake_lens(struct primary *p, const struct mlt_path *path, const st
 static bool remake_caustic(struct primary *p, const struct mlt_path *path, const struct mlt_move *move,
                            struct strategy *to, struct connection *out, double *pdf)
 {
-    struct vertex *light = p->chain->work->light;
+    struct vertex *light = p->chain->light;
     struct walk w = primary_walk(p, LIGHT_NUMBERS);
     int k = to->s = path->k, n = path->l + 1;
     to->t = 1;
@@ -182,7 +180,7 @@ static bool remake_caustic(struct primary *p, const struct mlt_path *path, const
     if (follow_light(&w, path->x, n, light) < n || follow_on(&w, light, n, move->wi, k, pdf) < k ||
         !all_delta(light, n + 1, k))
         return false;
-    *out = connect_lens(p->chain->job->scene, &p->chain->all->frozen.counts, light, k, &p->sampler[LENS_NUMBERS]);
+    *out = connect_lens(p->chain->job->scene, &p->chain->all->counts, light, k, &p->sampler[LENS_NUMBERS]);
     return true;
 }
 
@@ -259,7 +257,7 @@ static void keep_moved(struct chain *c, const struct mlt_path *old, enum mlt_per
     begin_path(path, old->k);
     for (int i = 0; i < old->k; i++) {
         bool moved = which == CAUSTIC_PERTURBATION && i > old->l;
-        keep(path, i, moved ? &c->work->light[i] : &old->x[i].v, old->x[i].delta, old->x[i].u);
+        keep(path, i, moved ? &c->light[i] : &old->x[i].v, old->x[i].delta, old->x[i].u);
     }
     memcpy(path->lens, old->lens, sizeof path->lens);
     path->raster[0] = (to->px - c->all->x) / c->all->width;
@@ -329,9 +327,9 @@ static void own_free(void *own) { arena_free(&((struct mlt_path *)own)->arena); 
 static const struct chain_rules RULES = {.by_length = true, .own_size = sizeof(struct mlt_path), .own_free = own_free,
                                          .sample = sample, .propose = propose};
 
-static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
+static void prepare(const struct render_job *job, struct prepared *out) { chain_prepare(&RULES, job, out); }
 
 const struct method method_mlt = {
     .name = "mlt", .check = surfaces_alone,
     .help = "a Markov chain over paths: new ones, lens and caustic perturbations [Veach 1997]",
-    .parameters = &CHAIN_PARAMETERS[1], .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};
+    .own = &CHAIN_PARAMETERS[1], .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};

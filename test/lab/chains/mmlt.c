@@ -19,8 +19,8 @@ static void sample(struct chain *c, bool small)
 
 static const struct chain_rules RULES = {.roulette = true, .by_length = true, .sample = sample};
 
-static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
+static void prepare(const struct render_job *job, struct prepared *out) { chain_prepare(&RULES, job, out); }
 
 const struct method method_mmlt = {
     .name = "mmlt", .help = "a Markov chain over bdpt's single strategies and their numbers [Hachisuka 2014]",
-    .parameters = CHAIN_PARAMETERS, .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};
+    .own = CHAIN_PARAMETERS, .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};

@@ -86,7 +86,7 @@ void primary_end(struct primary *p)
 struct walk primary_walk(struct primary *p, enum chain_stream stream)
 {
     struct chain *c = p->chain;
-    struct walk w = {c->job->scene, &c->all->frozen.counts, &c->work->arena, &p->sampler[stream],
+    struct walk w = {c->job->scene, &c->all->counts, &c->work->arena, &p->sampler[stream],
                      c->all->rules->roulette ? c->job->rr_threshold : 0};
     return w;
 }
@@ -105,22 +105,25 @@ int primary_eye(struct primary *p, int n, double *px, double *py)
 int primary_light(struct primary *p, int n)
 {
     struct walk w = primary_walk(p, LIGHT_NUMBERS);
-    return path_light(&w, p->chain->work->light, n);
+    return path_light(&w, p->chain->light, n);
 }
 
 /* Join sub-paths of s and t vertices. */
 static struct connection join(struct primary *p, int s, int t)
 {
     const struct scene *scene = p->chain->job->scene;
-    const struct mis_counts *counts = &p->chain->all->frozen.counts;
-    const struct vertex *y = &p->chain->work->light[s - 1], *z = &p->chain->work->eye[t - 1];
-    static const struct connection NOTHING = {.weight = 0};
+    const struct counts *counts = &p->chain->all->counts;
+    const struct vertex *y = &p->chain->light[s - 1], *z = &p->chain->work->eye[t - 1];
+    static const struct connection NOTHING = {.light = -1};
+    struct light_point y0;
     if (s == 0)
         return connect_hit(scene, counts, z - 1, z, t);
     if (s == 1)
-        return z->kind != VERTEX_ESCAPED ? connect_direct(scene, counts, z, &p->sampler[POINT_NUMBERS], 0, 1) : NOTHING;
+        return z->kind == VERTEX_ESCAPED
+                   ? NOTHING
+                   : connect_direct(scene, counts, z, &p->sampler[POINT_NUMBERS], 0, 1, &y0);
     if (t == 1)
-        return connect_lens(scene, counts, p->chain->work->light, s, &p->sampler[LENS_NUMBERS]);
+        return connect_lens(scene, counts, p->chain->light, s, &p->sampler[LENS_NUMBERS]);
     return connect_pair(scene, counts, y, z);
 }
 
@@ -129,7 +132,7 @@ bool primary_bring(struct primary *p, const struct connection *c, struct strateg
 {
     const struct scene *scene = p->chain->job->scene;
     const double *radius = scene->filter.radius;
-    double each = out->t > 1 ? 1 : 1 / p->chain->all->frozen.counts.splat;
+    double each = out->t > 1 ? 1 : 1 / p->chain->all->counts.lens;
     if (rgb_is_black(c->value))
         return false;
     out->value = rgb_scale(c->value, c->weight * out->n * each);

@@ -7,30 +7,33 @@
  * Tests: test_chains.c.
  */
 #include "chains/primary.h"
+#include "integrators/loop.h"
 
 static void sample(struct chain *c, bool small)
 {
     const struct render_job *job = c->job;
-    struct workspace *work = c->work;
+    const struct vertex *eye = c->work->eye;
+    const struct tile_pass pass = {.job = job, .tile = &c->next.heard, .work = c->work};
     struct primary p;
     double px, py;
     primary_begin(&p, c, small);
-    struct pixel_sample s = {.scene = job->scene, .counts = &c->all->frozen.counts, .tile = &c->next.heard,
-                             .max_depth = job->max_depth, .filter_weight = 1, .light_points = 1,
-                             .sampler = p.sampler[POINT_NUMBERS]};
+    struct sample s = {.pass = &pass, .counts = &c->all->counts, .filter_weight = 1, .light_points = 1,
+                       .sampler = p.sampler[POINT_NUMBERS]};
     int n_eye = primary_eye(&p, job->max_depth + 2, &px, &py), n_light = primary_light(&p, job->max_depth + 1);
-    pixel_sum_eye(&s, work->eye, n_eye);
-    pixel_sum_pairs(&s, work->eye, n_eye, work->light, n_light, NO_CHOICE);
-    tile_add_splat(s.tile, px, py, s.value, 0);
+    const struct drawn all = {c->light, 1, n_light, 1};
+    loop_eye(&s, eye, n_eye);
+    for (int t = 2; t <= n_eye; t++)
+        sample_pairs(&s, &all, &eye[t - 1], t, 1);
+    tile_add_splat(pass.tile, px, py, s.value, 0);
     s.sampler = p.sampler[LENS_NUMBERS];
-    pixel_splat_path(&s, work->light, n_light, 1);
+    sample_lens(&s, c->light, n_light, 1);
     primary_end(&p);
 }
 
 static const struct chain_rules RULES = {.roulette = true, .sample = sample};
 
-static void prepare(const struct render_job *job, struct preparation *out) { chain_prepare(&RULES, job, out); }
+static void prepare(const struct render_job *job, struct prepared *out) { chain_prepare(&RULES, job, out); }
 
 const struct method method_pssmlt = {
     .name = "pssmlt", .help = "a Markov chain over the random numbers of bdpt's samples [Kelemen 2002]",
-    .parameters = CHAIN_PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, CHAIN_ROW};
+    .own = CHAIN_PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, CHAIN_ROW};

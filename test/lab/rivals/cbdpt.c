@@ -15,63 +15,51 @@
  *
  * Tests: test_asbdpt.c.
  */
-#include <stddef.h>
+#include "integrators/loop.h"
 
-#include "integrators/pooled.h"
-#include "rivals/plain.h"
-
-struct cbdpt_state {
-    struct frozen frozen;
-    int connections; /* M */
+struct index {
+    int order[POOL_PATHS]; /* pi */
 };
 
-struct cbdpt {
-    struct light_pool pool; /* the first, see pooled.h */
-    int order[MAX_TILE_SIZE * MAX_TILE_SIZE]; /* pi */
-};
-
-static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
+static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    struct cbdpt *c = scratch;
-    const struct cbdpt_state *s = state;
-    light_pool_shuffle(&c->pool, pass, iteration, c->order);
-    for (int k = 0; s->connections == 1 && k < c->pool.n; k++)
-        c->order[k] = k;
+    struct pool *pool = &pass->work->pool;
+    struct index *index = arena_alloc(&pool->arena, sizeof *index);
+    pool_shuffle(pool, pass, iteration, index->order);
+    for (int k = 0; p->numbers.draws[FIRST_HIT] == 1 && k < pool->n; k++)
+        index->order[k] = k;
+    return index;
 }
 
-static void connect(void *scratch, const void *state, struct pooled_pixel *p)
+/* The loop divides by n K times the probability: by the number of sub-paths that the pixel takes, n or all K. */
+static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, int number,
+                 const struct vertex *z, int i, int n, struct drawn *out)
 {
-    struct cbdpt *c = scratch;
-    const struct cbdpt_state *s = state;
-    int K = c->pool.n, M = s->connections < K ? s->connections : K;
-    const struct choice choice = {1.0 / K, 1.0 / M};
-    for (int m = 0; m < M; m++) {
-        int k = c->order[(p->number * M + m) % K];
-        pixel_sum_pairs(&p->sample, p->eye, p->n, light_pool_path(&c->pool, k), c->pool.length[k], choice);
-    }
+    const struct pool *pool = &sample->pass->work->pool;
+    int K = pool->n, M = n < K ? n : K;
+    (void)p, (void)z;
+    if (i >= M)
+        return false;
+    int k = index->order[(number * M + i) % K];
+    *out = (struct drawn){pool_path(pool, k), 1, pool->length[k], 1.0 / (n > K ? n : K)};
+    return true;
 }
 
-static void prepare(const struct render_job *job, struct preparation *out)
+static void prepare(const struct render_job *job, struct prepared *p)
 {
-    struct cbdpt_state *s = out->state;
-    s->frozen.numbers.draws[FIRST_HIT] = s->frozen.numbers.draws[LATER_HIT] = s->connections;
-    plain_prepare(job, out);
+    (void)job;
+    p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
 }
 
-#define AT(member) offsetof(struct cbdpt_state, member)
 static const struct field PARAMETERS[] = {
-    {"connections", FIELD_INTEGER, AT(connections), 2, 1, 1024, "light sub-paths for each pixel", NULL},
-    {"pathpixels", FIELD_INTEGER, AT(frozen.numbers.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
-     "pixels for each light sub-path", NULL},
-    SERVICES(false, 1, 1, DEFAULT_TILE_SIZE, 1),
+    PARAMETER("connections", FIELD_INTEGER, numbers.draws[FIRST_HIT], 2, 1, 1024, "light sub-paths for each pixel",
+              NULL),
+    PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+              "pixels for each light sub-path", NULL),
+    PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
 const struct method method_cbdpt = {
     .name = "cbdpt", .help = "combinatorial BDPT [Pajot 2011]: all pairs with M of a tile's light sub-paths",
-    .why = "M of the tile's K light sub-paths, in random order, all used equally often; scale 1 / M",
-    .parameters = PARAMETERS,
-    .state_size = sizeof(struct cbdpt_state), .scratch_size = sizeof(struct cbdpt),
-    .numbers = {.light_points = 1, .path_tracing = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
-    .render = pooled_render,
-    .scratch_free = light_pool_free,
-    .begin = begin, .connect = connect};
+    .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
+    .render = loop_render, .build = build, .draw = draw};

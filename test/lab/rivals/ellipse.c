@@ -21,22 +21,16 @@
 
 #include "base/alias.h"
 #include "base/maths.h"
+#include "caustics/derived.h"
 #include "caustics/lamp.h"
 #include "caustics/one_more.h"
 #include "caustics/specular.h"
 #include "caustics/surfaces.h"
 
-extern const struct method method_pt, method_ellipse;
-
 struct ellipse {
-    struct one_more more;
+    struct one_more more;       /* the first */
     struct alias_table by_area; /* of triangles */
     double from, to;
-};
-
-struct ellipse_state {
-    struct frozen frozen;
-    struct ellipse own;
 };
 
 /* --- where the ellipsoid cuts a triangle --------------------------------------------------------------- */
@@ -137,128 +131,126 @@ bool ellipse_draw(vec3 y, vec3 z, const vec3 corner[3], double tau, double range
 
 /* --- the strategy ------------------------------------------------------------------------------------- */
 
-/* The point x of a triangle as a vertex that comes after z with this density per area. */
-static bool arrive(const struct pixel_sample *sample, struct arena *arena, const struct vertex *z, int triangle, vec3 x,
-                   const vec3 corner[3], double pdf, struct vertex *out)
+/* The point x of a triangle as a vertex that comes after z with this density per area; in the sample's arena. NULL if
+ * nothing arrives. */
+static const struct vertex *arrive(const struct sample *sample, const struct vertex *z, int triangle, vec3 x,
+                                   const vec3 corner[3], double pdf)
 {
-    const struct scene *scene = sample->scene;
+    const struct scene *scene = sample->pass->job->scene;
     const struct geometry *geo = &scene->geo;
     const struct shape_group *group = shape_group_of(geo, triangle);
+    struct arena *arena = &sample->pass->work->arena;
     struct hit hit = {.prim = triangle};
     struct surface at;
     if (group->material < 0 ||
         !combination(sub(corner[1], corner[0]), sub(corner[2], corner[0]), sub(x, corner[0]), &hit.b1, &hit.b2) ||
         (group->alpha >= 0 && geo->opaque != NULL && !geo->opaque(geo->opaque_context, geo, &hit)))
-        return false;
+        return NULL;
     const struct ray none = {z->p, vec(0, 0, 1), 0, INFINITY, 0, 0};
     shape_surface(geo, &hit, &none, &at);
     vec3 d = sub(at.p, z->p);
     double d2 = length2(d);
     vec3 w = mul(d, 1 / sqrt(d2));
     if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, w))
-        return false;
+        return NULL;
     rgb f = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE).f;
-    const struct vertex v = {.kind = VERTEX_SURFACE, .light = -1, .cell = -1, .p = at.p, .ng = at.ng,
-                             .prim_id = at.prim_id, .length = z->length + sqrt(d2), .wo = neg(w),
-                             .beta = rgb_scale(rgb_mul(z->beta, f),
-                                               scatter_cosine(z, w, RADIANCE) * abs_dot(at.ng, w) / (d2 * pdf)),
-                             .pdf_fwd = 1};
-    *out = v;
-    if (rgb_is_black(v.beta) || !rgb_is_finite(v.beta) || !scene_visible(scene, z->p, z->prim_id, at.p, at.prim_id))
-        return false;
-    material_bsdf(scene->material, group->material, &scene->textures, &at, arena, &out->bsdf);
-    return vertex_connectible(out);
+    struct vertex *v = arena_alloc(arena, sizeof *v);
+    *v = (struct vertex){.kind = VERTEX_SURFACE, .light = -1, .cell = -1, .p = at.p, .ng = at.ng,
+                         .prim_id = at.prim_id, .wo = neg(w), .pdf_fwd = 1,
+                         .beta = rgb_scale(rgb_mul(z->beta, f),
+                                           scatter_cosine(z, w, RADIANCE) * abs_dot(at.ng, w) / (d2 * pdf))};
+    if (rgb_is_black(v->beta) || !rgb_is_finite(v->beta) || !scene_visible(scene, z->p, z->prim_id, at.p, at.prim_id))
+        return NULL;
+    material_bsdf(scene->material, group->material, &scene->textures, &at, arena, &v->bsdf);
+    return vertex_connectible(v) ? v : NULL;
 }
 
-static int connect(const struct one_more *self, struct pixel_sample *sample, struct arena *arena,
-                   const struct vertex *eye, int t, struct one_more_path out[ONE_MORE_MOST])
+static int connect(const struct one_more *self, struct sample *sample, const struct vertex *eye, int t,
+                   struct one_more_path out[ONE_MORE_MOST])
 {
     const struct ellipse *own = (const void *)self;
-    const struct scene *scene = sample->scene;
-    const struct vertex *z = &eye[t - 1];
+    const struct scene *scene = sample->pass->job->scene;
+    const struct vertex *z = &eye[t - 1], *at = NULL;
     double v[2], P, pdf;
     float P9[9];
     struct light_point y;
-    struct vertex at;
     vec3 corner[3], x;
-    if (own->to == 0 || t > sample->max_depth || !vertex_connectible(z) || own->by_area.n == 0)
+    if (t > sample->pass->job->max_depth || !vertex_connectible(z) || own->by_area.n == 0)
         return 0;
     bool lit = lamp_draw(scene, &sample->sampler, &y);
     sampler_pair(&sample->sampler, DRAW_SCATTERING, v);
     int triangle = alias_sample(&own->by_area, sampler_number(&sample->sampler, DRAW_LIGHT_END), &P, NULL);
     if (!lit || light_at_infinity(&scene->lights.light[y.light]))
         return 0;
-    double apart = length(sub(y.p, z->p)), least = fmax(own->from - z->length, apart), most = own->to - z->length;
-    double tau = least + (most - least) * v[0];
+    double far = subpath_length(scene, eye, t), most = own->to - far;
+    double least = fmax(own->from - far, length(sub(y.p, z->p))), tau = least + (most - least) * v[0];
     if (!(least < most))
         return 0;
     shape_vertices(&scene->geo, triangle, P9);
     for (int i = 0; i < 3; i++)
         corner[i] = vec((double)P9[3 * i], (double)P9[3 * i + 1], (double)P9[3 * i + 2]);
-    if (!ellipse_draw(y.p, z->p, corner, tau, most - least, v[1], &x, &pdf) ||
-        !arrive(sample, arena, z, triangle, x, corner, P * pdf, &at))
+    if (ellipse_draw(y.p, z->p, corner, tau, most - least, v[1], &x, &pdf))
+        at = arrive(sample, z, triangle, x, corner, P * pdf);
+    if (at == NULL)
         return 0;
-    out[0].c = lamp_connect(scene, sample->counts, &at, &y, y.pdf);
+    out[0] = (struct one_more_path){lamp_connect(scene, sample->counts, at, &y, y.pdf), y, at, 1};
     out[0].c.weight = 1;
-    out[0].passed = 1;
     return 1;
 }
 
 /* Of others' paths those that are its own, or have another length, count for nothing. */
-static void weigh(const struct one_more *self, const struct pixel_sample *sample, struct arena *arena,
-                  const struct vertex *path, int s, int t, struct connection *c)
+static void weigh(const struct one_more *self, const struct sample *sample, const struct joined *j, vec3 lens,
+                  struct connection *c)
 {
     const struct ellipse *own = (const void *)self;
-    const struct vertex *x = &path[t - 2 + s], *z = x - 1, *end = x + 1;
-    (void)arena;
-    if (own->to == 0)
-        return;
-    if (!(c->length >= own->from && c->length < own->to))
+    const struct scene *scene = sample->pass->job->scene;
+    double length = path_length(scene, j);
+    (void)lens;
+    if (!(length >= own->from && length < own->to))
         c->weight = 0;
-    if (s > 1 || t + s < 4)
+    if (j->s > 1 || j->t + j->s < 4)
         return;
-    bool in_space = s > 0 ? !light_at_infinity(&sample->scene->lights.light[c->light])
-                          : (end->kind == VERTEX_SURFACE || end->lamp != NULL) && !end->prev_delta;
+    const struct vertex *x = j->z - 1 + j->s, *z = x - 1, *end = x + 1;
+    bool in_space = j->s > 0 ? !light_at_infinity(&scene->lights.light[c->light])
+                             : (end->kind == VERTEX_SURFACE || end->lamp != NULL) && !end->prev_delta;
     if (in_space && z->kind == VERTEX_SURFACE && !x->prev_delta && x->prim_id - 1 < FIRST_QUADRIC)
         c->weight = 0;
 }
 
 /* --- the row ------------------------------------------------------------------------------------------ */
 
-static void prepare(const struct render_job *job, struct preparation *out)
+static void prepare(const struct render_job *job, struct prepared *p)
 {
-    struct ellipse_state *s = out->state;
+    struct ellipse *own = p->own;
     const struct geometry *geo = &job->scene->geo;
     double *area = mem_alloc((size_t)geo->n_triangles, sizeof *area);
     for (int i = 0; i < geo->n_triangles; i++)
         area[i] = shape_area(geo, i);
-    alias_build(&s->own.by_area, area, geo->n_triangles);
+    alias_build(&own->by_area, area, geo->n_triangles);
     free(area);
-    s->own.more.connect = connect;
-    s->own.more.weigh = weigh;
+    own->more = (struct one_more){connect, weigh};
 }
 
-static void release(void *state)
+static void release(struct prepared *p) { alias_free(&((struct ellipse *)p->own)->by_area); }
+
+static void render(const struct prepared *p, const struct tile_pass *pass)
 {
-    struct ellipse_state *s = state;
-    alias_free(&s->own.by_area);
+    const struct ellipse *own = p->own;
+    if (own->to > 0)
+        one_more_render(p, &own->more, pass);
+    else
+        loop_render(p, pass);
 }
 
-static void render(const struct preparation *m, const struct tile_pass *pass)
-{
-    const struct ellipse_state *s = m->state;
-    one_more_render(m, &s->own.more, pass);
-}
-
-#define AT(member) offsetof(struct ellipse_state, member)
-static const struct field PARAMETERS[] = {
-    {"from", FIELD_NUMBER, AT(own.from), 0, 0, 1e30, "least length of a path from light to lens, in scene units", NULL},
-    {"to", FIELD_NUMBER, AT(own.to), 0, 0, 1e30, "length that all stay below; 0: paths of any length, by pt", NULL},
+static const struct field OWN[] = {
+    {"from", FIELD_NUMBER, offsetof(struct ellipse, from), 0, 0, 1e30,
+     "least length of a path from light to lens, in scene units", NULL},
+    {"to", FIELD_NUMBER, offsetof(struct ellipse, to), 0, 0, 1e30,
+     "length that all stay below; 0: paths of any length, by pt", NULL},
     {.name = NULL}};
 
 const struct method method_ellipse = {
-    .name = "ellipse", .check = surfaces_alone, .parameters = PARAMETERS,
+    .name = "ellipse", .check = surfaces_alone,
     .help = "ellipsoidal connections [Pediredla 2019]: light between two path lengths; else pt",
-    .state_size = sizeof(struct ellipse_state), .numbers = {.light_points = 1, .path_tracing = true},
-    .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .own = OWN, .own_size = sizeof(struct ellipse), .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD,
     .prepare = prepare, .release = release, .render = render};

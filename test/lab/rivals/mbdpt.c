@@ -17,10 +17,8 @@
  * Tests: test_rivals.c.
  */
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 
-#include "rivals/plain.h"
 #include "rivals/together.h"
 
 /* A sub-path in order of its first vertices. */
@@ -31,9 +29,12 @@ struct ranked {
 
 static const char *const KEYS[] = {"length", "throughput", NULL};
 
-struct mbdpt_state {
-    struct frozen frozen;
+struct mbdpt {
     int throughput; /* number of the key */
+};
+
+struct index {
+    struct ranked **column; /* [max_depth + 1][K]; from 2 on */
 };
 
 static int by_key(const void *a, const void *b)
@@ -58,72 +59,73 @@ static void rank(struct ranked *r, int i, const struct vertex *path, int n, int 
     r[i].number = i;
 }
 
-/* All strategies of eye sub-paths of t vertices, each with a shift of its own. */
-static void connect_length(const struct light_pool *pool, struct ranked **column, struct pooled_pixel *pixel, int n,
-                           struct ranked *row, int t, const double *shift, bool throughput)
+static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    const struct choice choice = {1.0 / pool->n, 1};
+    struct pool *pool = &pass->work->pool;
+    struct index *index = arena_alloc(&pool->arena, sizeof *index);
+    bool throughput = ((const struct mbdpt *)p->own)->throughput;
+    (void)iteration;
+    index->column = arena_alloc(&pool->arena, (size_t)(p->max_depth + 1) * sizeof *index->column);
+    for (int s = 2; s <= p->max_depth; s++) {
+        struct ranked *column = index->column[s] = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *column);
+        for (int k = 0; k < pool->n; k++) {
+            const struct vertex *path = pool_path(pool, k);
+            int n = pool->length[k];
+            rank(column, k, path, n, s, n > 0 && vertex_at_infinity(pass->job->scene, path), throughput);
+        }
+        qsort(column, (size_t)pool->n, sizeof *column, by_key);
+    }
+    return index;
+}
+
+/* All strategies of eye sub-paths of t vertices, each with a shift of its own. */
+static void connect_length(const struct prepared *p, const struct pool *pool, const struct index *index,
+                           struct pixel *pixel, int n, struct ranked *row, int t, const double *shift)
+{
     int64_t step = lattice_step(n);
-    int most = pixel[0].sample.max_depth + 2 - t;
     for (int i = 0; i < n; i++)
-        rank(row, i, pixel[i].eye, pixel[i].n, t, false, throughput);
+        rank(row, i, pixel[i].eye, pixel[i].n, t, false, ((const struct mbdpt *)p->own)->throughput);
     qsort(row, (size_t)n, sizeof *row, by_key);
     for (int i = 0; i < n && row[i].key < INFINITY; i++)
-        for (int s = 2; s <= most; s++) {
+        for (int s = 2; s <= p->max_depth + 2 - t; s++) {
             double u = (double)(i * step % n) / n + shift[s];
-            int j = (int)((u - floor(u)) * pool->n), k = column[s][j < pool->n ? j : pool->n - 1].number;
+            int j = (int)((u - floor(u)) * pool->n), k = index->column[s][j < pool->n ? j : pool->n - 1].number;
+            const struct drawn drawn = {pool_path(pool, k), s - 1, s, 1.0 / pool->n};
+            struct pixel *of = &pixel[row[i].number];
             if (pool->length[k] >= s)
-                pixel_sum_pair(&pixel[row[i].number].sample, &light_pool_path(pool, k)[s - 1], s,
-                               &pixel[row[i].number].eye[t - 1], t, choice);
+                sample_pairs(&of->sample, &drawn, &of->eye[t - 1], t, 1);
         }
 }
 
-static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
-                        int n)
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
+                        struct pixel *pixel, int n)
 {
-    const struct light_pool *pool = scratch;
-    struct arena *arena = &pass->work->arena;
-    int depth = ((const struct frozen *)state)->max_depth;
-    bool throughput = ((const struct mbdpt_state *)state)->throughput;
-    struct ranked *row = arena_alloc(arena, (size_t)n * sizeof *row);
-    struct ranked **column = arena_alloc(arena, (size_t)(depth + 1) * sizeof *column);
-    double *shift = arena_alloc(arena, (size_t)(depth + 1) * sizeof *shift);
+    const struct pool *pool = &pass->work->pool;
+    struct ranked *row = arena_alloc(&pass->work->arena, (size_t)n * sizeof *row);
+    double *shift = arena_alloc(&pass->work->arena, (size_t)(p->max_depth + 1) * sizeof *shift);
     for (int i = 0; i < n; i++)
-        pixel_sum_eye(&pixel[i].sample, pixel[i].eye, pixel[i].n);
-    for (int s = 2; s <= depth; s++) {
-        column[s] = arena_alloc(arena, (size_t)pool->n * sizeof *column[s]);
-        for (int k = 0; k < pool->n; k++) {
-            const struct vertex *path = light_pool_path(pool, k);
-            int length = pool->length[k];
-            rank(column[s], k, path, length, s, length > 0 && vertex_at_infinity(pass->job->scene, path),
-                 throughput);
-        }
-        qsort(column[s], (size_t)pool->n, sizeof *column[s], by_key);
+        loop_eye(&pixel[i].sample, pixel[i].eye, pixel[i].n);
+    for (int t = 2; t <= p->max_depth && !pass_enough(pass->job); t++) {
+        for (int s = 2; s <= p->max_depth; s++)
+            shift[s] = sampler_number(&pixel[0].sample.choice, DRAW_LIGHT_END);
+        connect_length(p, pool, index, pixel, n, row, t, shift);
     }
-    for (int t = 2; t <= depth && !pass_enough(pass->job); t++) {
-        for (int s = 2; s <= depth; s++)
-            shift[s] = sampler_number(&pixel[0].draws, DRAW_LIGHT_END);
-        connect_length(pool, column, pixel, n, row, t, shift, throughput);
-    }
+    for (int i = 0; i < n; i++)
+        loop_splat(p, &pixel[i].sample, i);
 }
+
+static void render(const struct prepared *p, const struct tile_pass *pass) { together_render(p, pass, connect_all); }
 
 static const struct field PARAMETERS[] = {
-    {"pathpixels", FIELD_INTEGER, offsetof(struct frozen, numbers.path_pixels), 2, 1,
-     DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE, "pixels for each light sub-path", NULL},
-    {"key", FIELD_WORD, offsetof(struct mbdpt_state, throughput), 0, 0, 0, "what sub-paths are sorted by", KEYS},
-    SERVICES(false, 1, 1, DEFAULT_TILE_SIZE, 1),
+    PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 2, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+              "pixels for each light sub-path", NULL),
+    PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
-
-static void render(const struct preparation *m, const struct tile_pass *pass)
-{
-    together_render(m, pass, connect_all);
-}
+static const struct field OWN[] = {
+    {"key", FIELD_WORD, offsetof(struct mbdpt, throughput), 0, 0, 0, "what sub-paths are sorted by", KEYS},
+    {.name = NULL}};
 
 const struct method method_mbdpt = {
     .name = "mbdpt", .help = "matrix BDPT [Chaitanya 2018]: pairs of sorted sub-paths, stratified",
-    .why = "one of the tile's K light sub-paths for each strategy, by a shifted lattice over eye and light sub-paths "
-           "sorted by length or throughput, each equally likely; scale 1",
-    .parameters = PARAMETERS,
-    .prepare = plain_prepare, .state_size = sizeof(struct mbdpt_state), .scratch_size = sizeof(struct light_pool),
-    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render,
-    .scratch_free = light_pool_free};
+    .parameters = PARAMETERS, .own = OWN, .own_size = sizeof(struct mbdpt), .numbers = NUMBERS_OF_BDPT,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render, .build = build};

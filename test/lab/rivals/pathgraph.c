@@ -19,7 +19,6 @@
  *
  * Tests: test_rivals.c.
  */
-#include <stddef.h>
 #include <stdlib.h>
 
 #include "caustics/surfaces.h"
@@ -27,8 +26,7 @@
 
 enum { LARGEST_CLUSTER = 64, ALONE = 6 };
 
-struct pathgraph_state {
-    struct frozen frozen;
+struct pathgraph {
     int cluster;   /* most vertices of one */
     double radius; /* side of the grid's cells over the radius of the scene's bounding sphere */
 };
@@ -49,30 +47,23 @@ struct node {
 
 /* --- edges ------------------------------------------------------------------------------------------- */
 
-/* The edge to a light: as connect_light_point draws it, but that others may scatter where this vertex has f = 0. */
-static void draw_light(struct pixel_sample *sample, struct node *node)
+/* The edge to a light: as connect_direct draws it, but that others may scatter where this vertex has f = 0. */
+static void draw_light(struct sample *sample, struct node *node)
 {
-    const struct light_set *lights = &sample->scene->lights;
+    const struct scene *scene = sample->pass->job->scene;
     const struct vertex *z = node->z;
     struct lit l = {.z = z};
-    double u[3], pmf;
-    u[0] = sampler_number(&sample->sampler, DRAW_LIGHT);
-    sampler_pair(&sample->sampler, DRAW_LIGHT_POINT, &u[1]);
-    if (!vertex_connectible(z) || lights->choice.n == 0)
+    if (!lamp_draw(scene, &sample->sampler, &l.at) || !vertex_connectible(z) || !(l.at.pdf > 0))
         return;
-    l.at.cell = alias_sample(&lights->choice, u[0], &pmf, NULL);
-    if (!light_sample_cell(lights, &sample->scene->geo, l.at.cell, u[1], u[2], &l.at) || !(l.at.pdf > 0))
-        return;
-    const struct light *light = &lights->light[l.at.light];
-    const struct lamp_way way = lamp_way(sample->scene, z->p, &l.at);
+    const struct light *light = &scene->lights.light[l.at.light];
+    const struct lamp_way way = lamp_way(scene, z->p, &l.at);
     if (!(way.d2 > 0))
         return;
     node->w = way.w;
-    rgb Le = light_Le(lights, &l.at, neg(node->w));
+    rgb Le = light_Le(&scene->lights, &l.at, neg(node->w));
     double at_light = (light->kind == LIGHT_AREA ? abs_dot(l.at.n, node->w) : 1) / way.d2;
-    double density = pmf * l.at.pdf_cell / at_light;
-    if (rgb_is_black(Le) || !(at_light > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, node->w) ||
-        !reuse_sees(sample->scene, &l))
+    double density = l.at.pdf / at_light;
+    if (rgb_is_black(Le) || !(at_light > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, node->w) || !reuse_sees(scene, &l))
         return;
     bool delta = light_is_delta(light);
     node->Le = delta ? rgb_scale(Le, 1 / density) : Le;
@@ -81,7 +72,7 @@ static void draw_light(struct pixel_sample *sample, struct node *node)
 
 /* Ask the members for f and p towards w. Returns the sum of their p, raised as the heuristic has it; *able: how many
  * take light from there. */
-static double ask(struct node **member, int n, const struct mis_counts *counts, vec3 w, int *able)
+static double ask(struct node **member, int n, const struct counts *counts, vec3 w, int *able)
 {
     double sum = 0;
     *able = 0;
@@ -104,7 +95,7 @@ static void share(struct node **member, int n, rgb light)
 }
 
 /* The edge of one member to a light, to all. */
-static void aggregate_light(const struct pixel_sample *sample, struct node **member, int n, const struct node *from)
+static void aggregate_light(const struct sample *sample, struct node **member, int n, const struct node *from)
 {
     int able;
     double sum = ask(member, n, sample->counts, from->w, &able), own = mis_raise(sample->counts, from->q);
@@ -112,9 +103,9 @@ static void aggregate_light(const struct pixel_sample *sample, struct node **mem
 }
 
 /* The edge that leads on, to all; to the member alone if it left by a delta lobe. */
-static void aggregate_next(const struct pixel_sample *sample, struct node **member, int n, struct node *from)
+static void aggregate_next(const struct sample *sample, struct node **member, int n, struct node *from)
 {
-    const struct mis_counts *counts = sample->counts;
+    const struct counts *counts = sample->counts;
     const struct vertex *next = from->z + 1;
     const struct connection hit = reuse_hit(sample, from->z, next, 3, rgb_grey(1));
     int able;
@@ -165,11 +156,12 @@ static bool together(const struct node *a, const struct node *b)
 }
 
 /* What n vertices of equal depth send on. */
-static void aggregate_all(const struct pathgraph_state *s, const struct pixel_sample *sample, struct node **node, int n,
+static void aggregate_all(const struct pathgraph *s, const struct sample *sample, struct node **node, int n,
                           vec3 shift)
 {
+    const struct scene *scene = sample->pass->job->scene;
     for (int i = 0; i < n; i++)
-        place(node[i], sample->scene, s->radius * sample->scene->lights.radius, shift);
+        place(node[i], scene, s->radius * scene->lights.radius, shift);
     qsort(node, (size_t)n, sizeof *node, by_place);
     for (int i = 0, end; i < n; i = end) {
         end = i + 1;
@@ -187,7 +179,7 @@ static void aggregate_all(const struct pathgraph_state *s, const struct pixel_sa
 /* --- tiles ------------------------------------------------------------------------------------------- */
 
 /* The graph, from the last vertices to the first; longest: vertices of the longest eye sub-path. */
-static void sweep(const struct pathgraph_state *s, struct pooled_pixel *pixel, struct node **of, int n, int longest,
+static void sweep(const struct pathgraph *s, struct pixel *pixel, struct node **of, int n, int longest,
                   const struct tile_pass *pass, vec3 shift)
 {
     struct node **level = arena_alloc(&pass->work->arena, (size_t)n * sizeof *level);
@@ -201,63 +193,57 @@ static void sweep(const struct pathgraph_state *s, struct pooled_pixel *pixel, s
 }
 
 /* What the first vertex shines, and sends on. */
-static void add_pixel(struct pooled_pixel *p, const struct node *first)
+static void add_pixel(struct pixel *p, const struct node *first)
 {
-    struct pixel_sample *sample = &p->sample;
+    struct sample *sample = &p->sample;
     const struct vertex *z = first->z;
-    struct connection c = connect_hit(sample->scene, sample->counts, z - 1, z, 2);
-    reuse_add(sample, &c, 0, 2, 1);
-    c.value = rgb_mul(z->beta, first->L);
-    c.weight = 1;
-    reuse_add(sample, &c, 0, 2, 1);
+    struct connection c = {.value = rgb_mul(z->beta, first->L), .weight = 1, .light = -1};
+    sample_hit(sample, p->eye, 2);
+    sample_add(sample, (struct joined){.t = 2, .z = z, .c = &c, .pmf = 1, .scale = 1});
 }
 
-static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
-                        int n)
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
+                        struct pixel *pixel, int n)
 {
-    const struct pathgraph_state *s = state;
+    const struct pathgraph *s = p->own;
     struct arena *arena = &pass->work->arena;
     struct node **of = arena_alloc(arena, (size_t)n * sizeof *of);
     int longest = 0;
-    (void)scratch;
+    (void)index;
     for (int i = 0; i < n; i++) {
         if (pass_enough(pass->job))
             return;
-        struct pooled_pixel *p = &pixel[i];
-        of[i] = arena_alloc(arena, (size_t)p->n * sizeof **of);
-        for (int t = 1; t <= p->n; t++) {
-            struct node node = {.z = &p->eye[t - 1], .ends = t == p->n, .number = i};
-            if (node.z->kind == VERTEX_SURFACE && t <= p->sample.max_depth + 1)
-                draw_light(&p->sample, &node);
+        struct pixel *x = &pixel[i];
+        of[i] = arena_alloc(arena, (size_t)x->n * sizeof **of);
+        for (int t = 1; t <= x->n; t++) {
+            struct node node = {.z = &x->eye[t - 1], .ends = t == x->n, .number = i};
+            if (node.z->kind == VERTEX_SURFACE && t <= p->max_depth + 1)
+                draw_light(&x->sample, &node);
             of[i][t - 1] = node;
         }
-        longest = p->n > longest ? p->n : longest;
+        longest = x->n > longest ? x->n : longest;
     }
     vec3 shift;
-    shift.x = sampler_number(&pixel[0].draws, DRAW_ORDER);
-    shift.y = sampler_number(&pixel[0].draws, DRAW_ORDER);
-    shift.z = sampler_number(&pixel[0].draws, DRAW_ORDER);
+    shift.x = sampler_number(&pixel[0].sample.choice, DRAW_ORDER);
+    shift.y = sampler_number(&pixel[0].sample.choice, DRAW_ORDER);
+    shift.z = sampler_number(&pixel[0].sample.choice, DRAW_ORDER);
     sweep(s, pixel, of, n, longest, pass, shift);
     for (int i = 0; i < n; i++)
         if (pixel[i].n >= 2)
             add_pixel(&pixel[i], &of[i][1]);
 }
 
-#define AT(member) offsetof(struct pathgraph_state, member)
-static const struct field PARAMETERS[] = {
-    {"cluster", FIELD_INTEGER, AT(cluster), 16, 1, LARGEST_CLUSTER, "most vertices that share their light; 1: pt",
-     NULL},
-    {"radius", FIELD_NUMBER, AT(radius), 0.05, 1e-6, 10, "how far apart they may be, in radii of the scene", NULL},
-    {.name = NULL}};
+static void render(const struct prepared *p, const struct tile_pass *pass) { together_render(p, pass, connect_all); }
 
-static void render(const struct preparation *m, const struct tile_pass *pass)
-{
-    together_render(m, pass, connect_all);
-}
+static const struct field OWN[] = {
+    {"cluster", FIELD_INTEGER, offsetof(struct pathgraph, cluster), 16, 1, LARGEST_CLUSTER,
+     "most vertices that share their light; 1: pt", NULL},
+    {"radius", FIELD_NUMBER, offsetof(struct pathgraph, radius), 0.05, 1e-6, 10,
+     "how far apart they may be, in radii of the scene", NULL},
+    {.name = NULL}};
 
 const struct method method_pathgraph = {
     .name = "pathgraph", .check = surfaces_alone,
     .help = "path graphs [Deng 2021]: pt whose vertices share what lights them with others; biased",
-    .parameters = PARAMETERS, .state_size = sizeof(struct pathgraph_state), .scratch_size = sizeof(struct light_pool),
-    .numbers = {.light_points = 1, .path_tracing = true}, .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .own = OWN, .own_size = sizeof(struct pathgraph), .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD,
     .prepare = reuse_prepare, .render = render};

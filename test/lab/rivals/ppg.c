@@ -24,15 +24,16 @@
  *
  * Tests: test_rivals.c.
  */
-#include <stddef.h>
+#include <stdlib.h>
 
 #include "base/warp.h"
-#include "learning/training.h"
-#include "rivals/plain.h"
+#include "integrators/prepare.h"
+#include "learning/learn.h"
+#include "learning/lessons.h"
 #include "rivals/sdtree.h"
+#include "rivals/together.h"
 
-struct ppg_state {
-    struct frozen frozen;
+struct ppg {
     int training, cell;
     struct sdtree tree;
 };
@@ -104,45 +105,44 @@ static int walk_guided(const struct sdtree *tree, const struct walk *w, struct v
             if (sampler_number(w->sampler, DRAW_ROULETTE) >= q)
                 break;
         }
-        z->pdf_rev = from.pdf_rev;
         met = walk_on(w, from, path, n, n + 1, RADIANCE) > n;
         n += met;
     }
     return n;
 }
 
-/* s = 1, as pixel_sum_direct. */
-static void sum_direct(struct pixel_sample *sample, const struct vertex *z, int t, const struct sd_leaf *guide)
+/* s = 1, as sample_direct. */
+static void sum_direct(struct sample *sample, const struct vertex *z, int t, const struct sd_leaf *guide)
 {
+    struct light_point y0;
     struct lit l;
-    struct connection c = {.light = -1, .cell = -1};
-    if (connect_light_point(sample->scene, sample->counts, z, &sample->sampler, 0, 1, &l)) {
+    struct connection c = {.light = -1};
+    if (lit_draw(sample, z, &sample->sampler, 0, 1, &y0, &l)) {
         if (guide != NULL)
             l.pdf_z = mixed(guide, l.pdf_z, quadtree_pdf(&guide->known, l.w));
-        c = connect_lit(sample->scene, sample->counts, &l);
+        c = connect_lit(sample->pass->job->scene, sample->counts, &l);
     }
-    pixel_add(sample, &c, 1, t, NULL, z, NO_CHOICE);
+    sample_add(sample, (struct joined){.s = 1, .t = t, .z = z, .c = &c, .y0 = &y0, .pmf = 1, .scale = 1});
 }
 
 /* A sample of a pixel, not ended. Its vertices are in the workspace; returns their number, and of each the step. */
-static int trace_pixel(const struct ppg_state *s, const struct tile_pass *pass, struct pixel_sample *sample,
-                       struct step **step)
+static int trace_pixel(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration,
+                       struct sample *sample, struct step **step)
 {
-    const struct render_job *job = pass->job;
     struct vertex *eye = pass->work->eye;
-    int most = sample->max_depth + 2;
-    uint64_t pixel = (uint64_t)sample->y * (uint64_t)job->scene->width + (uint64_t)sample->x;
-    struct sampler sampler = sampler_start(job->eye_seed, RNG_EYE, pixel, (uint64_t)sample->iteration);
-    const struct walk w = {job->scene, sample->counts, &pass->work->arena, &sampler, job->rr_threshold};
+    int most = p->max_depth + 2;
+    struct sampler sampler = sample_stream(pass, RNG_EYE, x, y, (uint64_t)iteration);
+    const struct walk w = {pass->job->scene, &p->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
     arena_reset(&pass->work->arena);
+    *sample = sample_begin(pass, &p->counts, 1, x, y, iteration);
     *step = arena_alloc(&pass->work->arena, (size_t)most * sizeof **step);
-    int n = path_eye_pixel(&w, sample->x, sample->y, eye, 2, &sample->filter_weight);
-    n = walk_guided(&s->tree, &w, eye, *step, n, most);
-    for (const struct observer *o = sample->observer; o != NULL; o = o->next)
+    int n = path_eye_pixel(&w, x, y, eye, 2, &sample->filter_weight);
+    n = walk_guided(&((const struct ppg *)p->own)->tree, &w, eye, *step, n, most);
+    for (const struct observer *o = pass->observer; o != NULL; o = o->next)
         if (o->walked != NULL)
             o->walked(o->context, sample, RADIANCE, eye, n);
     for (int t = 2; t <= n; t++) {
-        pixel_sum_hit(sample, eye, t);
+        sample_hit(sample, eye, t);
         if (eye[t - 1].kind != VERTEX_ESCAPED && t < most)
             sum_direct(sample, &eye[t - 1], t, (*step)[t - 1].guide);
         (*step)[t - 1].before = sample->value;
@@ -150,108 +150,136 @@ static int trace_pixel(const struct ppg_state *s, const struct tile_pass *pass, 
     return n;
 }
 
-static void render(const struct preparation *m, const struct tile_pass *pass)
+static void render(const struct prepared *p, const struct tile_pass *pass)
 {
-    const struct ppg_state *s = m->state;
+    struct sample sample;
     struct step *step;
     for (long iteration = pass->first; iteration < pass->end; iteration++)
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
-            struct pixel_sample sample = pixel_sample_begin(pass, &s->frozen.counts, x, y, iteration);
-            trace_pixel(s, pass, &sample, &step);
-            pixel_sample_end(&sample);
+            trace_pixel(p, pass, x, y, iteration, &sample, &step);
+            sample_end(&sample);
         }
 }
 
 /* --- training ---------------------------------------------------------------------------------------- */
+
+/* The running pass. */
+struct trainer {
+    struct learning learning; /* the first, which lessons_learn passes on */
+    struct prepared *prepared;
+    long end;
+};
 
 static double ratio(rgb a, rgb b)
 {
     return rgb_luminance(rgb_make(b.r > 0 ? a.r / b.r : 0, b.g > 0 ? a.g / b.g : 0, b.b > 0 ? a.b / b.b : 0));
 }
 
+/* Lessons of two kinds: a record, whose x and w are contribution and odds; or light x from a direction. Of that w has u
+ * and 1, so that it is not 0, and the column has v. */
+enum { RECORD = -1, V_STEPS = 1 << 30 };
+
 /* The step from vertex z, and what the sample found behind it. */
-static void record(struct findings *out, const struct sdtree *tree, const struct vertex *z, const struct step *step,
+static void record(struct lessons *out, const struct sdtree *tree, const struct vertex *z, const struct step *step,
                    rgb found, struct sampler *sampler)
 {
     vec3 size, p = z->p;
+    double u, v;
     sdtree_find(tree, p, &size);
     p.x += size.x * (sampler_number(sampler, DRAW_ORDER) - 0.5);
     p.y += size.y * (sampler_number(sampler, DRAW_ORDER) - 0.5);
     p.z += size.z * (sampler_number(sampler, DRAW_ORDER) - 0.5);
     uint64_t leaf = (uint64_t)sdtree_find(tree, p, NULL);
-    struct finding way = {.kind = TRIAL, .eye = leaf, .x = ratio(found, z->beta), .w = step->odds};
-    struct finding light = {.kind = LIGHT_SEEN, .eye = leaf, .x = ratio(found, step->from.beta) / step->from.pdf};
-    warp_sphere_inverse(step->from.ray.d, &light.u[0], &light.u[1]);
-    findings_add(out, way);
-    if (!step->from.delta)
-        findings_add(out, light);
+    double light = ratio(found, step->from.beta) / step->from.pdf;
+    warp_sphere_inverse(step->from.ray.d, &u, &v);
+    lessons_add(out, (struct lesson){leaf, RECORD, ratio(found, z->beta), step->odds});
+    if (!step->from.delta && light > 0)
+        lessons_add(out, (struct lesson){leaf, (int)(v * V_STEPS), light, 1 + u});
 }
 
 /* Sample i of a pass of n samples a pixel, which have the numbers -n, -n - 1 ... for all pixels in turn. */
-static void trace(const struct pass *p, int thread, long i, struct findings *out)
+static void trace(struct learning *l, const struct counts *counts, struct workspace *work, long i, struct lessons *out)
 {
-    const struct ppg_state *s = p->context;
-    const struct pixel_rect rect = p->training->job->film_rect;
+    const struct trainer *trainer = (const void *)l;
+    const struct sdtree *tree = &((const struct ppg *)trainer->prepared->own)->tree;
+    const struct pixel_rect rect = l->job->film_rect;
     struct tile tile = {.sum = NULL}; /* counts what is not finite */
-    const struct tile_pass pass = {.job = p->training->job, .tile = &tile, .work = &p->training->work[thread]};
+    const struct tile_pass pass = {.job = l->job, .tile = &tile, .work = work};
     long width = rect_width(rect), pixels = width * rect_height(rect), at = i % pixels;
+    struct sample sample;
     struct step *step;
-    struct pixel_sample sample = pixel_sample_begin(&pass, &s->frozen.counts, rect.x0 + (int)(at % width),
-                                                    rect.y0 + (int)(at / width), -(p->end + i) / pixels);
-    for (int t = trace_pixel(s, &pass, &sample, &step); t >= 2; t--)
+    (void)counts;
+    int n = trace_pixel(trainer->prepared, &pass, rect.x0 + (int)(at % width), rect.y0 + (int)(at / width),
+                        -(trainer->end + i) / pixels, &sample, &step);
+    for (int t = n; t >= 2; t--)
         if (step[t - 1].guide != NULL && step[t - 1].left && sample.filter_weight != 0) {
             rgb found = rgb_sub(sample.value, step[t - 1].before);
-            record(out, &s->tree, &pass.work->eye[t - 1], &step[t - 1], rgb_scale(found, 1 / sample.filter_weight),
+            record(out, tree, &work->eye[t - 1], &step[t - 1], rgb_scale(found, 1 / sample.filter_weight),
                    &sample.sampler);
         }
 }
 
-static void take(void *context, const struct finding *f)
+static void take(struct learning *l, const struct lesson *lesson)
 {
-    struct ppg_state *s = context;
-    struct sd_leaf *leaf = &s->tree.node[f->eye].leaf;
-    if (f->kind == TRIAL)
-        sd_add_record(leaf, f->x, f->w);
+    struct ppg *own = ((struct trainer *)(void *)l)->prepared->own;
+    struct sd_leaf *leaf = &own->tree.node[lesson->row].leaf;
+    if (lesson->column == RECORD)
+        sd_add_record(leaf, lesson->x, lesson->w);
     else
-        sd_add_light(leaf, f->u[0], f->u[1], f->x);
+        sd_add_light(leaf, lesson->w - 1, (double)lesson->column / V_STEPS, lesson->x);
 }
 
-static void prepare(const struct render_job *job, struct preparation *out)
+static bool at_once(void *context, double traced)
 {
-    struct ppg_state *s = out->state;
-    struct training t = {.job = job, .work = workspaces_new(job->n_threads, job->max_depth),
-                         .patience = patience_begin(job)};
-    struct pass pass = {.training = &t, .context = s, .trace = trace, .take = take};
+    (void)context, (void)traced;
+    return false;
+}
+
+/* The box that contains most eye vertices, which learning finds before all else. */
+static void find_box(const struct render_job *job, vec3 *low, vec3 *high)
+{
+    const struct learn_options options = {.use = true, .emission = 1};
+    struct render_job first = *job;
+    struct tables tables = NO_TABLES;
+    first.watch = at_once;
+    learn(&first, &options, &tables);
+    const struct regions *r = &tables.regions;
+    *low = r->origin;
+    *high = add(*low, mul(vec(r->last[0] + 1, r->last[1] + 1, r->last[2] + 1), 1 / r->per_metre));
+    tables_free(&tables);
+}
+
+static void prepare(const struct render_job *job, struct prepared *p)
+{
+    struct ppg *own = p->own;
+    const struct pass pass = {trace, take, NO_TABLES};
+    struct trainer t = {.learning = {.job = job, .work = workspaces_new(job->n_threads, job->max_depth),
+                                     .patience = patience_begin(job)}, .prepared = p};
     vec3 low, high;
-    s->frozen.services.emission = 1; /* there are no light sub-paths */
-    plain_prepare(job, out);
-    train_extent(&t, &low, &high);
-    sdtree_init(&s->tree, low, high);
-    for (long n = 1; 2 * n - 1 <= s->training && !t.patience.over; n *= 2) {
-        pass.end = n * (long)pixel_light_count(job);
-        pass_run(&pass);
-        if (!t.patience.over)
-            sdtree_build(&s->tree, s->cell * sqrt((double)n));
+    method_counts(job, p, true);
+    find_box(job, &low, &high);
+    sdtree_init(&own->tree, low, high);
+    for (long n = 1; 2 * n - 1 <= own->training && !t.learning.patience.over; n *= 2) {
+        t.end = n * (long)rect_pixels(job->film_rect);
+        lessons_learn(&t.learning, &pass, 0, t.end);
+        if (!t.learning.patience.over)
+            sdtree_build(&own->tree, own->cell * sqrt((double)n));
     }
-    patience_end(&t.patience);
-    workspaces_free(t.work, job->n_threads);
+    patience_end(&t.learning.patience);
+    workspaces_free(t.learning.work, job->n_threads);
 }
 
-static void release(void *state)
-{
-    struct ppg_state *s = state;
-    sdtree_free(&s->tree);
-}
+static void release(struct prepared *p) { sdtree_free(&((struct ppg *)p->own)->tree); }
 
-#define AT(member) offsetof(struct ppg_state, member)
-static const struct field PARAMETERS[] = {
-    {"training", FIELD_INTEGER, AT(training), 15, 0, 1 << 20, "most samples of a pixel in all of training", NULL},
-    {"cell", FIELD_INTEGER, AT(cell), 250, 1, 1 << 30, "records of the first pass above which a leaf is halved", NULL},
-    SERVICE_GUIDE(false), SERVICE_CREDIT(1),
+static const struct field PARAMETERS[] = {PARAMETER_GUIDE(false), {.name = NULL}};
+static const struct field OWN[] = {
+    {"training", FIELD_INTEGER, offsetof(struct ppg, training), 15, 0, 1 << 20,
+     "most samples of a pixel in all of training", NULL},
+    {"cell", FIELD_INTEGER, offsetof(struct ppg, cell), 250, 1, 1 << 30,
+     "records of the first pass above which a leaf is halved", NULL},
     {.name = NULL}};
 
 const struct method method_ppg = {
     .name = "ppg", .help = "practical path guiding [Mueller 2017]: pt that learns from where light arrives",
-    .parameters = PARAMETERS, .state_size = sizeof(struct ppg_state),
-    .numbers = {.light_points = 1, .path_tracing = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
-    .release = release, .render = render};
+    .parameters = PARAMETERS, .own = OWN, .own_size = sizeof(struct ppg), .numbers = NUMBERS_OF_PT,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .render = render};

@@ -1,12 +1,7 @@
 /* records.c: see records.h. */
 #include "rivals/records.h"
 
-#include <string.h>
-
 #include "base/alias.h"
-#include "learning/learn.h"
-
-void records_free(struct records *r) { arena_free(&r->arena); }
 
 static void add_path(struct records *r, const struct vertex *eye, int n)
 {
@@ -17,26 +12,25 @@ static void add_path(struct records *r, const struct vertex *eye, int n)
         }
 }
 
-void records_place(struct records *r, const struct tile_pass *pass, const struct frozen *f, long iteration,
-                   double share)
+struct records records_place(const struct prepared *p, const struct tile_pass *pass, struct arena *arena,
+                             long iteration, double share)
 {
     const struct render_job *job = pass->job;
     const struct tile_pixels pixels = pass->tile->pixels;
     int width = pixels_columns(pixels), height = pixels_rows(pixels), x, y;
     int n = share > 0 ? (int)ceil(share * width * height) : 0, longest = RECORDS_DEPTH;
-    longest = longest < f->max_depth ? longest : f->max_depth;
-    arena_reset(&r->arena);
-    r->n = 0;
-    r->item = arena_alloc(&r->arena, (size_t)n * (size_t)longest * sizeof *r->item);
+    longest = longest < p->max_depth ? longest : p->max_depth;
+    struct records r = {arena_alloc(arena, (size_t)n * (size_t)longest * sizeof *r.item), 0};
     for (int i = 0; i < n; i++) {
         double u, v, filter_weight;
         sampler_r2((int64_t)iteration * n + i, &u, &v);
         pixels_get(pixels, (int)(v * height) * width + (int)(u * width), &x, &y);
-        struct sampler sampler = pixel_sampler(pass, RNG_RECORD, x, y, iteration);
-        struct walk walk = {job->scene, &f->counts, &r->arena, &sampler, job->rr_threshold};
-        struct vertex *eye = arena_alloc(&r->arena, (size_t)longest * sizeof *eye);
-        add_path(r, eye, path_eye_pixel(&walk, x, y, eye, longest, &filter_weight));
+        struct sampler sampler = sample_stream(pass, RNG_RECORD, x, y, (uint64_t)iteration);
+        struct walk walk = {job->scene, &p->counts, arena, &sampler, job->rr_threshold};
+        struct vertex *eye = arena_alloc(arena, (size_t)longest * sizeof *eye);
+        add_path(&r, eye, path_eye_pixel(&walk, x, y, eye, longest, &filter_weight));
     }
+    return r;
 }
 
 /* Nearer than a thousandth of the scene's radius nothing is worth more. */
@@ -57,16 +51,16 @@ bool record_sees(const struct record *c, const struct scene *scene, const struct
     return scene_visible(scene, c->z.p, c->z.prim_id, v->p, v->prim_id);
 }
 
-void records_fill(struct records *r, const struct scene *scene, const struct candidates *found, const double *u)
+void records_fill(struct records *r, struct arena *arena, const struct scene *scene, const struct candidate *found,
+                  int n, const double *u)
 {
     for (int i = 0; i < r->n; i++) {
         struct record *c = &r->item[i];
-        double *h = arena_alloc(&r->arena, (size_t)found->n * sizeof *h), *before = NULL;
-        before = arena_alloc(&r->arena, (size_t)found->n * sizeof *before);
+        double *h = arena_alloc(arena, (size_t)n * sizeof *h), *before = arena_alloc(arena, (size_t)n * sizeof *before);
         c->sum = 0;
-        for (int v = 0; v < found->n; v++) {
-            const struct vertex *y = found->item[v].y;
-            h[v] = found->item[v].L * (u != NULL ? u[v] : 1) * record_worth(c, scene, y, y->wo);
+        for (int v = 0; v < n; v++) {
+            const struct vertex *y = candidate_vertex(&found[v]);
+            h[v] = found[v].L * (u != NULL ? u[v] : 1) * record_worth(c, scene, y, y->wo);
             if (!(h[v] > 0 && h[v] < INFINITY && record_sees(c, scene, y)))
                 h[v] = 0;
             before[v] = c->sum;
@@ -125,15 +119,4 @@ double mixture_pmf(const struct mixture *m, int v)
     for (int i = 0; i < m->m; i++)
         sum += m->record[i]->sum > 0 ? m->record[i]->h[v] / m->record[i]->sum : 0;
     return sum / (m->m + 1);
-}
-
-double light_vertices_expected(const struct render_job *job)
-{
-    const struct learn_options nothing = {.eye_cells = 1};
-    struct render_job whole = *job;
-    whole.watch = NULL; /* it is soon done, and l is not kept: it must be the same whenever the render goes on */
-    struct tables counted = learn(&whole, &nothing);
-    double l = counted.importance.light_vertices;
-    tables_free(&counted);
-    return l;
 }

@@ -12,7 +12,7 @@
 #ifndef ASBDPT_RECORDS_H
 #define ASBDPT_RECORDS_H
 
-#include "integrators/pooled.h"
+#include "integrators/loop.h"
 
 enum { RECORDS_NEAR = 3, RECORDS_DEPTH = 5, RECORDS_TILE = MAX_TILE_SIZE };
 #define RECORDS_SHARE 0.004 /* of the pixels have a record's eye sub-path */
@@ -26,19 +26,18 @@ struct record {
 };
 
 struct records {
-    struct arena arena;  /* all of it */
     struct record *item; /* [n] */
     int n;
 };
-void records_free(struct records *r);
 
 /* records_place: where the records of an iteration are, of eye sub-paths through a share of the tile's pixels; no
- * record's h is known yet. */
-void records_place(struct records *r, const struct tile_pass *pass, const struct frozen *f, long iteration,
-                   double share);
+ * record's h is known yet. `arena` has all of it, as of what records_fill adds. */
+struct records records_place(const struct prepared *p, const struct tile_pass *pass, struct arena *arena,
+                             long iteration, double share);
 
-/* records_fill: h of all records for these light vertices; u: [n] factors of L_v, or NULL. */
-void records_fill(struct records *r, const struct scene *scene, const struct candidates *found, const double *u);
+/* records_fill: h of all records for these n light vertices; u: [n] factors of L_v, or NULL. */
+void records_fill(struct records *r, struct arena *arena, const struct scene *scene, const struct candidate *found,
+                  int n, const double *u);
 
 /* record_worth: h of one light vertex, which light reaches from wo, as if it and the record saw each other, over L_v;
  * record_sees: do they? */
@@ -62,8 +61,5 @@ struct mixture records_mixture(const struct records *r, const struct scene *scen
  * mixture_pmf: the probability of that, all taken together. */
 int mixture_draw(const struct mixture *m, double u, int *which);
 double mixture_pmf(const struct mixture *m, int v);
-
-/* light_vertices_expected: connectible vertices of a light sub-path, on average; found before the render. */
-double light_vertices_expected(const struct render_job *job);
 
 #endif

@@ -15,18 +15,14 @@
  * BDPT except for the order in which it adds.
  *
  * Densities cancel in f / p, so p is never asked for: f stands for f / p below, p being that of the pixel that drew y.
- * A guide (services.h) may have another p in each. M says how many light points there are.
+ * A guide may have another p in each. M says how many light points there are.
  *
  * Tests: test_rivals.c.
  */
-#include <stddef.h>
-
 #include "caustics/surfaces.h"
-#include "rivals/plain.h"
 #include "rivals/together.h"
 
-struct restir_state {
-    struct frozen frozen;
+struct restir {
     int candidates, neighbours; /* M, N */
     double credit;
 };
@@ -43,32 +39,32 @@ static double value_at(const struct scene *scene, const struct vertex *z, const 
 }
 
 /* Step 1. */
-static struct reservoir resample(struct pooled_pixel *p, int M)
+static struct reservoir resample(struct pixel *p, int M)
 {
     struct reservoir r = {.weight = 0};
     double sum = 0, own = 0;
     bool surface = p->n >= 2 && p->eye[1].kind == VERTEX_SURFACE;
     for (int m = 0; surface && m < M; m++) {
+        struct light_point at;
         struct lit y;
-        bool lit = connect_light_point(p->sample.scene, p->sample.counts, &p->eye[1], &p->sample.sampler, m, M,
-                                       &y);
+        bool lit = lit_draw(&p->sample, &p->eye[1], &p->sample.sampler, m, M, &at, &y);
         double f = lit ? rgb_luminance(y.value) : 0;
         sum += f;
-        if (f > 0 && sampler_number(&p->draws, DRAW_ORDER) * sum < f) {
+        if (f > 0 && sampler_number(&p->sample.choice, DRAW_ORDER) * sum < f) {
             r.y = y;
             own = f;
         }
     }
-    if (own > 0 && reuse_sees(p->sample.scene, &r.y))
+    if (own > 0 && reuse_sees(p->sample.pass->job->scene, &r.y))
         r.weight = sum / (M * own);
     return r;
 }
 
 /* Step 2. near: S, [n] numbers of pixels, the first this one. */
-static void reuse(struct pooled_pixel *pixel, const struct reservoir *all, const int *near, int n)
+static void reuse(struct pixel *pixel, const struct reservoir *all, const int *near, int n)
 {
-    struct pooled_pixel *c = &pixel[near[0]];
-    const struct scene *scene = c->sample.scene;
+    struct pixel *c = &pixel[near[0]];
+    const struct scene *scene = c->sample.pass->job->scene;
     struct lit kept = {.z = NULL}, l;
     double sum = 0, own = 0, others = 0;
     int from = 0;
@@ -76,7 +72,7 @@ static void reuse(struct pooled_pixel *pixel, const struct reservoir *all, const
         const struct reservoir *r = &all[near[j]];
         double f = r->weight > 0 ? value_at(scene, &c->eye[1], r, &l) : 0;
         sum += f * r->weight;
-        if (f > 0 && sampler_number(&c->draws, DRAW_ORDER) * sum < f * r->weight) {
+        if (f > 0 && sampler_number(&c->sample.choice, DRAW_ORDER) * sum < f * r->weight) {
             kept = l;
             own = f;
             from = j;
@@ -90,58 +86,54 @@ static void reuse(struct pooled_pixel *pixel, const struct reservoir *all, const
     }
     double m = value_at(scene, &pixel[near[from]].eye[1], &all[near[from]], &l) / others;
     struct connection made = connect_lit(scene, c->sample.counts, &kept);
-    reuse_add(&c->sample, &made, 1, 2, m * sum / own);
+    sample_add(&c->sample, (struct joined){.s = 1, .t = 2, .z = &c->eye[1], .c = &made, .y0 = &kept.at, .pmf = 1,
+                                           .scale = m * sum / own});
 }
 
-static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
-                        int n)
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
+                        struct pixel *pixel, int n)
 {
-    const struct light_pool *pool = scratch;
-    const struct restir_state *s = state;
+    const struct restir *own = p->own;
     struct reservoir *all = arena_alloc(&pass->work->arena, (size_t)n * sizeof *all);
     for (int i = 0; i < n; i++) {
-        all[i] = resample(&pixel[i], s->candidates);
+        all[i] = resample(&pixel[i], own->candidates);
         for (int t = 2; t <= pixel[i].n; t++) {
-            pixel_sum_hit(&pixel[i].sample, pixel[i].eye, t);
+            sample_hit(&pixel[i].sample, pixel[i].eye, t);
             if (t > 2)
-                pixel_sum_direct(&pixel[i].sample, pixel[i].eye, t);
+                sample_direct(&pixel[i].sample, &pixel[i].eye[t - 1], t);
         }
     }
     for (int i = 0; i < n; i++) {
         if (pass_enough(pass->job))
             return;
-        int near[MOST_NEIGHBOURS + 1], found = reuse_neighbours(pixel, n, i, s->neighbours, near);
+        int near[MOST_NEIGHBOURS + 1], found = reuse_neighbours(pixel, n, i, own->neighbours, near);
         if (found > 0)
             reuse(pixel, all, near, found);
-        pixel_sum_pairs(&pixel[i].sample, pixel[i].eye, pixel[i].n, light_pool_path(pool, i), pool->length[i],
-                        NO_CHOICE);
+        loop_join(p, index, &pixel[i].sample, i, pixel[i].eye, pixel[i].n);
+        loop_splat(p, &pixel[i].sample, i);
     }
 }
 
-static void prepare(const struct render_job *job, struct preparation *out)
+static void render(const struct prepared *p, const struct tile_pass *pass)
 {
-    struct restir_state *s = out->state;
-    plain_prepare(job, out);
-    s->frozen.counts.direct[FIRST_HIT] = s->credit;
+    struct prepared counted = *p;
+    counted.counts.direct[FIRST_HIT] = ((const struct restir *)p->own)->credit;
+    together_render(&counted, pass, connect_all);
 }
 
-#define AT(member) offsetof(struct restir_state, member)
-static const struct field PARAMETERS[] = {
+#define AT(member) offsetof(struct restir, member)
+static const struct field OWN[] = {
     {"candidates", FIELD_INTEGER, AT(candidates), 8, 1, 1024, "light points of which a pixel keeps one", NULL},
     {"neighbours", FIELD_INTEGER, AT(neighbours), 5, 0, MOST_NEIGHBOURS, "pixels whose light points it shares",
      NULL},
     {"worth", FIELD_NUMBER, AT(credit), 4, 1e-3, 1e6, "samples that one kept counts for in the weights", NULL},
-    SERVICE_GUIDE(false), SERVICE_EMISSION(1), SERVICE_TILES(MAX_TILE_SIZE, 1),
     {.name = NULL}};
-
-static void render(const struct preparation *m, const struct tile_pass *pass)
-{
-    together_render(m, pass, connect_all);
-}
+static const struct field PARAMETERS[] = {
+    PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(MAX_TILE_SIZE, 1),
+    {.name = NULL}};
 
 const struct method method_restir = {
     .name = "restir", .check = surfaces_alone,
     .help = "reservoirs [Bitterli 2020]: light points resampled, and shared with pixels nearby",
-    .parameters = PARAMETERS, .state_size = sizeof(struct restir_state), .scratch_size = sizeof(struct light_pool),
-    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = render,
-    .scratch_free = light_pool_free};
+    .parameters = PARAMETERS, .own = OWN, .own_size = sizeof(struct restir), .numbers = NUMBERS_OF_BDPT,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render, .draw = loop_own};

@@ -20,13 +20,12 @@
  *
  * Tests: test_rivals.c.
  */
-#include <stddef.h>
+#include <string.h>
 
 #include "caustics/surfaces.h"
 #include "rivals/together.h"
 
-struct restirgi_state {
-    struct frozen frozen;
+struct restirgi {
     int neighbours; /* N */
 };
 
@@ -36,9 +35,10 @@ struct tail {
     const struct vertex *z;          /* z2 */
     vec3 w;                          /* from there on, unit */
     rgb L;                           /* what comes from there, over its density from the next vertex on */
-    double light;  /* density, 1/sr, with which w is drawn on lights; LATER: the weight, which is known */
-    double length; /* of what follows z2 */
-    int s, t, ends_on; /* the last a light */
+    double light; /* density, 1/sr, with which w is drawn on lights; LATER: the weight, which is known */
+    int s, t;     /* of the whole path: its eye vertices go on behind z2 in memory */
+    int ends_on;  /* number of a light */
+    struct light_point y0; /* s = 1 */
 };
 
 struct reservoir {
@@ -49,14 +49,13 @@ struct reservoir {
 };
 
 /* What pixel p has of a tail, if z1 and z2 see each other. Returns f; *g as above. */
-static double value_at(const struct pooled_pixel *p, const struct tail *x, struct connection *out, double *g)
+static double value_at(const struct pixel *p, const struct tail *x, struct connection *out, double *g)
 {
     const struct vertex *z = &p->eye[1];
-    const struct mis_counts *counts = p->sample.counts;
+    const struct counts *counts = p->sample.counts;
     vec3 d = sub(x->z->p, z->p);
     double d2 = length2(d);
-    struct connection c = {.light = x->ends_on, .cell = -1, .weight = x->light,
-                           .length = z->length + sqrt(d2) + x->length};
+    struct connection c = {.light = x->ends_on, .weight = x->light};
     *out = c;
     *g = 0;
     if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d) || !bsdf_may_scatter(&x->z->bsdf, neg(d), x->w))
@@ -77,14 +76,14 @@ static double value_at(const struct pooled_pixel *p, const struct tail *x, struc
 /* --- step 1 ------------------------------------------------------------------------------------------ */
 
 /* A tail of the pixel's own, made with that density; *sum of f / p of those before. */
-static void offer(struct pooled_pixel *p, struct reservoir *r, const struct tail *x, double density, double *sum)
+static void offer(struct pixel *p, struct reservoir *r, const struct tail *x, double density, double *sum)
 {
     struct connection c;
     double g, f = value_at(p, x, &c, &g);
     if (!(f > 0))
         return;
     *sum += f / density;
-    if (sampler_number(&p->draws, DRAW_ORDER) * *sum < f / density) {
+    if (sampler_number(&p->sample.choice, DRAW_ORDER) * *sum < f / density) {
         r->x = *x;
         r->g = g;
         r->weight = 1 / f; /* times the sum, in the end */
@@ -92,25 +91,29 @@ static void offer(struct pooled_pixel *p, struct reservoir *r, const struct tail
 }
 
 /* z2's own light point. */
-static void offer_point(struct pooled_pixel *p, struct reservoir *r, const struct vertex *z, double *sum)
+static void offer_point(struct pixel *p, struct reservoir *r, const struct vertex *z, double *sum)
 {
-    const struct scene *scene = p->sample.scene;
+    const struct render_job *job = p->sample.pass->job;
+    const struct scene *scene = job->scene;
+    struct tail x = {.z = z, .s = 1, .t = 3};
     struct lit l;
-    if (p->sample.max_depth < 2 ||
-        !connect_light_point(scene, p->sample.counts, z, &p->sample.sampler, 0, 1, &l) || !reuse_sees(scene, &l))
+    if (job->max_depth < 2 || !lit_draw(&p->sample, z, &p->sample.sampler, 0, 1, &x.y0, &l) || !reuse_sees(scene, &l))
         return;
-    const struct lamp_way way = lamp_way(scene, z->p, &l.at);
     bool delta = light_is_delta(&scene->lights.light[l.at.light]);
     double density = l.pdf / l.at_light;
-    struct tail x = {delta ? LATER : POINT, z, way.w, light_Le(&scene->lights, &l.at, neg(way.w)), delta ? 1 : density,
-                     way.length, 1, 3, l.at.light};
+    x.kind = delta ? LATER : POINT;
+    x.w = l.w;
+    x.L = light_Le(&scene->lights, &l.at, neg(l.w));
+    x.light = delta ? 1 : density;
+    x.ends_on = l.at.light;
     offer(p, r, &x, z->pdf_fwd * density, sum);
 }
 
 /* What the walk has found behind z2: shared, if z2 was not left by a delta lobe, else the pixel's own. */
-static void offer_later(struct pooled_pixel *p, struct reservoir *r, const struct vertex *z, double *sum)
+static void offer_later(struct pixel *p, struct reservoir *r, const struct vertex *z, double *sum)
 {
-    struct pixel_sample *sample = &p->sample;
+    struct sample *sample = &p->sample;
+    const struct render_job *job = sample->pass->job;
     bool own = z[1].prev_delta;
     double roulette, later;
     struct tail x = {.z = z, .w = neg(z[1].wo)};
@@ -120,17 +123,17 @@ static void offer_later(struct pooled_pixel *p, struct reservoir *r, const struc
     for (x.t = 4; x.t <= p->n; x.t++) {
         struct vertex at = p->eye[x.t - 1];
         at.beta = beta;
-        for (x.s = 0; x.s <= (at.kind == VERTEX_SURFACE && x.t <= sample->max_depth + 1); x.s++) {
+        for (x.s = 0; x.s <= (at.kind == VERTEX_SURFACE && x.t <= job->max_depth + 1); x.s++) {
             struct connection c =
                 x.s == 0 ? reuse_hit(sample, &p->eye[x.t - 2], &p->eye[x.t - 1], x.t, beta)
-                         : connect_direct(sample->scene, sample->counts, &at, &sample->sampler, 0, 1);
+                         : connect_direct(job->scene, sample->counts, &at, &sample->sampler, 0, 1, &x.y0);
             x.kind = x.s == 0 && x.t == 4 ? HIT : LATER;
             x.light = x.kind == HIT ? pdf * reuse_hit_density(&z[1]) : c.weight;
             x.L = c.value;
             x.ends_on = c.light;
-            x.length = c.length - z->length;
             if (own)
-                reuse_add(sample, &c, x.s, x.t, 1);
+                sample_add(sample, (struct joined){.s = x.s, .t = x.t, .z = &p->eye[x.t - 1], .c = &c,
+                                                   .y0 = x.s == 1 ? &x.y0 : NULL, .pmf = 1, .scale = 1});
             else if (!rgb_is_black(c.value))
                 offer(p, r, &x, density, sum);
         }
@@ -140,18 +143,17 @@ static void offer_later(struct pooled_pixel *p, struct reservoir *r, const struc
 }
 
 /* The pixel's own reservoir; what is not shared is added. */
-static struct reservoir resample(struct pooled_pixel *p, bool shares)
+static struct reservoir resample(struct pixel *p, bool shares)
 {
-    const struct vertex *eye = p->eye, *z = &eye[2];
+    const struct vertex *z = &p->eye[2];
     struct reservoir r = {.weight = 0, .shares = shares};
     double sum = 0;
     if (!shares || p->n < 3 || z->prev_delta || z->kind != VERTEX_SURFACE || !vertex_connectible(z)) {
-        pixel_sum_eye(&p->sample, eye, p->n);
+        loop_eye(&p->sample, p->eye, p->n);
         return r;
     }
-    pixel_sum_eye(&p->sample, eye, 2);
-    struct connection hit = connect_hit(p->sample.scene, p->sample.counts, &eye[1], z, 3);
-    reuse_add(&p->sample, &hit, 0, 3, 1);
+    loop_eye(&p->sample, p->eye, 2);
+    sample_hit(&p->sample, p->eye, 3);
     offer_point(p, &r, z, &sum);
     if (p->n > 3)
         offer_later(p, &r, z, &sum);
@@ -164,10 +166,25 @@ static struct reservoir resample(struct pooled_pixel *p, bool shares)
 /* May one pixel take over what the other has found, their densities being g and h? */
 static bool near_enough(double g, double h) { return g < 10 * h && h < 10 * g; }
 
-/* near: S, [n] numbers of pixels, the first this one. */
-static void reuse(struct pooled_pixel *pixel, const struct reservoir *all, const int *near, int n)
+/* Add what pixel c makes of a tail. Observers get all vertices of the path. */
+static void add_made(struct pixel *c, const struct tail *x, const struct connection *made, double scale)
 {
-    struct pooled_pixel *c = &pixel[near[0]];
+    const struct tile_pass *pass = c->sample.pass;
+    size_t t = (size_t)x->t, size = sizeof *c->eye;
+    struct joined j = {.s = x->s, .t = x->t, .c = made, .y0 = x->s == 1 ? &x->y0 : NULL, .pmf = 1, .scale = scale};
+    if (pass->observer != NULL) {
+        struct vertex *path = arena_alloc(&pass->work->arena, t * size);
+        memcpy(path, c->eye, 2 * size);
+        memcpy(path + 2, x->z, (t - 2) * size);
+        j.z = &path[t - 1];
+    }
+    sample_add(&c->sample, j);
+}
+
+/* near: S, [n] numbers of pixels, the first this one. */
+static void reuse(struct pixel *pixel, const struct reservoir *all, const int *near, int n)
+{
+    struct pixel *c = &pixel[near[0]];
     struct connection kept = {.weight = 0}, made;
     double sum = 0, own = 0, others = 0, offered = 0, g = 0, h;
     int from = 0;
@@ -177,7 +194,7 @@ static void reuse(struct pooled_pixel *pixel, const struct reservoir *all, const
         if (!(f > 0) || !near_enough(h, r->g))
             continue;
         sum += f * r->weight;
-        if (sampler_number(&c->draws, DRAW_ORDER) * sum < f * r->weight) {
+        if (sampler_number(&c->sample.choice, DRAW_ORDER) * sum < f * r->weight) {
             kept = made;
             own = f;
             g = h;
@@ -189,49 +206,45 @@ static void reuse(struct pooled_pixel *pixel, const struct reservoir *all, const
         const struct vertex *z = &pixel[near[k]].eye[1];
         double f = all[near[k]].shares ? value_at(&pixel[near[k]], x, &made, &h) : 0;
         bool seen = f > 0 && near_enough(h, g) &&
-                    (k == from || scene_visible(c->sample.scene, z->p, z->prim_id, x->z->p, x->z->prim_id));
+                    (k == from || scene_visible(c->sample.pass->job->scene, z->p, z->prim_id, x->z->p, x->z->prim_id));
         if (k == 0 && !seen)
             return;
         others += seen ? f : 0;
         offered = k == from ? f : offered;
     }
     if (own > 0)
-        reuse_add(&c->sample, &kept, x->s, x->t, offered / others * sum / own);
+        add_made(c, x, &kept, offered / others * sum / own);
 }
 
-static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
-                        int n)
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
+                        struct pixel *pixel, int n)
 {
-    const struct restirgi_state *s = state;
+    const struct restirgi *own = p->own;
     struct arena *arena = &pass->work->arena;
     struct reservoir *all = arena_alloc(arena, (size_t)n * sizeof *all);
-    int *near = arena_alloc(arena, (size_t)n * (size_t)(s->neighbours + 1) * sizeof *near);
+    int *near = arena_alloc(arena, (size_t)n * (size_t)(own->neighbours + 1) * sizeof *near);
     int *found = arena_alloc(arena, (size_t)n * sizeof *found);
-    (void)scratch;
+    (void)index;
     for (int i = 0; i < n; i++) {
         if (pass_enough(pass->job))
             return;
-        found[i] = reuse_neighbours(pixel, n, i, s->neighbours, &near[i * (s->neighbours + 1)]);
+        found[i] = reuse_neighbours(pixel, n, i, own->neighbours, &near[i * (own->neighbours + 1)]);
         all[i] = resample(&pixel[i], found[i] > 1);
     }
     for (int i = 0; i < n && !pass_enough(pass->job); i++)
         if (all[i].shares)
-            reuse(pixel, all, &near[i * (s->neighbours + 1)], found[i]);
+            reuse(pixel, all, &near[i * (own->neighbours + 1)], found[i]);
 }
 
-static const struct field PARAMETERS[] = {
-    {"neighbours", FIELD_INTEGER, offsetof(struct restirgi_state, neighbours), 5, 0, MOST_NEIGHBOURS,
+static void render(const struct prepared *p, const struct tile_pass *pass) { together_render(p, pass, connect_all); }
+
+static const struct field OWN[] = {
+    {"neighbours", FIELD_INTEGER, offsetof(struct restirgi, neighbours), 5, 0, MOST_NEIGHBOURS,
      "pixels whose second vertices it shares", NULL},
     {.name = NULL}};
-
-static void render(const struct preparation *m, const struct tile_pass *pass)
-{
-    together_render(m, pass, connect_all);
-}
 
 const struct method method_restirgi = {
     .name = "restirgi", .check = surfaces_alone,
     .help = "reservoirs [Ouyang 2021]: second vertices resampled, and shared with pixels nearby",
-    .parameters = PARAMETERS, .state_size = sizeof(struct restirgi_state), .scratch_size = sizeof(struct light_pool),
-    .numbers = {.light_points = 1, .path_tracing = true},
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = reuse_prepare, .render = render};
+    .own = OWN, .own_size = sizeof(struct restirgi), .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .prepare = reuse_prepare, .render = render};

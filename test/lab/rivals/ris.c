@@ -16,8 +16,8 @@
  * K sub-paths of a tile are drawn from; all are for t = 1. Unlike in the paper they and the records are a tile's, not
  * the picture's, and s = 1 takes light points of its own. A light sub-path is splat in any tile, so t = 1 has mis.h's
  * weight, with lvc.c's count of connections, and the others share what that leaves. In the first iteration the paper
- * takes its own Q, which is biased; here an iteration is made up before it. Of the services (services.h) it has those
- * that its weights count.
+ * takes its own Q, which is biased; here an iteration is made up before it. It has no guide, which its weights do not
+ * count.
  *
  * `weights = counts` draws the same and has the weights of pcbdpt.c, whose draws by place alone it is to the byte.
  *
@@ -25,15 +25,12 @@
  */
 #include "rivals/ris.h"
 
-#include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "caustics/delta.h"
 #include "caustics/surfaces.h"
-#include "rivals/plain.h"
 #include "rivals/together.h"
-#include "tables/emit.h"
-#include "transport/counts.h"
+#include "tables/emission.h"
 
 const char *const RIS_WEIGHTS[] = {"counts", "nabata", NULL};
 static const double EPSILON = 1e-3; /* no draw counts for more than a thousand */
@@ -48,7 +45,7 @@ struct sight {
     bool sees[RECORDS_NEAR];
 };
 
-static struct sight look(const struct ris *r, const struct vertex *x, const struct vertex *y)
+static struct sight look(const struct index *r, const struct vertex *x, const struct vertex *y)
 {
     struct sight s = {.x = x->p, .y = y->p};
     s.n = records_near(&r->records, r->scene, x, 0, s.near);
@@ -58,9 +55,9 @@ static struct sight look(const struct ris *r, const struct vertex *x, const stru
 }
 
 /* N of one technique for a light end of luminance L. */
-static double worth(const struct ris *r, double P, double L, double h, double Q)
+static double worth(const struct index *r, double P, double L, double h, double Q)
 {
-    int M2 = r->state->presampled;
+    int M2 = r->own->presampled;
     double share = 1.0 / r->K, ratio = fmin(fmax(EPSILON, Q / h), 1e30);
     if (!(h > 0))
         return 0;
@@ -70,13 +67,13 @@ static double worth(const struct ris *r, double P, double L, double h, double Q)
 }
 
 /* Of the technique without a record. */
-static double worth_alone(const struct ris *r, double P, double L)
+static double worth_alone(const struct index *r, double P, double L)
 {
-    return r->u == NULL ? worth(r, P, L, 1, r->state->vertices) : worth(r, P, L, L, r->previous_g);
+    return r->u == NULL ? worth(r, P, L, 1, r->vertices) : worth(r, P, L, L, r->previous_g);
 }
 
 /* Of all techniques of an edge: light, of luminance L, comes from wo to the light end y. */
-static double worth_edge(const struct ris *r, const struct sight *s, double L, const struct vertex *y, vec3 wo)
+static double worth_edge(const struct index *r, const struct sight *s, double L, const struct vertex *y, vec3 wo)
 {
     double P = 1.0 / (s->n + 1), sum = L > 0 ? worth_alone(r, P, L) : 0;
     for (int i = 0; i < s->n; i++) {
@@ -87,10 +84,10 @@ static double worth_edge(const struct ris *r, const struct sight *s, double L, c
     return sum;
 }
 
-double ris_worth(const struct ris *r, const struct vertex *y, const struct vertex *z)
+double ris_worth(const struct index *r, const struct vertex *y, const struct vertex *z)
 {
     struct sight s = look(r, z, y);
-    return worth_edge(r, &s, r->light_L[y - r->pool.vertex], y, y->wo);
+    return worth_edge(r, &s, r->light_L[y - r->pool->vertex], y, y->wo);
 }
 
 /* --- the weights ------------------------------------------------------------------------------------- */
@@ -106,15 +103,10 @@ static double kept(const struct vertex *v, vec3 wo, vec3 wi)
 /* Luminance on arrival at x_1 of what x_0 sends in direction w. */
 static double emitted(const struct scene *scene, const struct vertex *x0, vec3 w)
 {
-    const struct light_set *lights = &scene->lights;
     struct light_point at = vertex_light_point(x0);
-    bool sky = x0->kind == VERTEX_ESCAPED || lights->light[x0->light].kind == LIGHT_INFINITE;
-    if (sky)
-        return rgb_luminance(light_Le_environment(lights, neg(w), false)) * PI * sqr(lights->radius) /
-               light_pdf_environment(lights, neg(w));
-    double pdf = (x0->kind == VERTEX_LIGHT ? x0->pdf_fwd : x0->pdf_origin) * light_pdf_emission(lights, &at, w);
-    double cosine = length2(x0->ng) > 0 ? abs_dot(x0->ng, w) : 1;
-    return pdf > 0 ? rgb_luminance(light_Le(lights, &at, w)) * cosine / pdf : 0;
+    double pdf = (x0->kind == VERTEX_LIGHT ? x0->pdf_fwd : x0->pdf_origin) *
+                 light_pdf_emission(&scene->lights, &at, w);
+    return pdf > 0 ? rgb_luminance(light_Le(&scene->lights, &at, w)) * vertex_cosine(x0, w) / pdf : 0;
 }
 
 /* Where two sub-paths are joined: the last vertex of one, the vertex before it, and what of the former the other end
@@ -130,13 +122,13 @@ struct sums {
     double N;           /* by N: all but t = 1 */
 };
 
-static void count(const struct ris *r, struct sums *a, double ratio, double plain, double N)
+static void count(const struct index *r, struct sums *a, double ratio, double plain, double N)
 {
     a->plain += mis_raise(r->counts, ratio * plain);
     a->N += ratio * N;
 }
 
-static void sum_light_side(const struct ris *r, const struct path_end *end, struct sums *a)
+static void sum_light_side(const struct index *r, const struct path_end *end, struct sums *a)
 {
     const struct vertex *v = end->v;
     double ratio = 1, pdf_other = end->pdf_other, pdf_rev = end->pdf_rev;
@@ -148,15 +140,15 @@ static void sum_light_side(const struct ris *r, const struct path_end *end, stru
         }
         bool direct = v[-1].kind == VERTEX_LIGHT;
         if (!passed && !v->prev_delta)
-            count(r, a, ratio, direct ? 1 : r->counts->connect[LATER_HIT], direct ? 1 : r->light_n[v - r->pool.vertex]);
+            count(r, a, ratio, direct ? 1 : r->counts->pair[LATER_HIT], direct ? 1 : r->light_n[v - r->pool->vertex]);
         passed = v->prev_delta;
-        pdf_other = pdf_rev * area_before(r->scene, &v[-1], v);
-        pdf_rev = v[-1].pdf_rev;
+        pdf_other = pdf_rev * v->back;
+        pdf_rev = vertex_pdf_rev(&v[-1], v, IMPORTANCE);
     }
 }
 
 /* The light walk arrives at the end with luminance L from wo; s = 0: the end is x_0. */
-static void sum_eye_side(struct ris *r, int s, const struct path_end *end, double L, vec3 wo, struct sums *a)
+static void sum_eye_side(struct index *r, int s, const struct path_end *end, double L, vec3 wo, struct sums *a)
 {
     const struct vertex *v = end->v, *before = end->before;
     double ratio = 1, pdf_other = end->pdf_other, pdf_rev = end->pdf_rev;
@@ -165,7 +157,7 @@ static void sum_eye_side(struct ris *r, int s, const struct path_end *end, doubl
         ratio *= pdf_other / v->pdf_fwd;
         if (before->kind == VERTEX_LENS) {
             if (!passed && !v->prev_delta)
-                a->lens = mis_raise(r->counts, ratio * r->counts->splat);
+                a->lens = mis_raise(r->counts, ratio * r->counts->lens);
             return;
         }
         if (!passed && !v->prev_delta && light)
@@ -177,7 +169,7 @@ static void sum_eye_side(struct ris *r, int s, const struct path_end *end, doubl
             struct sight *known = &r->sight[before - lens];
             if (memcmp(&known->x, &before->p, sizeof known->x) != 0 || memcmp(&known->y, &v->p, sizeof known->y) != 0)
                 *known = look(r, before, v);
-            count(r, a, ratio, r->counts->connect[LATER_HIT], worth_edge(r, known, L, v, wo));
+            count(r, a, ratio, r->counts->pair[LATER_HIT], worth_edge(r, known, L, v, wo));
         }
         if (light)
             L = emitted(r->scene, v, v->wo);
@@ -185,47 +177,42 @@ static void sum_eye_side(struct ris *r, int s, const struct path_end *end, doubl
             L *= kept(v, wo, v->wo);
         passed = v->prev_delta;
         wo = neg(v->wo);
-        pdf_other = pdf_rev * area_before(r->scene, before, v);
-        pdf_rev = before->pdf_rev;
+        pdf_other = pdf_rev * v->back;
+        pdf_rev = vertex_pdf_rev(before, v, RADIANCE);
     }
 }
 
 /*   s  0: y is NULL, z is on the light; 1: y is y_0; else 2: of s >= 2 */
-static double weigh(struct ris *r, int s, const struct path_end *y, const struct path_end *z)
+static double weigh(struct index *r, int s, const struct path_end *y, const struct path_end *z)
 {
     struct sums a = {0, 0, 0};
-    double own = s == 2 ? r->own : 1, all = s == 2 ? r->all : 1, L = 0;
+    double own = s == 2 ? r->one : 1, all = s == 2 ? r->all : 1, L = 0;
     vec3 w = neg(z->v->wo);
     if (s > 0) {
         sum_light_side(r, y, &a);
         w = vertex_at_infinity(r->scene, y->v) ? neg(y->v->wo) : normalize(sub(z->v->p, y->v->p));
-        L = s == 1 ? emitted(r->scene, y->v, w) : r->light_L[y->v - r->pool.vertex] * kept(y->v, y->v->wo, w);
+        L = s == 1 ? emitted(r->scene, y->v, w) : r->light_L[y->v - r->pool->vertex] * kept(y->v, y->v->wo, w);
     }
     sum_eye_side(r, s, z, L, neg(w), &a);
-    a.plain += mis_raise(r->counts, s == 2 ? r->counts->connect[LATER_HIT] : 1);
+    a.plain += mis_raise(r->counts, s == 2 ? r->counts->pair[LATER_HIT] : 1);
     return own / (all + a.N) * a.plain / (a.plain + a.lens);
 }
 
-struct connection ris_hit(struct ris *r, const struct vertex *prev, const struct vertex *z, int t)
+struct connection ris_hit(struct index *r, const struct vertex *prev, const struct vertex *z, int t)
 {
     struct connection c = connect_hit(r->scene, r->counts, prev, z, t);
     if (t == 2 || rgb_is_black(c.value))
         return c;
     const struct vertex *end = z->lamp != NULL ? z->lamp : z;
-    bool escaped = end->kind == VERTEX_ESCAPED;
     struct light_point at = vertex_light_point(end);
-    if (escaped) {
-        at.light = -1;
-        at.w = neg(end->wo);
-    }
-    double pdf_emit = emit_pdf(&counts_tables(r->counts)->emission, &r->scene->lights, &at,
-                               escaped ? prev->p : end->p, end->wo);
+    double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &at,
+                                   end->kind == VERTEX_ESCAPED ? prev->p : end->p, end->wo);
     const struct path_end z_end = {end, prev, end->pdf_origin, pdf_emit};
     c.weight = weigh(r, 0, NULL, &z_end);
     return c;
 }
 
-struct connection ris_lit(struct ris *r, const struct lit *l)
+struct connection ris_lit(struct index *r, const struct lit *l)
 {
     const struct vertex *z = l->z;
     struct connection c = connect_lit(r->scene, r->counts, l);
@@ -233,14 +220,14 @@ struct connection ris_lit(struct ris *r, const struct lit *l)
     if (rgb_is_black(c.value))
         return c;
     vertex_light_end(r->scene, r->counts, &l->at, &y);
-    double pdf_emit = emit_pdf(&counts_tables(r->counts)->emission, &r->scene->lights, &l->at, z->p, neg(l->w));
-    double pdf_z = pdf_emit * abs_dot(z->ng, l->w) * l->spread;
+    double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &l->at, z->p, neg(l->w));
+    double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
     const struct path_end y_end = {&y, NULL, l->pdf_z * l->at_light, 0}, z_end = {z, z - 1, pdf_z, l->pdf_rev_z};
     c.weight = weigh(r, 1, &y_end, &z_end);
     return c;
 }
 
-struct connection ris_joint(struct ris *r, const struct joint *j)
+struct connection ris_joint(struct index *r, const struct joint *j)
 {
     struct connection c = connect_joint(r->scene, r->counts, j);
     const struct path_end y_end = {j->y, j->y - 1, j->pdf_z * j->area_y, j->pdf_rev_y};
@@ -250,28 +237,60 @@ struct connection ris_joint(struct ris *r, const struct joint *j)
     return c;
 }
 
-/* --- an iteration ------------------------------------------------------------------------------------ */
+/* --- drawing ----------------------------------------------------------------------------------------- */
 
 /* What is drawn from in an iteration. */
-static void gather(struct ris *r, const struct tile_pass *pass, long iteration)
+static void gather(struct index *r, const struct prepared *p, const struct tile_pass *pass, struct arena *arena,
+                   long iteration)
 {
-    arena_reset(&r->arena);
-    r->K = r->state->sub_paths < r->pool.n ? r->state->sub_paths : r->pool.n;
-    r->found = candidates_find(&r->pool);
-    while (r->K < r->pool.n && r->found.n > 0 &&
-           r->found.item[r->found.n - 1].y >= light_pool_path(&r->pool, r->K))
-        r->found.n--;
+    struct pool *pool = &pass->work->pool;
+    r->own = p->own;
+    r->scene = pass->job->scene;
+    r->counts = &p->counts;
+    r->pool = pool;
+    r->K = r->own->sub_paths < pool->n ? r->own->sub_paths : pool->n;
+    pool_find_candidates(pool);
+    r->found = pool->candidate;
+    r->V = pool->n_candidates;
+    while (r->K < pool->n && r->V > 0 && candidate_vertex(&r->found[r->V - 1]) >= pool_path(pool, r->K))
+        r->V--;
     r->g = 0;
-    for (int v = 0; v < r->found.n; v++)
-        r->g += r->found.item[v].L / r->K;
-    if (r->state->presampled > 0)
-        ris2_presample(r, pass, iteration);
-    records_place(&r->records, pass, &r->state->frozen, iteration, r->state->records);
-    records_fill(&r->records, pass->job->scene, &r->found, r->u);
+    for (int v = 0; v < r->V; v++)
+        r->g += r->found[v].L / r->K;
+    if (r->own->presampled > 0)
+        ris2_presample(r, pass, arena, iteration);
+    r->records = records_place(p, pass, arena, iteration, r->own->records);
+    records_fill(&r->records, arena, r->scene, r->found, r->V, r->u);
 }
 
+struct index *ris_build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+{
+    struct arena *arena = &pass->work->pool.arena;
+    struct index *r = arena_alloc(arena, sizeof *r);
+    *r = (struct index){.scene = NULL};
+    gather(r, p, pass, arena, iteration);
+    return r;
+}
+
+/* A record that met nothing has nothing to offer. */
+bool ris_draw(const struct prepared *p, const struct index *r, struct sample *sample, int number,
+              const struct vertex *z, int i, int n, struct drawn *out)
+{
+    int which;
+    (void)p, (void)number;
+    if (r->V == 0)
+        return false;
+    struct mixture m = records_mixture(&r->records, r->scene, z, r->own->normals, false, r->V);
+    int v = mixture_draw(&m, (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n, &which);
+    *out = r->found[v].drawn;
+    out->pmf = mixture_pmf(&m, v) * r->K / r->pool->n / (r->u != NULL ? r->u[v] : 1); /* of all that the pool has */
+    return true;
+}
+
+/* --- drawing with weights to suit -------------------------------------------------------------------- */
+
 /* Q of a record: the mean of what those of the iteration before have met that are next to it. */
-static double expect(const struct ris *r, const struct record *c)
+static double expect(const struct index *r, const struct record *c)
 {
     int near[RECORDS_NEAR], n = records_near(&r->previous, r->scene, &c->z, 0, near);
     double sum = 0;
@@ -281,14 +300,14 @@ static double expect(const struct ris *r, const struct record *c)
 }
 
 /* L of all light vertices, and N of their edges as they are met from the light. */
-static void weigh_light_paths(struct ris *r)
+static void weigh_light_paths(struct index *r, struct arena *arena)
 {
-    r->light_L = arena_alloc(&r->arena, r->pool.used * sizeof *r->light_L);
-    r->light_n = arena_alloc(&r->arena, r->pool.used * sizeof *r->light_n);
+    r->light_L = arena_alloc(arena, r->pool->used * sizeof *r->light_L);
+    r->light_n = arena_alloc(arena, r->pool->used * sizeof *r->light_n);
     for (int k = 0; k < r->K; k++) {
-        const struct vertex *path = light_pool_path(&r->pool, k);
-        double *L = &r->light_L[r->pool.start[k]], *n = &r->light_n[r->pool.start[k]];
-        for (int i = 1; i < r->pool.length[k]; i++) {
+        const struct vertex *path = pool_path(r->pool, k);
+        double *L = &r->light_L[r->pool->start[k]], *n = &r->light_n[r->pool->start[k]];
+        for (int i = 1; i < r->pool->length[k]; i++) {
             const struct vertex *y = &path[i - 1];
             vec3 w = neg(path[i].wo);
             L[i] = i == 1 ? emitted(r->scene, y, w) : L[i - 1] * (path[i].prev_delta ? 1 : kept(y, y->wo, w));
@@ -297,149 +316,129 @@ static void weigh_light_paths(struct ris *r)
     }
 }
 
-void ris_begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
+static void fill(struct index *r, const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    struct ris *r = scratch;
-    const struct ris_state *s = state;
-    r->scene = pass->job->scene;
-    if (s->nabata && iteration == pass->first) { /* the same whatever pass comes before this */
-        light_pool_fill(&r->pool, pass, &s->frozen, iteration - 1);
-        gather(r, pass, iteration - 1);
-        light_pool_fill(&r->pool, pass, &s->frozen, iteration);
-    }
-    struct records last = r->records;
-    r->records = r->previous;
-    r->previous = last;
+    struct arena *arena = &r->arena[iteration % 2 != 0];
+    arena_reset(arena);
+    loop_fill(p, pass, iteration);
+    gather(r, p, pass, arena, iteration);
+}
+
+void ris_begin(struct index *r, const struct prepared *counted, const struct tile_pass *pass, long iteration)
+{
+    struct arena *arena = &r->arena[iteration % 2 != 0];
+    size_t n_sights = (size_t)counted->max_depth + 2;
+    r->vertices = counted->tables->light_vertices;
+    if (iteration == pass->first) /* the same whatever pass comes before this */
+        fill(r, counted, pass, iteration - 1);
+    r->previous = r->records;
     r->previous_g = r->g;
-    gather(r, pass, iteration);
-    if (!s->nabata)
-        return;
-    memset(r->sight, 0, (size_t)(s->frozen.max_depth + 2) * sizeof *r->sight);
+    fill(r, counted, pass, iteration);
+    r->sight = memset(arena_alloc(arena, n_sights * sizeof *r->sight), 0, n_sights * sizeof *r->sight);
     for (int i = 0; i < r->records.n; i++)
         r->records.item[i].expected = expect(r, &r->records.item[i]);
-    weigh_light_paths(r);
+    weigh_light_paths(r, arena);
 }
 
-static void join(struct ris *r, struct pooled_pixel *p, const struct candidate *c, const struct vertex *z, int t,
-                 struct choice choice)
+void ris_end(struct index *r)
 {
+    arena_free(&r->arena[0]);
+    arena_free(&r->arena[1]);
+}
+
+/* N of the draw's technique, and of all of its strategy, are left for `weigh`. */
+void ris_join(struct index *r, struct sample *sample, const struct vertex *z, int t)
+{
+    int which;
+    if (r->V == 0)
+        return;
+    struct mixture m = records_mixture(&r->records, r->scene, z, 0, true, r->V);
+    int v = mixture_draw(&m, sampler_number(&sample->choice, DRAW_LIGHT_END), &which);
+    const struct candidate *c = &r->found[v];
+    int s = c->drawn.end;
+    double u = r->u != NULL ? r->u[v] : 1, each = 1.0 / (m.m + 1);
+    double L = r->light_L[candidate_vertex(c) - r->pool->vertex];
+    double N[RECORDS_NEAR + 1], P = each * (which < m.m ? m.record[which]->h[v] / m.record[which]->sum : 1.0 / r->V);
+    r->all = N[m.m] = worth_alone(r, each, L);
+    for (int i = 0; i < m.m; i++)
+        r->all += N[i] = worth(r, each, L, m.record[i]->h[v] * L / (c->L * u), m.record[i]->expected);
+    r->one = N[which];
     struct joint j;
     struct connection made = {.weight = 0};
-    if (c->s + t > p->sample.max_depth + 2)
+    if (!(P > 0) || s + t > sample->pass->job->max_depth + 2)
         return;
-    if (connect_join(c->y, z, &j))
+    if (connect_join(candidate_vertex(c), z, &j))
         made = ris_joint(r, &j);
-    pixel_add(&p->sample, &made, c->s, t, c->y, z, choice);
+    sample_add(sample, (struct joined){.s = s, .t = t, .light = c->drawn.light, .z = z, .c = &made, .pmf = P,
+                                       .scale = u / (P * r->K)});
 }
 
-/* One draw; N of its technique, and of all of its strategy, are left for `weigh`. */
-void ris_draw(void *scratch, const void *state, struct pooled_pixel *pixel, const struct vertex *z, int t)
+/* As loop_eye. */
+static void sum_eye(struct index *r, struct sample *sample, const struct vertex *eye, int n)
 {
-    struct ris *r = scratch;
-    const struct ris_state *s = state;
-    int V = r->found.n, which;
-    if (V == 0)
-        return;
-    struct mixture m = records_mixture(&r->records, r->scene, z, 0, s->nabata, V);
-    int v = mixture_draw(&m, sampler_number(&pixel->draws, DRAW_LIGHT_END), &which);
-    const struct candidate *c = &r->found.item[v];
-    double u = r->u != NULL ? r->u[v] : 1, P = mixture_pmf(&m, v), each = 1.0 / (m.m + 1);
-    if (s->nabata) {
-        double L = r->light_L[c->y - r->pool.vertex], N[RECORDS_NEAR + 1];
-        r->all = N[m.m] = worth_alone(r, each, L);
-        for (int i = 0; i < m.m; i++)
-            r->all += N[i] = worth(r, each, L, m.record[i]->h[v] * L / (c->L * u), m.record[i]->expected);
-        r->own = N[which];
-        P = each * (which < m.m ? m.record[which]->h[v] / m.record[which]->sum : 1.0 / V);
-    }
-    const struct choice choice = {P, u / (P * r->K)};
-    if (P > 0 && s->nabata)
-        join(r, pixel, c, z, t, choice);
-    else if (P > 0) /* a record that met nothing has nothing to offer */
-        pooled_join(pixel, c, z, t, choice);
-}
-
-/* As pixel_sum_eye. */
-static void sum_eye(struct ris *r, struct pooled_pixel *p)
-{
-    for (int t = 2; t <= p->n; t++) {
-        const struct vertex *z = &p->eye[t - 1];
-        struct connection hit = ris_hit(r, z - 1, z, t), lit = {.weight = 0};
+    for (int t = 2; t <= n; t++) {
+        const struct vertex *z = &eye[t - 1];
+        struct connection hit = ris_hit(r, z - 1, z, t), direct = {.weight = 0};
+        struct light_point y0;
         struct lit l;
-        pixel_add(&p->sample, &hit, 0, t, NULL, z, NO_CHOICE);
-        if (z->kind != VERTEX_SURFACE || t > p->sample.max_depth + 1)
+        sample_add(sample, (struct joined){.t = t, .z = z, .c = &hit, .pmf = 1, .scale = 1});
+        if (z->kind != VERTEX_SURFACE || t > sample->pass->job->max_depth + 1)
             continue;
-        if (connect_light_point(r->scene, r->counts, z, &p->sample.sampler, 0, 1, &l))
-            lit = ris_lit(r, &l);
-        pixel_add(&p->sample, &lit, 1, t, NULL, z, NO_CHOICE);
+        if (lit_draw(sample, z, &sample->sampler, 0, 1, &y0, &l))
+            direct = ris_lit(r, &l);
+        sample_add(sample, (struct joined){.s = 1, .t = t, .z = z, .c = &direct, .y0 = &y0, .pmf = 1, .scale = 1});
     }
 }
 
-void ris_render(const struct preparation *m, const struct tile_pass *pass)
+static void render_weighed(const struct prepared *p, const struct tile_pass *pass)
 {
-    struct ris *r = pass->work->scratch;
-    if (!r->state->nabata) {
-        pooled_render(m, pass);
-        return;
-    }
+    struct vertex *eye = pass->work->eye;
+    struct index r = {.scene = NULL};
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
-        pooled_fill(m, pass, iteration);
+        ris_begin(&r, p, pass, iteration);
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
+            struct sample sample;
             arena_reset(&pass->work->arena);
-            struct pooled_pixel p = pooled_begin(m, pass, x, y, i, iteration);
-            sum_eye(r, &p);
-            pooled_connect(m, pass, &p);
-            pooled_end(&p);
+            int n = loop_begin(p, pass, x, y, iteration, &sample, eye);
+            sum_eye(&r, &sample, eye, n);
+            for (int t = 2; t <= n && t <= p->max_depth; t++)
+                if (vertex_connectible(&eye[t - 1]))
+                    ris_join(&r, &sample, &eye[t - 1], t);
+            loop_splat(p, &sample, i);
+            sample_end(&sample);
         }
     }
+    ris_end(&r);
+}
+
+struct prepared ris_counted(const struct prepared *p)
+{
+    const struct ris *own = p->own;
+    struct prepared out = *p;
+    int M = own->sub_paths;
+    for (int end = 0; end < EYE_ENDS; end++)
+        out.counts.pair[end] = own->nabata ? M / ((M - 1) * p->tables->light_vertices + 1) : 1;
+    return out;
+}
+
+void ris_render(const struct prepared *p, const struct tile_pass *pass)
+{
+    struct prepared counted = ris_counted(p);
+    if (((const struct ris *)p->own)->nabata)
+        render_weighed(&counted, pass);
+    else
+        loop_render(&counted, pass);
 }
 
 /* --- the row ----------------------------------------------------------------------------------------- */
 
-void ris_scratch_init(void *scratch, const void *state)
-{
-    struct ris *r = scratch;
-    r->state = state;
-    r->sight = mem_alloc((size_t)r->state->frozen.max_depth + 2, sizeof *r->sight);
-    r->counts = &r->state->frozen.counts;
-}
-
-void ris_scratch_free(void *scratch)
-{
-    struct ris *r = scratch;
-    light_pool_free(&r->pool);
-    records_free(&r->records);
-    records_free(&r->previous);
-    arena_free(&r->arena);
-    free(r->sight);
-}
-
-void ris_prepare(const struct render_job *job, struct preparation *out)
-{
-    struct ris_state *s = out->state;
-    int M = s->sub_paths;
-    plain_prepare(job, out);
-    if (!s->nabata)
-        return;
-    s->vertices = light_vertices_expected(job);
-    for (int end = 0; end < EYE_ENDS; end++)
-        s->frozen.counts.connect[end] = M / ((M - 1) * s->vertices + 1);
-}
-
-#define AT(member) offsetof(struct ris_state, member)
-static const struct field PARAMETERS[] = {
-    {"weights", FIELD_WORD, AT(nabata), 1, 0, 0, "what draws count for", RIS_WEIGHTS},
-    {"subpaths", FIELD_INTEGER, AT(sub_paths), 50, 1, 1e6, "light sub-paths that are drawn from",
-     NULL},
-    {"records", FIELD_NUMBER, AT(records), RECORDS_SHARE, 0, 1, "share of pixels that have records", NULL},
-    RIS_SERVICES,
+const struct field RIS_PARAMETERS[] = {PARAMETER_EMISSION(1), PARAMETER_TILES(RECORDS_TILE, 1), {.name = NULL}};
+static const struct field OWN[] = {
+    RIS_WEIGHTS_FIELD, RIS_SUBPATHS_FIELD(50), RIS_RECORDS_FIELD,
     {.name = NULL}};
 
 const struct method method_ris = {
     .name = "ris", .check = surfaces_alone,
     .help = "resampling [Nabata 2020a]: light vertices drawn by a record nearby, with weights to suit",
-    .why = "one draw for each eye vertex from the tile's light vertices, by one of the records nearby or uniformly; "
-           "scale 1 / (K P)",
-    .parameters = PARAMETERS, .state_size = sizeof(struct ris_state), .scratch_size = sizeof(struct ris),
-    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = ris_prepare, .render = ris_render,
-    .scratch_init = ris_scratch_init, .scratch_free = ris_scratch_free, .begin = ris_begin, .draw = ris_draw};
+    .parameters = RIS_PARAMETERS, .own = OWN, .own_size = sizeof(struct ris), .numbers = NUMBERS_OF_BDPT,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .single = true, .render = ris_render, .build = ris_build, .draw = ris_draw};

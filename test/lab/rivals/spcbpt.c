@@ -37,17 +37,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/alias.h"
+#include "base/number.h"
+#include "caustics/delta.h"
 #include "caustics/surfaces.h"
-#include "learning/training.h"
-#include "rivals/plain.h"
+#include "learning/learn.h"
+#include "learning/patience.h"
 #include "rivals/together.h"
-#include "tables/emit.h"
+#include "tables/emission.h"
 
-struct spcbpt_state {
-    struct frozen frozen; /* tables.pairs is Gamma(e,l) / N_l; its regions are subspaces */
+struct spcbpt {
     int subspaces, training, steps;
-    double delta;
     struct tree_node *tree[2]; /* of eye and of light vertices; owned */
     double *gamma;             /* [subspaces^2], owned */
 };
@@ -58,9 +57,12 @@ enum { FIRST = 1 << 24 }; /* number of the first sub-path, none of learn.c's */
 
 /* It runs on one thread, so lists are in order. */
 struct trainer {
-    const struct spcbpt_state *state;
+    const struct render_job *job;
+    const struct counts *counts;
+    struct workspace *work;
+    struct patience patience;
+    double asked; /* see patience_lasts */
     struct lessons all;
-    double *vertices; /* [subspaces] of light sub-paths; owned */
 };
 
 /* What a path has at z, the second vertex from the light. p_2 / p is ratio times the density of z from the light, pdf,
@@ -71,9 +73,9 @@ struct found {
     bool delta;                 /* z is left by a delta lobe */
 };
 
-static void note(const struct pass *p, rgb value, struct found f, const struct vertex *z)
+static void note(struct trainer *r, rgb value, struct found f, const struct vertex *z)
 {
-    struct lessons *to = &((struct trainer *)p->context)->all;
+    struct lessons *to = &r->all;
     double x = rgb_luminance(value), w = f.own / (f.own + f.other);
     struct lesson lesson = {w * x * x * f.own, f.own + f.other, 0};
     if (rgb_is_black(value) || !(x < 1e100))
@@ -82,7 +84,7 @@ static void note(const struct pass *p, rgb value, struct found f, const struct v
         bool joins = !f.delta && !z->prev_delta;
         f.ratio *= f.pdf / z->pdf_fwd;
         if (z[-1].kind == VERTEX_LENS) {
-            lesson.fixed += joins ? f.ratio * p->counts.splat : 0;
+            lesson.fixed += joins ? f.ratio * r->counts->lens : 0;
             break;
         }
         if (joins) {
@@ -91,117 +93,146 @@ static void note(const struct pass *p, rgb value, struct found f, const struct v
             lesson.n_links++;
         }
         f.delta = z->prev_delta;
-        f.pdf = f.pdf_rev * area_before(p->training->job->scene, z - 1, z);
-        f.pdf_rev = z[-1].pdf_rev;
+        f.pdf = f.pdf_rev * z->back;
+        f.pdf_rev = vertex_pdf_rev(z - 1, z, RADIANCE);
     }
     to->lesson = mem_append(to->lesson, to->n, sizeof *to->lesson);
     to->lesson[to->n++] = lesson;
     to->sum += w * x;
 }
 
-static void note_hit(const struct pass *p, const struct vertex *eye, int t)
+static void note_hit(struct trainer *r, const struct vertex *eye, int t)
 {
-    const struct scene *scene = p->training->job->scene;
+    const struct scene *scene = r->job->scene;
     const struct vertex *z = &eye[t - 2], *x = eye[t - 1].lamp != NULL ? eye[t - 1].lamp : &eye[t - 1];
-    struct connection c = connect_hit(scene, &p->counts, z, x, t);
+    struct connection c = connect_hit(scene, r->counts, z, x, t);
     struct light_point y0 = vertex_light_point(x);
     if (t == 2 || rgb_is_black(c.value))
         return;
-    y0.w = neg(x->wo);
-    double ratio = x->pdf_origin / x->pdf_fwd;
-    double direct = n_direct(&p->counts, &scene->lights, z->eye_region, z->eye_end, x->cell, y0.w);
-    double pdf_emit = emit_pdf(&p->counts.tables->emission, &scene->lights, &y0, z->p, x->wo);
-    struct found f = {1, x->prev_delta ? 0 : ratio * direct, ratio, pdf_emit * area_before(scene, z, x), z->pdf_rev,
+    double ratio = x->pdf_origin / x->pdf_fwd, direct = n_direct(r->counts, z->region, z->eye_end, x->cell);
+    double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &y0,
+                                   x->kind == VERTEX_ESCAPED ? z->p : x->p, x->wo);
+    struct found f = {1, x->prev_delta ? 0 : ratio * direct, ratio, pdf_emit * x->back, vertex_pdf_rev(z, x, RADIANCE),
                       x->prev_delta};
-    note(p, c.value, f, z);
+    note(r, c.value, f, z);
 }
 
-static void note_lit(const struct pass *p, const struct vertex *z, struct sampler *sampler)
+static void note_lit(struct trainer *r, const struct vertex *z, struct sampler *sampler)
 {
-    const struct scene *scene = p->training->job->scene;
-    const struct light_set *lights = &scene->lights;
+    const struct scene *scene = r->job->scene;
+    struct light_point at;
     struct lit l;
-    if (!connect_light_point(scene, &p->counts, z, sampler, 0, 1, &l))
+    double pdf;
+    if (!connect_light_draw(scene, r->counts, z, sampler, 0, 1, &at, &pdf) || !connect_light(scene, z, &at, pdf, &l))
         return;
-    bool hit = !light_is_delta(&lights->light[l.at.light]);
-    double pdf_emit = emit_pdf(&p->counts.tables->emission, lights, &l.at, z->p, neg(l.w));
-    struct found f = {n_direct(&p->counts, lights, z->eye_region, z->eye_end, l.at.cell, l.at.w),
-                      hit ? l.pdf_z * l.at_light / vertex_light_pdf(lights, &l.at) : 0, 1,
+    bool hit = !light_is_delta(&scene->lights.light[at.light]);
+    double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &at, z->p, neg(l.w));
+    struct found f = {n_direct(r->counts, z->region, z->eye_end, at.cell), hit ? l.pdf_z * l.at_light / at.pdf : 0, 1,
                       pdf_emit * vertex_cosine(z, l.w) * l.spread, l.pdf_rev_z, false};
-    note(p, connect_lit(scene, &p->counts, &l).value, f, z);
+    note(r, connect_lit(scene, r->counts, &l).value, f, z);
 }
 
-static void trace_eye(const struct pass *p, int thread, long i, struct findings *out)
+/* Before sub-path number i: may learning go on? */
+static bool goes_on(struct trainer *r, int i)
 {
-    const struct vertex *eye = p->training->work[thread].eye;
+    enum { OFTEN = 256 };
+    arena_reset(&r->work->arena);
+    return i > 0 && i % OFTEN == 0 ? patience_count(&r->patience, OFTEN) : patience_lasts(&r->patience, &r->asked);
+}
+
+static struct walk begin_walk(const struct trainer *r, int i, enum transport mode, struct sampler *sampler)
+{
+    *sampler = sampler_start(r->job->seed, RNG_LEARN, (uint64_t)(FIRST + i), mode == IMPORTANCE);
+    return (struct walk){r->job->scene, r->counts, &r->work->arena, sampler, r->job->rr_threshold};
+}
+
+static void trace_eye(struct trainer *r, int i)
+{
+    const struct pixel_rect film = r->job->film_rect;
+    const struct vertex *eye = r->work->eye;
     struct sampler sampler;
-    int n = pass_eye(p, thread, i, STREAM_EYE, &sampler);
-    (void)out;
-    for (int k = 2; k <= n; k++) {
-        note_hit(p, eye, k);
-        note_lit(p, &eye[k - 1], &sampler);
+    const struct walk w = begin_walk(r, i, RADIANCE, &sampler);
+    double u, v;
+    sampler_r2(FIRST + i, &u, &v);
+    int n = path_eye(&w, film.x0 + u * rect_width(film), film.y0 + v * rect_height(film), r->work->eye,
+                     r->job->max_depth + 1);
+    for (int t = 2; t <= n; t++) {
+        note_hit(r, eye, t);
+        note_lit(r, &eye[t - 1], &sampler);
     }
 }
 
-static void trace_light(const struct pass *p, int thread, long i, struct findings *out)
+/* Count the vertices of each light subspace. */
+static void trace_light(struct trainer *r, int i, const struct tree_node *tree, double *vertices)
 {
-    const struct trainer *t = p->context;
-    struct workspace *work = &p->training->work[thread];
-    int n = pass_light(p, &work->arena, i, STREAM_LIGHT, work->light);
-    (void)out;
-    for (const struct vertex *y = work->light + 1; y < work->light + n; y++)
+    struct sampler sampler;
+    const struct walk w = begin_walk(r, i, IMPORTANCE, &sampler);
+    struct vertex *light = arena_alloc(&r->work->arena, ((size_t)r->job->max_depth + 1) * sizeof *light);
+    int n = path_light(&w, light, r->job->max_depth + 1);
+    for (const struct vertex *y = light + 1; y < light + n; y++)
         if (vertex_connectible(y))
-            t->vertices[tree_find(t->state->tree[1], place_of(y))]++;
+            vertices[tree_find(tree, place_of(y))]++;
 }
 
-/* Let the guide know subspaces instead of regions: each has the table of the region of its first link. */
+/* Let the table of direct light know subspaces instead of regions: each has the row of the region of its first link. */
 static void guide_subspaces(struct tables *tables, const struct lessons *all, int subspaces)
 {
-    struct guide *g = &tables->guide;
-    size_t row = (size_t)g->columns.n + 1;
-    double *before = mem_alloc((size_t)subspaces * row, sizeof *before);
-    for (size_t i = all->n_links; g->n > 0 && i-- > 0;) {
-        const double *x = all->link[i].end[0].x;
-        int region = region_at(&tables->eye, vec(x[0], x[1], x[2]), vec(x[3], x[4], x[5]));
-        memcpy(&before[(size_t)all->link[i].label[0] * row], &g->before[(size_t)region * row], row * sizeof *before);
+    struct table *t = &tables->direct;
+    size_t n = (size_t)t->columns, rows = t->rows > 0 ? (size_t)subspaces : 0;
+    int *region = mem_alloc((size_t)subspaces, sizeof *region);
+    double *ratio = mem_alloc(rows * n, sizeof *ratio), *before = mem_alloc(rows * (n + 1), sizeof *before);
+    for (const struct link *k = all->link + all->n_links; k-- > all->link;) {
+        const double *x = k->end[0].x;
+        region[k->label[0]] = region_at(&tables->regions, vec(x[0], x[1], x[2]), vec(x[3], x[4], x[5]));
     }
-    free(g->before);
-    g->before = before;
-    g->n = g->n > 0 ? subspaces : 0;
-    regions_free(&tables->eye);
-    regions_free(&tables->light);
-    tables->eye = tables->light = NO_TABLES.eye;
+    for (size_t i = 0; i < rows; i++) {
+        memcpy(&ratio[i * n], &t->ratio[(size_t)region[i] * n], n * sizeof *ratio);
+        memcpy(&before[i * (n + 1)], &t->before[(size_t)region[i] * (n + 1)], (n + 1) * sizeof *before);
+    }
+    free(region);
+    table_free(t);
+    *t = (struct table){(int)rows, t->columns, ratio, before};
+    regions_free(&tables->regions);
+    tables->regions = NO_TABLES.regions;
 }
 
-static void train(const struct render_job *whole, struct spcbpt_state *s)
+/* Gamma, and the table of n(e,l) / C.
+ *   vertices  of n_light light sub-paths, of each subspace */
+static void learn_pairs(const struct lessons *all, struct spcbpt *own, double C, double K, double delta,
+                        double *vertices, int n_light, struct table *pairs)
 {
-    struct render_job job = *whole;
-    job.n_threads = 1;
-    double pixels = pixel_light_count(&job), C = s->frozen.numbers.draws[FIRST_HIT];
-    int n_paths = int_within(s->training * pixels, LEARN_LEAST, LEARN_MOST), n = s->subspaces;
-    int n_light = n_paths < LEARN_LIGHT ? n_paths : LEARN_LIGHT;
-    struct training t = {&job, workspaces_new(1, job.max_depth), patience_begin(&job)};
-    struct trainer r = {s, {NULL, NULL, 0, 0, 0}, mem_alloc((size_t)n, sizeof *r.vertices)};
-    struct mis_counts counts = counts_of(s->frozen.numbers, NO_CREDITS, pixels);
-    counts.tables = &s->frozen.tables;
-    const struct pass eye = {&t, counts, FIRST, FIRST + n_paths, &r, trace_eye, NULL};
-    const struct pass light = {&t, counts, FIRST, FIRST + n_light, &r, trace_light, NULL};
-    pass_run(&eye);
-    for (int end = 0; end < 2; end++)
-        s->tree[end] = learn_tree(&r.all, end, n, job.scene->lights.center, job.scene->lights.radius);
-    pass_run(&light);
-    patience_end(&t.patience);
-    workspaces_free(t.work, 1);
-    guide_subspaces(&s->frozen.tables, &r.all, n);
+    int n = own->subspaces;
     for (int l = 0; l < n; l++) /* C / N_l; 1/2: a subspace without a vertex so far may have one in the render */
-        r.vertices[l] = C * n_light / (r.vertices[l] + 0.5);
-    s->gamma = learn_gamma(&r.all, n, r.vertices, s->frozen.counts.most, s->steps);
-    s->frozen.tables.pairs = (struct pairs){n, n, mem_alloc((size_t)n * (size_t)n, sizeof(double))};
+        vertices[l] = C * n_light / (vertices[l] + 0.5);
+    own->gamma = learn_gamma(all, n, vertices, K, own->steps);
+    *pairs = (struct table){n, n, mem_alloc((size_t)n * (size_t)n, sizeof *pairs->ratio), NULL};
     for (int i = 0; i < n * n; i++) {
-        s->gamma[i] = (1 - s->delta) * s->gamma[i] + s->delta / n;
-        s->frozen.tables.pairs.h[i] = s->gamma[i] * r.vertices[i % n] / C;
+        own->gamma[i] = (1 - delta) * own->gamma[i] + delta / n;
+        double x = own->gamma[i] * vertices[i % n];
+        pairs->ratio[i] = x * K / (x + K) / C;
     }
-    free(r.vertices);
+}
+
+static void prepare(const struct render_job *job, struct prepared *p)
+{
+    struct spcbpt *own = p->own;
+    double pixels = (double)rect_pixels(job->film_rect), K = fmin(sqr(p->size.tile), pixels) / p->numbers.path_pixels;
+    int n = int_within(own->training * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT;
+    p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
+    struct counts counts = counts_of(p->numbers, 1, 1, pixels, p->tables);
+    struct trainer r = {job, &counts, workspaces_new(1, job->max_depth), patience_begin(job), 0, {.n = 0}};
+    double *vertices = mem_alloc((size_t)own->subspaces, sizeof *vertices);
+    for (int i = 0; i < n && goes_on(&r, i); i++)
+        trace_eye(&r, i);
+    for (int end = 0; end < 2; end++)
+        own->tree[end] = learn_tree(&r.all, end, own->subspaces, job->scene->lights.center, job->scene->lights.radius);
+    for (int i = 0; i < n_light && goes_on(&r, i); i++)
+        trace_light(&r, i, own->tree[1], vertices);
+    patience_end(&r.patience);
+    workspaces_free(r.work, 1);
+    guide_subspaces(p->tables, &r.all, own->subspaces);
+    learn_pairs(&r.all, own, p->numbers.draws[FIRST_HIT], K, p->parameters.delta, vertices, n_light, &p->tables->pairs);
+    free(vertices);
     free(r.all.lesson);
     free(r.all.link);
 }
@@ -214,140 +245,173 @@ struct group {
     double L; /* S_l */
 };
 
-struct spcbpt {
-    struct light_pool pool;      /* the first, see pooled.h */
-    struct candidate *candidate; /* [n] by subspace; in the pool's arena, as all that follows */
+struct index {
+    struct candidate *candidate; /* [n] by subspace */
     double *before;              /* [n] sum of L over those before in the subspace */
     struct group *group;         /* [subspaces] */
-    double *row;                 /* [subspaces + 1] room for cumulative sums of Gamma */
+    double **row;                /* [subspaces][subspaces + 1] cumulative sums of Gamma(e,.); NULL: not made yet */
 };
 
-/* The subspaces of a sub-path's vertices, and what weights depend on them: walks know no trees. */
-static void classify(const struct spcbpt_state *s, const struct scene *scene, struct vertex *path, int n,
-                     struct arena *arena, enum transport mode)
+/* mis of vertex v again, which follows x. */
+static double step_again(const struct counts *counts, const struct vertex *x, const struct vertex *v, double pdf_rev)
 {
-    const struct mis_counts *counts = &s->frozen.counts;
+    return mis_step(counts, v->prev_delta ? 0 : x->mis_c, pdf_rev, x->mis, x->pdf_fwd, v->back);
+}
+
+/* The subspaces of a sub-path's vertices, and what weights depend on them: walks know no trees. A vertex has that of its
+ * own end of an edge for its region. If it is the other end, for mis_c, it has that of the other tree. */
+static void classify(const struct prepared *p, struct vertex *path, int n, struct arena *arena, enum transport mode)
+{
+    const struct spcbpt *own = p->own;
+    const struct counts *counts = &p->counts;
     for (struct vertex *v = path + 1; v < path + n; v++) {
         const struct vertex *x = v - 1;
-        double c = v->prev_delta ? 0 : x->mis_c;
-        v->mis = mis_step(counts, c, x->pdf_rev, x->mis, x->pdf_fwd, area_before(scene, x, v));
+        double pdf_rev = vertex_pdf_rev(x, v, mode);
+        v->mis = step_again(counts, x, v, pdf_rev);
         if (v->lamp != NULL) {
             struct vertex *lamp = arena_alloc(arena, sizeof *lamp);
             *lamp = *v->lamp;
-            lamp->mis = mis_step(counts, c, x->pdf_rev, x->mis, x->pdf_fwd, area_before(scene, x, lamp));
+            lamp->mis = step_again(counts, x, lamp, pdf_rev);
             v->lamp = lamp;
         }
         if (v->kind != VERTEX_SURFACE)
             continue;
-        v->eye_region = tree_find(s->tree[0], place_of(v));
-        v->light_region = tree_find(s->tree[1], place_of(v));
-        v->mis_c = mode == RADIANCE ? c_eye(counts, x, v) : c_light(counts, &scene->lights, x, v, LATER_HIT);
+        v->region = tree_find(own->tree[mode == RADIANCE], place_of(v));
+        v->mis_c = mode == RADIANCE ? c_eye(counts, x, v) : c_light(counts, x, v, LATER_HIT);
+        v->region = tree_find(own->tree[mode == IMPORTANCE], place_of(v));
     }
 }
 
 /* Sort the pool's vertices by subspace. */
-static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
+static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    struct spcbpt *r = scratch;
-    const struct spcbpt_state *s = state;
-    struct arena *arena = &r->pool.arena;
-    const struct candidates found = candidates_find(&r->pool);
-    size_t n = (size_t)s->subspaces, size = (size_t)found.n;
+    struct pool *pool = &pass->work->pool;
+    size_t n = (size_t)((const struct spcbpt *)p->own)->subspaces;
+    struct index *v = arena_alloc(&pool->arena, sizeof *v);
     (void)iteration;
-    for (int k = 0; k < r->pool.n; k++)
-        classify(s, pass->job->scene, &r->pool.vertex[r->pool.start[k]], r->pool.length[k], arena, IMPORTANCE);
-    r->candidate = arena_alloc(arena, size * sizeof *r->candidate);
-    r->before = arena_alloc(arena, size * sizeof *r->before);
-    r->row = arena_alloc(arena, (n + 1) * sizeof *r->row);
-    r->group = memset(arena_alloc(arena, n * sizeof *r->group), 0, n * sizeof *r->group);
-    for (int i = 0; i < found.n; i++)
-        for (size_t l = (size_t)found.item[i].y->light_region + 1; l < n; l++)
-            r->group[l].first++;
-    for (int i = 0; i < found.n; i++) {
-        struct group *g = &r->group[found.item[i].y->light_region];
-        r->candidate[g->first + g->n] = found.item[i];
-        r->before[g->first + g->n++] = g->L;
-        g->L += found.item[i].L;
+    for (int k = 0; k < pool->n; k++)
+        classify(p, &pool->vertex[pool->start[k]], pool->length[k], &pool->arena, IMPORTANCE);
+    pool_find_candidates(pool);
+    v->candidate = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *v->candidate);
+    v->before = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *v->before);
+    v->row = memset(arena_alloc(&pool->arena, n * sizeof *v->row), 0, n * sizeof *v->row);
+    v->group = memset(arena_alloc(&pool->arena, n * sizeof *v->group), 0, n * sizeof *v->group);
+    for (int i = 0; i < pool->n_candidates; i++)
+        v->group[candidate_vertex(&pool->candidate[i])->region].n++;
+    for (size_t l = 0, first = 0; l < n; first += (size_t)v->group[l].n, v->group[l++].n = 0)
+        v->group[l].first = (int)first;
+    for (int i = 0; i < pool->n_candidates; i++) {
+        struct group *g = &v->group[candidate_vertex(&pool->candidate[i])->region];
+        v->candidate[g->first + g->n] = pool->candidate[i];
+        v->before[g->first + g->n++] = g->L;
+        g->L += pool->candidate[i].L;
+    }
+    return v;
+}
+
+static const double *row_of(const struct spcbpt *own, const struct index *v, struct arena *arena, int e)
+{
+    size_t n = (size_t)own->subspaces;
+    if (v->row[e] != NULL)
+        return v->row[e];
+    double *row = v->row[e] = arena_alloc(arena, (n + 1) * sizeof *row);
+    row[0] = 0;
+    for (size_t l = 0; l < n; l++)
+        row[l + 1] = row[l] + (v->group[l].L > 0 ? own->gamma[(size_t)e * n + l] : 0);
+    return row;
+}
+
+/* Draw a subspace, then a vertex; stratified over both. */
+static bool draw(const struct prepared *p, const struct index *v, struct sample *sample, int number,
+                 const struct vertex *z, int i, int n, struct drawn *out)
+{
+    const struct spcbpt *own = p->own;
+    const double *row = row_of(own, v, &sample->pass->work->pool.arena, z->region);
+    double total = row[own->subspaces];
+    (void)number;
+    if (!(total > 0))
+        return false;
+    double target = (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n * total;
+    int l = cumulative_find(row, own->subspaces, target);
+    const struct group *g = &v->group[l];
+    double share = row[l + 1] - row[l], within = (target - row[l]) / share * g->L;
+    const struct candidate *c = &v->candidate[g->first + cumulative_find(&v->before[g->first], g->n, within)];
+    *out = c->drawn;
+    out->pmf = share / total * c->L / g->L;
+    return out->pmf > 0;
+}
+
+/* As sample_lens: next to the lens a vertex is an eye vertex, and has the subspace of one. */
+static void splat(const struct prepared *p, struct sample *sample, struct vertex *light, int n, double scale)
+{
+    const struct spcbpt *own = p->own;
+    for (const struct observer *o = sample->pass->observer; o != NULL; o = o->next)
+        if (o->walked != NULL)
+            o->walked(o->context, sample, IMPORTANCE, light, n);
+    for (int s = 2; s <= n && s <= p->max_depth + 1; s++) {
+        struct vertex *y = &light[s - 1];
+        int region = y->region;
+        y->region = tree_find(own->tree[0], place_of(y));
+        struct connection c = connect_lens(sample->pass->job->scene, &p->counts, light, s, &sample->sampler);
+        y->region = region;
+        sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .pmf = 1,
+                                             .scale = scale / p->counts.lens});
     }
 }
 
-/* C draws for one eye vertex, stratified. */
-static void draw(void *scratch, const void *state, struct pooled_pixel *p, const struct vertex *z, int t)
+/* As loop_render, with classified eye sub-paths. */
+static void render(const struct prepared *p, const struct tile_pass *pass)
 {
-    struct spcbpt *r = scratch;
-    const struct spcbpt_state *s = state;
-    int n = s->subspaces, C = s->frozen.numbers.draws[FIRST_HIT];
-    const double *gamma = &s->gamma[(size_t)z->eye_region * (size_t)n];
-    r->row[0] = 0;
-    for (int l = 0; l < n; l++)
-        r->row[l + 1] = r->row[l] + (r->group[l].L > 0 ? gamma[l] : 0);
-    for (int c = 0; c < C && r->row[n] > 0; c++) {
-        double target = (c + sampler_number(&p->draws, DRAW_LIGHT_END)) / C * r->row[n];
-        int l = cumulative_find(r->row, n, target);
-        const struct group *g = &r->group[l];
-        double share = r->row[l + 1] - r->row[l], within = (target - r->row[l]) / share * g->L;
-        int i = g->first + cumulative_find(&r->before[g->first], g->n, within);
-        double P = share / r->row[n] * r->candidate[i].L / g->L;
-        const struct choice choice = {P, 1 / (C * P * r->pool.n)};
-        if (P > 0)
-            pooled_join(p, &r->candidate[i], z, t, choice);
-    }
-}
-
-/* As pooled_render, with classified eye sub-paths. */
-static void render(const struct preparation *m, const struct tile_pass *pass)
-{
+    struct pool *pool = &pass->work->pool;
+    struct vertex *eye = pass->work->eye;
+    int each = p->numbers.path_pixels;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
-        pooled_fill(m, pass, iteration);
+        loop_fill(p, pass, iteration);
+        const struct index *index = build(p, pass, iteration);
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
+            struct sample sample;
             arena_reset(&pass->work->arena);
-            struct pooled_pixel p = pooled_begin(m, pass, x, y, i, iteration);
-            classify(m->state, pass->job->scene, pass->work->eye, p.n, &pass->work->arena, RADIANCE);
-            pixel_sum_eye(&p.sample, p.eye, p.n);
-            pooled_connect(m, pass, &p);
-            pooled_end(&p);
+            int n = loop_begin(p, pass, x, y, iteration, &sample, eye);
+            classify(p, eye, n, &pass->work->arena, RADIANCE);
+            loop_eye(&sample, eye, n);
+            loop_join(p, index, &sample, i, eye, n);
+            if (i % each == 0)
+                splat(p, &sample, &pool->vertex[pool->start[i / each]], pool->length[i / each],
+                      pixels_count(pass->tile->pixels) / ((double)pool->n * each));
+            sample_end(&sample);
         }
     }
 }
 
 /* --- the row ----------------------------------------------------------------------------------------- */
 
-static void prepare(const struct render_job *job, struct preparation *out)
+static void release(struct prepared *p)
 {
-    struct spcbpt_state *s = out->state;
-    s->frozen.numbers.draws[LATER_HIT] = s->frozen.numbers.draws[FIRST_HIT];
-    plain_prepare(job, out);
-    s->frozen.counts.most = fmin(sqr(out->size.tile), pixel_light_count(job)) / s->frozen.numbers.path_pixels;
-    train(job, s);
+    struct spcbpt *own = p->own;
+    free(own->tree[0]);
+    free(own->tree[1]);
+    free(own->gamma);
 }
 
-static void release(void *state)
-{
-    struct spcbpt_state *s = state;
-    free(s->tree[0]);
-    free(s->tree[1]);
-    free(s->gamma);
-}
-
-#define AT(member) offsetof(struct spcbpt_state, member)
 static const struct field PARAMETERS[] = {
-    {"connections", FIELD_INTEGER, AT(frozen.numbers.draws[FIRST_HIT]), 3, 1, 1024,
-     "light vertices drawn for each eye vertex", NULL},
+    PARAMETER("connections", FIELD_INTEGER, numbers.draws[FIRST_HIT], 3, 1, 1024,
+              "light vertices drawn for each eye vertex", NULL),
+    PARAMETER("delta", FIELD_NUMBER, delta, 0.2, 1e-6, 1, "share of draws that ignore what was learnt", NULL),
+    PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
+              "pixels for each light sub-path", NULL),
+    PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(MAX_TILE_SIZE, 1),
+    {.name = NULL}};
+#define AT(member) offsetof(struct spcbpt, member)
+static const struct field OWN[] = {
     {"subspaces", FIELD_INTEGER, AT(subspaces), 64, 1, 1024, "subspaces of eye vertices, and of light vertices", NULL},
     {"training", FIELD_INTEGER, AT(training), 4, 1, 1024, "eye sub-paths for each pixel that they are learnt from",
      NULL},
     {"steps", FIELD_INTEGER, AT(steps), 2, 0, 1000, "steps that minimise the variance", NULL},
-    {"delta", FIELD_NUMBER, AT(delta), 0.2, 1e-6, 1, "share of draws that ignore what was learnt", NULL},
-    {"pathpixels", FIELD_INTEGER, AT(frozen.numbers.path_pixels), 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
-     "pixels for each light sub-path", NULL},
-    SERVICES(false, 1, 1, MAX_TILE_SIZE, 1),
     {.name = NULL}};
 
 const struct method method_spcbpt = {
     .name = "spcbpt", .check = surfaces_alone,
     .help = "subspaces [Su 2022]: light vertices drawn by trees and a matrix for the least variance",
-    .why = "C draws for each eye vertex: a light subspace by Gamma(e,l), of the eye vertex' subspace, then one of its "
-           "vertices in proportion to luminance(beta); scale 1 / (C K P)",
-    .parameters = PARAMETERS, .state_size = sizeof(struct spcbpt_state), .scratch_size = sizeof(struct spcbpt),
-    .numbers = {.light_points = 1, .path_tracing = true}, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
-    .release = release, .render = render, .scratch_free = light_pool_free, .begin = begin, .draw = draw};
+    .parameters = PARAMETERS, .own = OWN, .own_size = sizeof(struct spcbpt), .numbers = NUMBERS_OF_PT,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .render = render, .build = build,
+    .draw = draw};

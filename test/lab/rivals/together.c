@@ -5,37 +5,34 @@
 
 #include "caustics/delta.h"
 
-static void render_iteration(const struct preparation *m, const struct tile_pass *pass, connect_all_fn *connect_all,
+static void render_iteration(const struct prepared *p, const struct tile_pass *pass, connect_all_fn *connect_all,
                              long iteration)
 {
     struct arena *arena = &pass->work->arena;
+    const struct index *index = NULL;
     int n = 0;
+    if (p->method->build != NULL) {
+        loop_fill(p, pass, iteration);
+        index = p->method->build(p, pass, iteration);
+    }
     arena_reset(arena);
-    struct pooled_pixel *all = arena_alloc(arena, (size_t)pixels_count(pass->tile->pixels) * sizeof *all);
+    struct pixel *all = arena_alloc(arena, (size_t)pixels_count(pass->tile->pixels) * sizeof *all);
     for (int x, y; pass_pixel(pass, n, &x, &y); n++) {
-        all[n] = pooled_begin(m, pass, x, y, n, iteration);
-        size_t size = (size_t)all[n].n * sizeof *all[n].eye;
-        all[n].eye = memcpy(arena_alloc(arena, size), all[n].eye, size);
+        struct pixel *pixel = &all[n];
+        pixel->n = loop_begin(p, pass, x, y, iteration, &pixel->sample, pass->work->eye);
+        pixel->sample.choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
+        size_t size = (size_t)pixel->n * sizeof *pixel->eye;
+        pixel->eye = memcpy(arena_alloc(arena, size), pass->work->eye, size);
     }
-    connect_all(pass->work->scratch, m->state, pass, all, n);
+    connect_all(p, pass, index, all, n);
     for (int i = 0; i < n; i++)
-        pooled_end(&all[i]);
+        sample_end(&all[i].sample);
 }
 
-void together_render(const struct preparation *m, const struct tile_pass *pass, connect_all_fn *connect_all)
+void together_render(const struct prepared *p, const struct tile_pass *pass, connect_all_fn *connect_all)
 {
-    for (long iteration = pass->first; iteration < pass->end; iteration++) {
-        pooled_fill(m, pass, iteration);
-        render_iteration(m, pass, connect_all, iteration);
-    }
-}
-
-double area_before(const struct scene *scene, const struct vertex *before, const struct vertex *v)
-{
-    if (before->kind == VERTEX_LENS || vertex_at_infinity(scene, before))
-        return 1;
-    double cosine = abs_dot(before->ng, v->wo);
-    return v->kind == VERTEX_ESCAPED ? cosine : cosine / length2(sub(v->p, before->p));
+    for (long iteration = pass->first; iteration < pass->end; iteration++)
+        render_iteration(p, pass, connect_all, iteration);
 }
 
 /* --- what others have found -------------------------------------------------------------------------- */
@@ -47,14 +44,14 @@ static bool alike(const struct vertex *a, const struct vertex *b)
     return dot(a[1].ng, b[1].ng) > 0.9063 && fabs(da - db) < 0.1 * fmax(da, db);
 }
 
-int reuse_neighbours(struct pooled_pixel *pixel, int n, int i, int tries, int *near)
+int reuse_neighbours(struct pixel *pixel, int n, int i, int tries, int *near)
 {
     int found = 0;
     if (!reuse_first(&pixel[i]))
         return 0;
     near[found++] = i;
     for (int k = 0; k < tries; k++) {
-        int j = (int)(sampler_number(&pixel[i].draws, DRAW_LIGHT_END) * n);
+        int j = (int)(sampler_number(&pixel[i].sample.choice, DRAW_LIGHT_END) * n);
         if (j != i && reuse_first(&pixel[j]) && alike(pixel[i].eye, pixel[j].eye))
             near[found++] = j;
     }
@@ -87,17 +84,17 @@ rgb reuse_step(const struct vertex *z, const struct vertex *next, double *roulet
     return rgb_scale(factor, *roulette);
 }
 
-struct connection reuse_hit(const struct pixel_sample *sample, const struct vertex *prev, const struct vertex *z, int t,
+struct connection reuse_hit(const struct sample *sample, const struct vertex *prev, const struct vertex *z, int t,
                             rgb beta)
 {
     struct vertex at = z->lamp != NULL ? *z->lamp : *z;
     at.lamp = NULL;
     at.beta = beta;
-    return connect_hit(sample->scene, sample->counts, prev, &at, t);
+    return connect_hit(sample->pass->job->scene, sample->counts, prev, &at, t);
 }
 
-void reuse_prepare(const struct render_job *job, struct preparation *out)
+void reuse_prepare(const struct render_job *job, struct prepared *p)
 {
     (void)job;
-    out->size.tile = MAX_TILE_SIZE;
+    p->size.tile = MAX_TILE_SIZE;
 }

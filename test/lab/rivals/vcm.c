@@ -18,26 +18,24 @@
  * Tests: test_rivals.c.
  */
 #include <math.h>
-#include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/maths.h"
+#include "caustics/delta.h"
+#include "caustics/derived.h"
 #include "caustics/surfaces.h"
 #include "rivals/together.h"
 
-struct vcm_state {
-    struct frozen frozen;
+struct vcm {
     double radius; /* r_0 over the radius of the scene's bounding sphere */
     double alpha;
 };
 
 /* Light vertices by the cells of a grid, 2 r wide, in a table of buckets by hash. */
-struct vcm {
-    struct light_pool pool; /* the first, see pooled.h */
-    struct candidates found;
-    int *first, *next;      /* [buckets], [found.n]: chains of candidates; -1: none */
-    size_t buckets, n_first, n_next;
+struct index {
+    const struct candidate *found;
+    int *first, *next; /* [buckets], [found]: chains of candidates; -1: none */
+    size_t buckets;
     double r, eta;
 };
 
@@ -45,25 +43,20 @@ struct vcm {
 
 static bool can_merge(const struct vertex *v) { return v->kind == VERTEX_SURFACE && vertex_connectible(v); }
 
-/* mis_{e+1} of `v`, which follows vertex e, with the merge at e. */
-static double stepped(const struct scene *scene, const struct mis_counts *counts, const struct vertex *e,
-                      const struct vertex *v)
-{
-    return mis_step(counts, v->prev_delta ? 0 : e->mis_c, e->pdf_rev, e->mis, e->pdf_fwd, area_before(scene, e, v));
-}
-
 /* Give all vertices of a walk c_e' and what follows from it. Vertices 0 and 1 have no merge before them. */
-static void know_merges(const struct vcm *m, const struct pixel_sample *sample, struct arena *arena,
-                        struct vertex *path, int n)
+static void know_merges(const struct index *m, const struct counts *counts, struct arena *arena, struct vertex *path,
+                        int n, enum transport mode)
 {
     for (int e = 1; e < n; e++) {
         struct vertex *v = &path[e];
+        const struct vertex *before = v - 1;
+        double c = v->prev_delta ? 0 : before->mis_c, pdf_rev = e > 1 ? vertex_pdf_rev(before, v, mode) : 0;
         if (e > 1)
-            v->mis = stepped(sample->scene, sample->counts, &path[e - 1], v);
+            v->mis = mis_step(counts, c, pdf_rev, before->mis, before->pdf_fwd, v->back);
         if (e > 1 && v->lamp != NULL) {
             struct vertex *lamp = arena_alloc(arena, sizeof *lamp);
             *lamp = *v->lamp;
-            lamp->mis = stepped(sample->scene, sample->counts, &path[e - 1], lamp);
+            lamp->mis = mis_step(counts, c, pdf_rev, before->mis, before->pdf_fwd, lamp->back);
             v->lamp = lamp;
         }
         if (can_merge(v))
@@ -72,56 +65,58 @@ static void know_merges(const struct vcm *m, const struct pixel_sample *sample, 
 }
 
 /* The part of one side: (c + pdf_rev mis) / (eta F), without the merge itself. */
-static double side(const struct vcm *m, const struct vertex *v, double pdf_rev)
+static double side(const struct index *m, const struct vertex *v, double pdf_rev)
 {
     double own = m->eta * v->pdf_fwd;
     return (v->mis_c - own + pdf_rev * v->mis) / own;
 }
 
-static void merge(const struct vcm *m, struct pixel_sample *sample, const struct candidate *c, const struct vertex *z,
+static void merge(const struct index *m, struct sample *sample, const struct candidate *c, const struct vertex *z,
                   int t)
 {
-    const struct vertex *y = c->y;
+    const struct vertex *y = candidate_vertex(c);
+    int s = c->drawn.end;
     double area = abs_dot(y->wo, z->ng);
     struct bsdf_value f = bsdf_eval(&z->bsdf, z->wo, y->wo, RADIANCE);
-    if (c->s + t - 1 > sample->max_depth + 2 || rgb_is_black(f.f) || !(area > 0))
+    if (s + t - 1 > sample->pass->job->max_depth + 2 || rgb_is_black(f.f) || !(area > 0))
         return;
     double scale = scatter_cosine(z, y->wo, RADIANCE) / (area * m->eta);
-    struct connection joined = {.value = rgb_scale(rgb_mul(rgb_mul(y->beta, z->beta), f.f), scale),
-                                .length = y->length + z->length, .light = -1, .cell = -1};
+    struct connection joined = {.value = rgb_scale(rgb_mul(rgb_mul(y->beta, z->beta), f.f), scale), .light = -1};
     joined.weight = 1 / (1 + side(m, y, f.pdf) + side(m, z, f.pdf_rev));
-    pixel_add(sample, &joined, c->s, t, y, z, NO_CHOICE);
+    sample_add(sample, (struct joined){.s = s, .t = t, .light = c->drawn.light, .z = z, .c = &joined, .pmf = 1,
+                                       .scale = 1});
 }
 
 /* t = 1: the heart, which there looks at the counts and not at c_e', does not know of the merge at y. */
-static void splat(const struct vcm *m, struct pixel_sample *sample, const struct vertex *light, int n)
+static void splat(const struct index *m, struct sample *sample, const struct vertex *light, int n)
 {
-    const struct camera *camera = &sample->scene->camera;
-    double S = sample->counts->splat, px, py;
-    for (int s = 2; s <= n && s <= sample->max_depth + 1; s++) {
+    const struct scene *scene = sample->pass->job->scene;
+    const struct camera *camera = &scene->camera;
+    double S = sample->counts->lens, px, py;
+    for (int s = 2; s <= n && s <= sample->pass->job->max_depth + 1; s++) {
         const struct vertex *y = &light[s - 1];
-        struct connection c = connect_lens(sample->scene, sample->counts, light, s, &sample->sampler);
-        vec3 d = sub(y->p, c.end);
+        vec3 lens = lens_drawn(camera, y->p, sample->sampler), d = sub(y->p, lens);
+        struct connection c = connect_lens(scene, sample->counts, light, s, &sample->sampler);
         if (!rgb_is_black(c.value)) {
             vec3 w = normalize(d);
-            double R = camera_project(camera, c.end, w, &px, &py) * camera_spread(camera, length2(d)) *
+            double R = camera_project(camera, lens, w, &px, &py) * camera_spread(camera, length2(d)) *
                        abs_dot(y->ng, w); /* density of y in the eye walk */
             c.weight = 1 / (1 / c.weight + R * m->eta / S);
         }
-        pixel_splat(sample, &c, s, y, 1 / S);
+        sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .pmf = 1, .scale = 1 / S});
     }
 }
 
 /* --- the grid ---------------------------------------------------------------------------------------- */
 
-static vec3 cell_of(const struct vcm *m, vec3 p)
+static vec3 cell_of(const struct index *m, vec3 p)
 {
     double side = 2 * m->r;
     vec3 cell = {floor(p.x / side), floor(p.y / side), floor(p.z / side)};
     return cell;
 }
 
-static size_t bucket_of(const struct vcm *m, vec3 cell)
+static size_t bucket_of(const struct index *m, vec3 cell)
 {
     uint64_t h = 0;
     const double x[3] = {cell.x, cell.y, cell.z};
@@ -133,31 +128,32 @@ static size_t bucket_of(const struct vcm *m, vec3 cell)
     return (size_t)(h % m->buckets);
 }
 
-static void fill_grid(struct vcm *m)
+static void fill_grid(struct index *m, struct pool *pool)
 {
-    m->buckets = 2 * (size_t)m->found.n + 1;
-    m->first = mem_grow(m->first, &m->n_first, m->buckets, sizeof *m->first);
-    m->next = mem_grow(m->next, &m->n_next, (size_t)m->found.n + 1, sizeof *m->next);
+    m->found = pool->candidate;
+    m->buckets = 2 * (size_t)pool->n_candidates + 1;
+    m->first = arena_alloc(&pool->arena, m->buckets * sizeof *m->first);
+    m->next = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *m->next);
     for (size_t b = 0; b < m->buckets; b++)
         m->first[b] = -1;
-    for (int i = 0; i < m->found.n; i++) {
-        size_t b = bucket_of(m, cell_of(m, m->found.item[i].y->p));
+    for (int i = 0; i < pool->n_candidates; i++) {
+        size_t b = bucket_of(m, cell_of(m, candidate_vertex(&m->found[i])->p));
         m->next[i] = m->first[b];
         m->first[b] = i;
     }
 }
 
 /* All light vertices within r of z: they lie in the eight cells around the corner of the grid that is next to it. */
-static void merge_all(const struct vcm *m, struct pixel_sample *sample, const struct vertex *z, int t)
+static void merge_all(const struct index *m, struct sample *sample, const struct vertex *z, int t)
 {
     for (int corner = 0; corner < 8; corner++) {
         vec3 step = {corner & 1 ? m->r : -m->r, corner & 2 ? m->r : -m->r, corner & 4 ? m->r : -m->r};
         vec3 cell = cell_of(m, add(z->p, step));
         for (int i = m->first[bucket_of(m, cell)]; i >= 0; i = m->next[i]) {
-            const struct candidate *c = &m->found.item[i];
-            vec3 own = cell_of(m, c->y->p);
+            const struct candidate *c = &m->found[i];
+            vec3 p = candidate_vertex(c)->p, own = cell_of(m, p);
             bool here = own.x == cell.x && own.y == cell.y && own.z == cell.z;
-            if (here && length2(sub(c->y->p, z->p)) < sqr(m->r))
+            if (here && length2(sub(p, z->p)) < sqr(m->r))
                 merge(m, sample, c, z, t);
         }
     }
@@ -165,71 +161,49 @@ static void merge_all(const struct vcm *m, struct pixel_sample *sample, const st
 
 /* --- an iteration ------------------------------------------------------------------------------------ */
 
-static void begin(void *scratch, const void *state, const struct tile_pass *pass, long iteration)
+static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    struct vcm *m = scratch;
-    const struct vcm_state *s = state;
-    const struct scene *scene = pass->job->scene;
-    struct pixel_sample sample = {.scene = scene, .counts = &s->frozen.counts};
-    m->r = s->radius * scene->lights.radius * m_pow((double)iteration + 1, (s->alpha - 1) / 2);
-    m->eta = m->pool.n * PI * sqr(m->r);
-    for (int k = 0; k < m->pool.n; k++)
-        know_merges(m, &sample, &m->pool.arena, &m->pool.vertex[m->pool.start[k]], m->pool.length[k]);
-    m->found = candidates_find(&m->pool);
-    fill_grid(m);
+    const struct vcm *own = p->own;
+    struct pool *pool = &pass->work->pool;
+    struct index *m = arena_alloc(&pool->arena, sizeof *m);
+    m->r = own->radius * pass->job->scene->lights.radius * m_pow((double)iteration + 1, (own->alpha - 1) / 2);
+    m->eta = pool->n * PI * sqr(m->r);
+    for (int k = 0; k < pool->n; k++)
+        know_merges(m, &p->counts, &pool->arena, &pool->vertex[pool->start[k]], pool->length[k], IMPORTANCE);
+    pool_find_candidates(pool);
+    fill_grid(m, pool);
+    return m;
 }
 
-static void connect_all(void *scratch, const void *state, const struct tile_pass *pass, struct pooled_pixel *pixel,
-                        int n)
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *m,
+                        struct pixel *pixel, int n)
 {
-    struct vcm *m = scratch;
-    (void)state;
+    const struct pool *pool = &pass->work->pool;
     for (int i = 0; i < n && !pass_enough(pass->job); i++) {
-        struct pooled_pixel *p = &pixel[i];
-        size_t size = (size_t)p->n * sizeof *p->eye;
-        struct vertex *eye = memcpy(arena_alloc(&pass->work->arena, size), p->eye, size);
-        know_merges(m, &p->sample, &pass->work->arena, eye, p->n);
-        p->eye = eye;
-        pixel_sum_eye(&p->sample, eye, p->n);
-        pixel_sum_pairs(&p->sample, eye, p->n, light_pool_path(&m->pool, i), m->pool.length[i], NO_CHOICE);
-        for (int t = 2; t <= p->n; t++)
+        struct sample *sample = &pixel[i].sample;
+        struct vertex *eye = pixel[i].eye;
+        const struct drawn light = {pool_path(pool, i), 1, pool->length[i], 1};
+        know_merges(m, &p->counts, &pass->work->arena, eye, pixel[i].n, RADIANCE);
+        loop_eye(sample, eye, pixel[i].n);
+        for (int t = 2; t <= pixel[i].n; t++) {
+            sample_pairs(sample, &light, &eye[t - 1], t, 1);
             if (can_merge(&eye[t - 1]))
-                merge_all(m, &p->sample, &eye[t - 1], t);
-        splat(m, &p->sample, light_pool_path(&m->pool, i), m->pool.length[i]);
-        p->n_light = 0; /* the frame has nothing left to splat */
+                merge_all(m, sample, &eye[t - 1], t);
+        }
+        splat(m, sample, light.light, light.end);
     }
 }
 
-static void render(const struct preparation *m, const struct tile_pass *pass)
-{
-    together_render(m, pass, connect_all);
-}
+static void render(const struct prepared *p, const struct tile_pass *pass) { together_render(p, pass, connect_all); }
 
-static void free_scratch(void *scratch)
-{
-    struct vcm *m = scratch;
-    light_pool_free(&m->pool);
-    free(m->first);
-    free(m->next);
-}
-
-static void prepare(const struct render_job *job, struct preparation *out)
-{
-    (void)job;
-    out->size.tile = MAX_TILE_SIZE;
-}
-
-#define AT(member) offsetof(struct vcm_state, member)
-static const struct field PARAMETERS[] = {
-    {"radius", FIELD_NUMBER, AT(radius), 0.01, 1e-9, 1, "of the first iteration's merges, in radii of the scene", NULL},
-    {"alpha", FIELD_NUMBER, AT(alpha), 0.75, 0, 1, "how fast it shrinks; 1: not at all", NULL},
+static const struct field OWN[] = {
+    {"radius", FIELD_NUMBER, offsetof(struct vcm, radius), 0.01, 1e-9, 1,
+     "of the first iteration's merges, in radii of the scene", NULL},
+    {"alpha", FIELD_NUMBER, offsetof(struct vcm, alpha), 0.75, 0, 1, "how fast it shrinks; 1: not at all", NULL},
     {.name = NULL}};
 
 const struct method method_vcm = {
     .name = "vcm", .check = surfaces_alone,
     .help = "vertex connection and merging [Georgiev 2012c]: bdpt, and vertices that meet; biased",
-    .why = "the pixel's own light sub-path, and all of the tile's light vertices within the radius; scale 1, of merges "
-           "1 / (K pi r^2)",
-    .parameters = PARAMETERS, .state_size = sizeof(struct vcm_state), .scratch_size = sizeof(struct vcm),
-    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .render = render,
-    .scratch_free = free_scratch, .begin = begin};
+    .own = OWN, .own_size = sizeof(struct vcm), .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .prepare = reuse_prepare, .render = render, .build = build};

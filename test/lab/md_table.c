@@ -1,12 +1,12 @@
-/* table.c: see table.h. */
-#include "lab/table.h"
+/* md_table.c: see md_table.h. */
+#include "lab/md_table.h"
 
 #include <math.h>
 #include <stdarg.h>
 
-struct table table_begin(FILE *f, const char *caption, ...)
+struct md_table md_begin(FILE *f, const char *caption, ...)
 {
-    struct table t = {f, 0, 0};
+    struct md_table t = {f, 0, 0};
     va_list args;
     va_start(args, caption);
     vfprintf(f, caption, args);
@@ -26,7 +26,7 @@ static void put(FILE *f, const char *format, va_list args)
     fputs(" |", f);
 }
 
-void table_column(struct table *t, const char *format, ...)
+void md_column(struct md_table *t, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -35,14 +35,14 @@ void table_column(struct table *t, const char *format, ...)
     t->columns++;
 }
 
-static void rule(const struct table *t)
+static void rule(const struct md_table *t)
 {
     fputs("\n|---|", t->f);
     for (int i = 1; i < t->columns; i++)
         fputs("---:|", t->f);
 }
 
-void table_add(struct table *t, const char *format, ...)
+void md_add(struct md_table *t, const char *format, ...)
 {
     va_list args;
     if (t->cells == 0)
@@ -53,27 +53,27 @@ void table_add(struct table *t, const char *format, ...)
     va_end(args);
 }
 
-void table_end(struct table *t)
+void md_end(struct md_table *t)
 {
     if (t->cells == 0)
         rule(t);
     fputs("\n\n", t->f);
 }
 
-void table_add_missing(struct table *t, int n)
+void md_add_missing(struct md_table *t, int n)
 {
     for (int i = 0; i < n; i++)
-        table_add(t, "-");
+        md_add(t, "-");
 }
 
-void table_add_interval(struct table *t, struct interval i, const char *mark)
+void md_add_interval(struct md_table *t, struct interval i, const char *mark)
 {
     const char *blank = mark[0] != '\0' ? " " : "";
     if (!isfinite(i.value))
-        table_add(t, "-%s%s", blank, mark);
+        md_add(t, "-%s%s", blank, mark);
     else if (!isfinite(i.low) || !isfinite(i.high))
-        table_add(t, "%.3f%s%s", i.value, blank, mark);
+        md_add(t, "%.3f%s%s", i.value, blank, mark);
     else
-        table_add(t, i.high > 100 * i.value ? "%.3f [%.2g, %.2g]%s%s" : "%.3f [%.3f, %.3f]%s%s", i.value, i.low, i.high,
+        md_add(t, i.high > 100 * i.value ? "%.3f [%.2g, %.2g]%s%s" : "%.3f [%.3f, %.3f]%s%s", i.value, i.low, i.high,
                   blank, mark);
 }

@@ -20,14 +20,13 @@
  * Tests: test_asbdpt.c (must be rejected by the test that accepts BDPT).
  */
 #include <limits.h>
-#include <stddef.h>
 #include <stdlib.h>
 
+#include "base/number.h"
 #include "integrators/method.h"
 
 /* Parameters. */
-struct bins_state {
-    struct frozen frozen;
+struct bins_parameters {
     int bin_paths, max_age, restart;
 };
 
@@ -39,33 +38,13 @@ struct element {
     long born;             /* iteration in which it was traced */
 };
 
-/* The bins of one pixel; bin b has the elements 2b and 2b+1. */
-struct bins {
-    int n_elements;
-    uint64_t traced; /* sub-paths traced for this pixel and block */
-    struct element *element; /* [n_elements], owned */
-};
-
-static void init_scratch(void *scratch, const void *state)
-{
-    const struct bins_state *s = state;
-    struct bins *b = scratch;
-    b->n_elements = s->bin_paths;
-    b->element = mem_alloc((size_t)b->n_elements, sizeof *b->element);
-}
-
-static void free_scratch(void *scratch)
-{
-    struct bins *b = scratch;
-    for (int i = 0; i < b->n_elements; i++)
-        arena_free(&b->element[i].arena);
-    free(b->element);
-}
-
+/* The bins of one pixel in one block; bin b has the elements 2b and 2b+1. */
 struct pixel {
     const struct tile_pass *pass;
-    const struct bins_state *state;
-    struct bins *bins;
+    const struct prepared *prepared;
+    const struct bins_parameters *own;
+    struct element *element; /* [bin_paths], owned */
+    uint64_t traced;         /* sub-paths so far */
     int x, y;
 };
 
@@ -74,19 +53,19 @@ struct pixel {
  * block stay below those of the next. */
 static void replace(struct pixel *p, struct element *e, long iteration)
 {
-    uint64_t number = ((uint64_t)p->pass->first << 32) + p->bins->traced++;
+    uint64_t number = ((uint64_t)p->pass->first << 32) + p->traced++;
     arena_reset(&e->arena);
-    e->vertex = arena_alloc(&e->arena, ((size_t)p->state->frozen.max_depth + 1) * sizeof *e->vertex);
-    e->length = pixel_light_path(p->pass, &p->state->frozen.counts, p->x, p->y, number, &e->arena, e->vertex);
+    e->vertex = arena_alloc(&e->arena, ((size_t)p->prepared->max_depth + 1) * sizeof *e->vertex);
+    e->length = sample_light_path(p->pass, &p->prepared->counts, p->x, p->y, number, &e->arena, e->vertex);
     e->beta = path_throughput(e->vertex, e->length);
     e->born = iteration;
 }
 
 static void replace_aged(struct pixel *p, long iteration)
 {
-    for (int i = 0; p->state->max_age > 0 && i < p->bins->n_elements; i++)
-        if (iteration - p->bins->element[i].born > p->state->max_age)
-            replace(p, &p->bins->element[i], iteration);
+    for (int i = 0; p->own->max_age > 0 && i < p->own->bin_paths; i++)
+        if (iteration - p->element[i].born > p->own->max_age)
+            replace(p, &p->element[i], iteration);
 }
 
 /* Van der Corput's sequence: the bits of i, mirrored at the binary point. [Corput 1935] */
@@ -107,11 +86,11 @@ static double first_probability(const struct element *e)
 }
 
 /* Choose a bin, then one of its elements. [S24 Algorithm 2] */
-static struct element *choose(struct pixel *p, double shift, uint64_t step, double u, double *pmf)
+static struct element *choose(const struct pixel *p, double shift, uint64_t step, double u, double *pmf)
 {
     double position = van_der_corput(step) + shift;
-    int bin = (int)((position - floor(position)) * (p->bins->n_elements / 2));
-    struct element *e = &p->bins->element[2 * bin];
+    int bin = (int)((position - floor(position)) * (p->own->bin_paths / 2));
+    struct element *e = &p->element[2 * bin];
     double p_e0 = first_probability(e);
     *pmf = u < p_e0 ? p_e0 : 1 - p_e0;
     return u < p_e0 ? &e[0] : &e[1];
@@ -119,55 +98,62 @@ static struct element *choose(struct pixel *p, double shift, uint64_t step, doub
 
 static void render_iteration(struct pixel *p, double shift, long iteration)
 {
-    struct workspace *work = p->pass->work;
-    arena_reset(&work->arena);
-    struct pixel_sample sample = pixel_sample_begin(p->pass, &p->state->frozen.counts, p->x, p->y, iteration);
-    int n = pixel_eye_path(p->pass, &sample, work->eye, sample.max_depth + 2);
-    struct sampler draw = pixel_sampler(p->pass, RNG_SELECT, p->x, p->y, iteration);
+    struct vertex *eye = p->pass->work->eye;
+    arena_reset(&p->pass->work->arena);
+    struct sample sample = sample_begin(p->pass, &p->prepared->counts, 1, p->x, p->y, iteration);
+    int n = sample_eye_path(&sample, eye, p->prepared->max_depth + 2);
+    struct sampler choice = sample_stream(p->pass, RNG_SELECT, p->x, p->y, (uint64_t)iteration);
     replace_aged(p, iteration);
-    double u = sampler_number(&draw, DRAW_LIGHT_END);
-    struct choice unweighted = {0, 1};
-    struct element *e = choose(p, shift, (uint64_t)(iteration - p->pass->first), u, &unweighted.pmf);
+    double u = sampler_number(&choice, DRAW_LIGHT_END), pmf;
+    struct element *e = choose(p, shift, (uint64_t)(iteration - p->pass->first), u, &pmf);
+    const struct drawn drawn = {e->vertex, 1, e->length, pmf}; /* no factor makes up for pmf */
 
-    pixel_sum_eye(&sample, work->eye, n);
-    pixel_sum_pairs(&sample, work->eye, n, e->vertex, e->length, unweighted);
-    pixel_splat_path(&sample, e->vertex, e->length, 1);
-    pixel_sample_end(&sample);
+    for (int t = 2; t <= n; t++) {
+        sample_hit(&sample, eye, t);
+        sample_direct(&sample, &eye[t - 1], t);
+        sample_pairs(&sample, &drawn, &eye[t - 1], t, 1);
+    }
+    sample_lens(&sample, e->vertex, e->length, 1);
+    sample_end(&sample);
     replace(p, e, iteration);
 }
 
-static void render(const struct preparation *m, const struct tile_pass *pass)
+static void render(const struct prepared *m, const struct tile_pass *pass)
 {
-    struct pixel p = {pass, m->state, pass->work->scratch, 0, 0};
+    struct pixel p = {.pass = pass, .prepared = m, .own = m->own};
+    p.element = mem_alloc((size_t)p.own->bin_paths, sizeof *p.element);
     for (int number = 0; pass_pixel(pass, number, &p.x, &p.y); number++) {
-        struct sampler shift = pixel_sampler(pass, RNG_SHUFFLE, p.x, p.y, pass->first);
+        struct sampler shift = sample_stream(pass, RNG_SHUFFLE, p.x, p.y, (uint64_t)pass->first);
         double start = sampler_number(&shift, DRAW_ORDER);
-        p.bins->traced = 0;
-        for (int i = 0; i < p.bins->n_elements; i++)
-            replace(&p, &p.bins->element[i], pass->first);
+        p.traced = 0;
+        for (int i = 0; i < p.own->bin_paths; i++)
+            replace(&p, &p.element[i], pass->first);
         for (long i = pass->first; i < pass->end && !pass_enough(pass->job); i++)
             render_iteration(&p, start, i);
     }
+    for (int i = 0; i < p.own->bin_paths; i++)
+        arena_free(&p.element[i].arena);
+    free(p.element);
 }
 
-static bool check(const void *state, const struct scene *scene, struct error *err)
+static bool check(const struct prepared *p, const struct scene *scene, struct error *err)
 {
-    const struct bins_state *s = state;
+    const struct bins_parameters *own = p->own;
     (void)scene;
-    return s->bin_paths % 2 == 0 ||
-           error_set(err, "asbdpt: binpaths %d is odd; bins hold two sub-paths each", s->bin_paths);
+    return own->bin_paths % 2 == 0 ||
+           error_set(err, "asbdpt: binpaths %d is odd; bins hold two sub-paths each", own->bin_paths);
 }
 
-static void prepare(const struct render_job *job, struct preparation *out)
+static void prepare(const struct render_job *job, struct prepared *p)
 {
-    const struct bins_state *s = out->state;
+    const struct bins_parameters *own = p->own;
     (void)job;
-    out->size.block = s->restart > 0 ? s->restart : INT_MAX;
-    out->size.tile = out->size.block > LONGEST_BLOCK ? 1 : DEFAULT_TILE_SIZE; /* pixels share no sub-paths */
+    p->size.block = own->restart > 0 ? own->restart : INT_MAX;
+    p->size.tile = p->size.block > LONGEST_BLOCK ? 1 : DEFAULT_TILE_SIZE; /* pixels share no sub-paths */
 }
 
-#define AT(member) offsetof(struct bins_state, member)
-static const struct field PARAMETERS[] = {
+#define AT(member) offsetof(struct bins_parameters, member)
+static const struct field OWN[] = {
     {"binpaths", FIELD_INTEGER, AT(bin_paths), 8, 2, 4096, "light sub-paths per pixel, even", NULL},
     {"maxage", FIELD_INTEGER, AT(max_age), 24, 0, INT_MAX,
      "iterations after which an unused sub-path is replaced, 0: never", NULL},
@@ -179,9 +165,5 @@ static const struct field PARAMETERS[] = {
  * make these throughputs alike. So roulette is off by default. */
 const struct method method_bins = {
     .name = "asbdpt", .select = "bins", .help = "the dissertation's bins of two light sub-paths [Silva 2024]; biased",
-    .why = "of the pixel's bins of two light sub-paths one is visited, of its two elements one taken with probability "
-           "beta_e^2 / (beta_0^2 + beta_1^2); no weight makes up for it",
-    .parameters = PARAMETERS, .state_size = sizeof(struct bins_state), .scratch_size = sizeof(struct bins),
-    .numbers = NUMBERS_OF_BDPT,
-    .rr_threshold = 0, .check = check, .prepare = prepare, .render = render, .scratch_init = init_scratch,
-    .scratch_free = free_scratch};
+    .own = OWN, .own_size = sizeof(struct bins_parameters), .numbers = NUMBERS_OF_BDPT, .rr_threshold = 0,
+    .check = check, .prepare = prepare, .render = render};

@@ -1,0 +1,48 @@
+/* loop.h: the loop over the samples of a tile pass that all methods share, except those that reuse light sub-paths in
+ * later iterations.
+ *
+ *     pool  = light sub-paths of the tile, one for every path_pixels of its pixels
+ *     index = build(pool)
+ *     for each pixel, and each vertex z of its eye sub-path:
+ *         add s = 0 and s = 1                                                 hit, direct
+ *         C times: draw light vertices y with probability P, and add
+ *             the connections of z to them, divided by C K P                  pair
+ *     for each light sub-path: add its connections to the lens                lens
+ *
+ * K is the number of sub-paths of the pool. For a given pool, the expectation of what z draws is the mean over the K
+ * sub-paths, whatever P is, as long as every vertex that can contribute has a chance. So the estimate is unbiased.
+ *
+ * Tests: test_render.c, test_asbdpt.c.
+ */
+#ifndef ASBDPT_LOOP_H
+#define ASBDPT_LOOP_H
+
+#include "integrators/method.h"
+
+/* loop_render: the `render` of a method. */
+void loop_render(const struct prepared *p, const struct tile_pass *pass);
+
+/* Its steps, for methods whose loop differs in one of them.
+ *
+ *   loop_fill   trace the light sub-paths of an iteration into the workspace's pool
+ *   loop_begin  begin a sample and trace its eye sub-path into eye [max_depth + 2]; returns the number of vertices
+ *   loop_eye    add s = 0 and s = 1 for all vertices of the eye sub-path
+ *   loop_join   if no light sub-paths are shared, trace that of the pixel; add what the eye vertices draw
+ *   loop_splat  connect to the lens the light sub-path that belongs to the pixel of this number of the tile, if one does
+ */
+void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration);
+int loop_begin(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration,
+               struct sample *sample, struct vertex *eye);
+void loop_eye(struct sample *sample, const struct vertex *eye, int n);
+void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, int number,
+               const struct vertex *eye, int n);
+void loop_splat(const struct prepared *p, struct sample *sample, int number);
+
+/* loop_own: the `draw` of methods whose pixels have a light sub-path each: all its vertices. */
+bool loop_own(const struct prepared *p, const struct index *index, struct sample *sample, int number,
+              const struct vertex *z, int i, int n, struct drawn *out);
+
+/* pool_shuffle: write a random permutation of the sub-paths' numbers for one iteration to order [pool->n]. */
+void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long iteration, int *order);
+
+#endif

@@ -1,0 +1,97 @@
+/* prepare.c: see prepare.h. */
+#include "integrators/prepare.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "integrators/race.h"
+#include "learning/learn.h"
+
+enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
+
+void method_counts(const struct render_job *job, struct prepared *p, bool credits)
+{
+    const struct method *m = p->method;
+    double direct = credits && m->direct_credit > 0 ? m->direct_credit : 1;
+    double pair = m->pair_credit > 0 ? m->pair_credit : 1;
+    if (m->single && p->tables->light_vertices > 0) /* a draw is one of so many vertices of a light sub-path */
+        pair /= p->tables->light_vertices;
+    p->counts = counts_of(p->numbers, direct, pair, (double)rect_pixels(job->film_rect), p->tables);
+    p->counts.power = job->power_heuristic;
+}
+
+/* A path tracer needs no table but that of direct light, and a plain one not even this. */
+static void become_path_tracer(struct prepared *p, bool plain)
+{
+    struct tables kept = NO_TABLES, *t = p->tables;
+    if (!plain && t->direct.rows > 0) {
+        kept.regions = t->regions;
+        kept.direct = t->direct;
+        t->regions = NO_TABLES.regions;
+        t->direct = NO_TABLES.direct;
+    }
+    tables_free(t);
+    *t = kept;
+    p->size.tile = DEFAULT_TILE_SIZE; /* pixels share no sub-paths */
+    p->size.spread = 1;
+    p->numbers.draws[FIRST_HIT] = p->numbers.draws[LATER_HIT] = 0;
+}
+
+static void learn_tables(const struct render_job *job, struct prepared *p)
+{
+    const struct parameters *q = &p->parameters;
+    const struct learn_options options = {
+        .use = p->method->learns_use || q->emission < 1, .pairs = p->method->learns_pairs,
+        .direct = q->guide && job->spatial_lights && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
+        .emission = q->emission, .delta = q->delta};
+    if (options.use || options.pairs || options.direct || p->method->single)
+        learn(job, &options, p->tables);
+}
+
+bool method_prepare(const struct method *m, const struct render_job *job, struct prepared *out, struct error *err)
+{
+    if (!method_read(m, job->scene, out, err))
+        return false;
+    bool plain = false;
+    out->max_depth = job->max_depth;
+    out->numbers = out->parameters.numbers;
+    out->size = (struct pass_size){0, out->parameters.tile, out->parameters.spread};
+    out->tables = mem_alloc(1, sizeof *out->tables);
+    learn_tables(job, out);
+    if (m->prepare != NULL)
+        m->prepare(job, out);
+    method_counts(job, out, true);
+    if (out->parameters.race && out->numbers.path_pixels > 0) {
+        race(job, out);
+        out->numbers = out->runner[out->winner].numbers;
+        plain = out->runner[out->winner].plain;
+    }
+    if (m->draw != NULL && out->numbers.path_pixels == 0)
+        become_path_tracer(out, plain);
+    method_counts(job, out, !plain);
+    return true;
+}
+
+void method_numbers(const struct prepared *p, struct film_number out[FILM_NUMBERS])
+{
+    const struct runner *winner = &p->runner[p->winner];
+    const struct film_number numbers[] = {
+        {"draws_first_hit", p->numbers.draws[FIRST_HIT]}, {"draws_after", p->numbers.draws[LATER_HIT]},
+        {"light_points_first_hit", p->numbers.light_points}, {"pixels_per_light_path", p->numbers.path_pixels},
+        {"regions", p->tables->regions.n}};
+    enum { N = sizeof numbers / sizeof *numbers };
+    memset(out, 0, FILM_NUMBERS * sizeof *out); /* a NULL name ends the list */
+    memcpy(out, numbers, sizeof numbers);
+    for (int i = 0; i < p->n_runners && winner->price > 0; i++)
+        out[N + i] = (struct film_number){p->runner[i].name, p->runner[i].variance * p->runner[i].price /
+                                                                 (winner->variance * winner->price)};
+}
+
+void method_release(struct prepared *p)
+{
+    if (p->method->release != NULL)
+        p->method->release(p);
+    tables_free(p->tables);
+    free(p->tables);
+    free(p->own);
+}

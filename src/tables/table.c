@@ -1,0 +1,124 @@
+/* table.c: see table.h. */
+#include "tables/table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alias.h"
+#include "base/mem.h"
+#include "base/number.h"
+
+static const double K = 4;
+
+void table_sums_init(struct table_sums *s, int rows, int columns)
+{
+    size_t n = (size_t)rows * (size_t)columns;
+    *s = (struct table_sums){rows, columns, mem_alloc(n, sizeof *s->worth), mem_alloc(n, sizeof *s->weight), 0};
+}
+
+static size_t at(const struct table_sums *s, int r, int c) { return (size_t)r * (size_t)s->columns + (size_t)c; }
+
+/* The pair above: both nodes one level up; if their levels differ, only the finer one. False at the top. */
+static bool pair_above(struct axis row, struct axis column, int *r, int *c)
+{
+    bool row_moves = row.above != NULL && *r > 0, column_moves = column.above != NULL && *c > 0;
+    int lead = row_moves && column_moves ? row.level[*r] - column.level[*c] : 0;
+    if (row_moves && lead <= 0)
+        *r = row.above[*r];
+    if (column_moves && lead >= 0)
+        *c = column.above[*c];
+    return row_moves || column_moves;
+}
+
+void table_sums_add(struct table_sums *s, struct axis row, struct axis column, int r, int c, double x, double w)
+{
+    s->samples++;
+    do {
+        s->worth[at(s, r, c)] += w * x;
+        s->weight[at(s, r, c)] += w;
+    } while (pair_above(row, column, &r, &c));
+}
+
+/* Replace the sums of w x by m(r,c), in an order in which the pair above comes first. */
+static void find_means(const struct table_sums *s, struct axis row, struct axis column)
+{
+    int tops = column.above == NULL ? column.n : 1; /* pairs without one above */
+    double worth = sum_of(s->worth, tops), weight = sum_of(s->weight, tops), prior = K * weight / s->samples;
+    for (int r = 0; r < row.n; r++)
+        for (int c = 0; c < column.n; c++) {
+            int r_above = r, c_above = c;
+            double *m = &s->worth[at(s, r, c)];
+            bool has_above = pair_above(row, column, &r_above, &c_above);
+            double above = has_above ? s->worth[at(s, r_above, c_above)] : worth / weight;
+            *m = (*m + prior * above) / (s->weight[at(s, r, c)] + prior);
+        }
+}
+
+/* Replace a row of means by its ratios; all 1 if no column that can be chosen is worth anything. */
+static void find_ratios(double *m, const double *e, int n, double delta, bool root)
+{
+    double sum = 0;
+    for (int c = 0; c < n; c++)
+        sum += e[c] * (m[c] = root ? sqrt(m[c]) : m[c]);
+    for (int c = 0; c < n; c++)
+        m[c] = sum > 0 ? (1 - delta) * m[c] / sum + delta : 1;
+}
+
+struct table table_build(struct table_sums *s, struct axis row, struct axis column, const double *e, double delta,
+                         bool root, bool drawn)
+{
+    struct table t = {row.n, column.n, NULL, NULL};
+    size_t n = (size_t)column.n;
+    if (s->samples > 0 && row.n > 0 && n > 0) {
+        find_means(s, row, column);
+        t.ratio = s->worth;
+        t.before = drawn ? mem_alloc((size_t)row.n * (n + 1), sizeof *t.before) : NULL;
+    } else {
+        t.rows = 0;
+        free(s->worth);
+    }
+    for (int r = 0; r < t.rows; r++) {
+        double *ratio = &t.ratio[(size_t)r * n];
+        find_ratios(ratio, e, column.n, delta, root);
+        for (size_t c = 0; c < n && drawn; c++)
+            t.before[(size_t)r * (n + 1) + c + 1] = t.before[(size_t)r * (n + 1) + c] + e[c] * ratio[c];
+    }
+    free(s->weight);
+    return t;
+}
+
+struct table table_of_row(const double *m, const double *e, int n, double delta)
+{
+    struct table t = {m != NULL ? 1 : 0, n, NULL, NULL};
+    if (m != NULL) {
+        t.ratio = mem_alloc((size_t)n, sizeof *t.ratio);
+        memcpy(t.ratio, m, (size_t)n * sizeof *m);
+        find_ratios(t.ratio, e, n, delta, false);
+    }
+    return t;
+}
+
+void table_free(struct table *t)
+{
+    free(t->ratio);
+    free(t->before);
+}
+
+/* Rounding may move the target to the end of the sums or beyond. Then the result is the last group that can be drawn. */
+int table_draw(const struct table *t, int r, struct span among, double u, double *pmf, double *left)
+{
+    const double *before = &t->before[(size_t)r * (size_t)(t->columns + 1) + (size_t)among.first];
+    double total = before[among.n * among.each] - before[0], target = before[0] + u * total;
+    int low = 0, high = among.n;
+    while (high - low > 1) {
+        int middle = low + (high - low) / 2;
+        *(before[middle * among.each] <= target ? &low : &high) = middle;
+    }
+    while (low > 0 && before[(low + 1) * among.each] == before[low * among.each])
+        low--;
+    double own = before[(low + 1) * among.each] - before[low * among.each];
+    *pmf = own / total;
+    *left = below_one((target - before[low * among.each]) / own);
+    return low;
+}

@@ -1,0 +1,135 @@
+/* sample.c: see sample.h. */
+#include "transport/sample.h"
+
+struct sampler sample_stream(const struct tile_pass *pass, enum rng_purpose purpose, int x, int y, uint64_t number)
+{
+    const struct render_job *job = pass->job;
+    uint64_t pixel = (uint64_t)y * (uint64_t)job->scene->width + (uint64_t)x;
+    return sampler_start(purpose == RNG_EYE ? job->eye_seed : job->seed, purpose, pixel, number);
+}
+
+struct sample sample_begin(const struct tile_pass *pass, const struct counts *counts, int light_points, int x, int y,
+                           long iteration)
+{
+    return (struct sample){.pass = pass, .counts = counts, .light_points = light_points, .x = x, .y = y,
+                           .iteration = iteration, .filter_weight = 1,
+                           .sampler = sample_stream(pass, RNG_CONNECT, x, y, (uint64_t)iteration)};
+}
+
+void sample_end(const struct sample *sample) { tile_add(sample->pass->tile, sample->x, sample->y, sample->value); }
+
+/* --- sub-paths --------------------------------------------------------------------------------------- */
+
+static void tell_walked(const struct sample *sample, enum transport mode, const struct vertex *path, int n)
+{
+    for (const struct observer *o = sample->pass->observer; o != NULL; o = o->next)
+        if (o->walked != NULL)
+            o->walked(o->context, sample, mode, path, n);
+}
+
+int sample_eye_path(struct sample *sample, struct vertex *path, int max_vertices)
+{
+    const struct tile_pass *pass = sample->pass;
+    struct sampler sampler = sample_stream(pass, RNG_EYE, sample->x, sample->y, (uint64_t)sample->iteration);
+    struct walk w = {pass->job->scene, sample->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
+    int n = path_eye_pixel(&w, sample->x, sample->y, path, max_vertices, &sample->filter_weight);
+    tell_walked(sample, RADIANCE, path, n);
+    return n;
+}
+
+int sample_light_path(const struct tile_pass *pass, const struct counts *counts, int x, int y, uint64_t number,
+                      struct arena *arena, struct vertex *path)
+{
+    struct sampler sampler = sample_stream(pass, RNG_LIGHT, x, y, number);
+    struct walk w = {pass->job->scene, counts, arena, &sampler, pass->job->rr_threshold};
+    return path_light(&w, path, pass->job->max_depth + 1);
+}
+
+/* --- sums of connections ----------------------------------------------------------------------------- */
+
+static void tell_joined(const struct sample *sample, const struct joined *path)
+{
+    for (const struct observer *o = sample->pass->observer; o != NULL; o = o->next)
+        if (o->joined != NULL)
+            o->joined(o->context, sample, path);
+}
+
+void sample_add(struct sample *sample, struct joined j)
+{
+    bool black = rgb_is_black(j.c->value);
+    if (black && sample->pass->observer == NULL)
+        return;
+    j.scale *= sample->filter_weight;
+    j.added = black ? rgb_black() : rgb_scale(rgb_scale(j.c->value, j.scale), j.c->weight);
+    if (!rgb_is_finite(j.added)) { /* the whole sample would be lost */
+        sample->pass->tile->nonfinite++;
+        return;
+    }
+    tell_joined(sample, &j);
+    sample->value = rgb_add(sample->value, j.added);
+}
+
+void sample_hit(struct sample *sample, const struct vertex *eye, int t)
+{
+    if (t > 2 && !(sample->counts->hit[eye[t - 2].eye_end] > 0))
+        return;
+    struct connection c = connect_hit(sample->pass->job->scene, sample->counts, &eye[t - 2], &eye[t - 1], t);
+    sample_add(sample, (struct joined){.s = 0, .t = t, .z = &eye[t - 1], .c = &c, .pmf = 1, .scale = 1});
+}
+
+void sample_direct(struct sample *sample, const struct vertex *z, int t)
+{
+    const struct render_job *job = sample->pass->job;
+    int n = z->eye_end == FIRST_HIT ? sample->light_points : 1;
+    if (z->kind == VERTEX_ESCAPED || t > job->max_depth + 1 || !(sample->counts->direct[z->eye_end] > 0))
+        return;
+    for (int i = 0; i < n; i++) {
+        struct light_point y0;
+        struct connection c = connect_direct(job->scene, sample->counts, z, &sample->sampler, i, n, &y0);
+        sample_add(sample, (struct joined){.s = 1, .t = t, .z = z, .c = &c, .y0 = &y0, .pmf = 1, .scale = 1.0 / n});
+    }
+}
+
+void sample_pairs(struct sample *sample, const struct drawn *drawn, const struct vertex *z, int t, double scale)
+{
+    const struct render_job *job = sample->pass->job;
+    for (int i = drawn->first; i < drawn->end && i + 1 + t <= job->max_depth + 2; i++) {
+        struct connection c = connect_pair(job->scene, sample->counts, &drawn->light[i], z);
+        sample_add(sample, (struct joined){.s = i + 1, .t = t, .light = drawn->light, .z = z, .c = &c,
+                                           .pmf = drawn->pmf, .scale = scale});
+    }
+}
+
+void sample_splat(struct sample *sample, struct joined j)
+{
+    const struct scene *scene = sample->pass->job->scene;
+    const double *radius = scene->filter.radius;
+    bool seen = !rgb_is_black(j.c->value);
+    if (!seen && sample->pass->observer == NULL)
+        return;
+    struct connection image = *j.c;
+    j.added = seen ? rgb_scale(j.c->value, j.scale * j.c->weight) : rgb_black();
+    for (int i = 0, n = seen ? camera_images(&scene->camera, radius) : 1; i < n; i++) {
+        image.px = j.c->px;
+        image.py = j.c->py;
+        if (seen)
+            camera_image(&scene->camera, radius, i, &image.px, &image.py);
+        struct joined path = j;
+        path.c = &image;
+        tell_joined(sample, &path);
+        if (seen)
+            tile_add_splat(sample->pass->tile, image.px, image.py, j.added,
+                           scene->lights.light[joined_light(&j)].group);
+    }
+}
+
+void sample_lens(struct sample *sample, const struct vertex *light, int n_light, double scale)
+{
+    const struct render_job *job = sample->pass->job;
+    tell_walked(sample, IMPORTANCE, light, n_light);
+    for (int s = 2; s <= n_light && s <= job->max_depth + 1; s++) {
+        struct connection c = connect_lens(job->scene, sample->counts, light, s, &sample->sampler);
+        sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .pmf = 1,
+                                             .scale = scale / sample->counts->lens});
+    }
+}
