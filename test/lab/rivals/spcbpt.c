@@ -181,7 +181,8 @@ static void guide_subspaces(struct tables *tables, const struct lessons *all, in
     size_t n = (size_t)t->columns, rows = t->rows > 0 ? (size_t)subspaces : 0;
     int *region = mem_alloc((size_t)subspaces, sizeof *region);
     double *ratio = mem_alloc(rows * n, sizeof *ratio), *before = mem_alloc(rows * (n + 1), sizeof *before);
-    for (const struct link *k = all->link + all->n_links; k-- > all->link;) {
+    for (size_t i = (size_t)all->n_links; i-- > 0;) {
+        const struct link *k = &all->link[i];
         const double *x = k->end[0].x;
         region[k->label[0]] = region_at(&tables->regions, vec(x[0], x[1], x[2]), vec(x[3], x[4], x[5]));
     }
