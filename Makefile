@@ -91,9 +91,8 @@ demo: ## build both programs with all cores, and render the corridor by bdpt and
 	@cp out/demo/images/corridor.png out/demo.png
 	@awk -F , 'NR > 1 { printf "%s: %d samples in %.1f s of CPU, rmse8 %.2f\n", $$2, $$4, $$5, sqrt($$8) }' out/demo/runs.csv
 
-experiments: asbdpt-lab ## measure all integrators on the five scenes, quickly, into out/experiments/results.html
-	$(LAB) experiment --quick -o out/experiments
-	sh doc/html.sh out/experiments results.md
+experiments: asbdpt-lab ## chapter 4 of the dissertation, measured again, into out/experiments/report.html (five minutes on two cores; PUBLISHED=DIR: on its scenes)
+	sh test/experiments.sh out/experiments
 
 web: asbdpt ## build and test the page that renders, out/asbdpt.html, where clang can compile for wasm32-wasi
 	sh doc/web/build.sh out/asbdpt.html

@@ -1,5 +1,5 @@
 # html.awk: a page of Markdown, or a source file (-v source=1), as HTML that needs nothing but itself and its pictures.
-#   awk -v root=../.. -v title=NAME [-v math=1] [-v source=1] [-v nav=0] -f doc/math.awk -f doc/html.awk FILE >FILE.html
+#   awk -v root=../.. -v title=NAME [-v math=1] [-v source=1] -f doc/math.awk -f doc/html.awk FILE >FILE.html
 # root is the way from the page to the top of the HTML tree. The subset of Markdown is that of this tree's documents:
 # headings, paragraphs, lists of one level, tables, indented and fenced code, pictures, links, emphasis, code.
 # With math, plain-text formulas are typeset: those of a line of text by indices and Greek letters, blocks by
@@ -196,7 +196,7 @@ BEGIN {
     print "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
     print "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" title "</title>"
     print "<link rel=\"stylesheet\" href=\"" root "/style.css\"></head><body" (source ? " class=\"source\"" : "") ">"
-    if (nav != "0") print "<nav><a href=\"" root "/README.html\">asbdpt</a> <a href=\"" root "/doc/tour/README.html\">tour</a> " \
+    print "<nav><a href=\"" root "/README.html\">asbdpt</a> <a href=\"" root "/doc/tour/README.html\">tour</a> " \
         "<a href=\"" root "/doc/course/README.html\">course</a> <a href=\"" root "/doc/tour/glossary.html\">glossary</a> " \
         "<a href=\"" root "/doc/README.html\">all pages</a></nav>"
     if (source) print "<h1>" title "</h1><pre>"

@@ -1,8 +1,7 @@
 #!/bin/sh
 # html.sh OUT: all documents as static HTML in OUT, with the sources they link to; `make doc` calls it. Needs sh and awk.
-# html.sh DIR PAGE.md: that page of DIR alone as DIR/PAGE.html; `make experiments` calls it.
-out=$1 alone=$2
-[ -n "$alone" ] || rm -rf "$out"
+out=$1
+rm -rf "$out"
 mkdir -p "$out" || exit 1
 cat >"$out/style.css" <<'STYLE'
 :root { color-scheme: light dark; }
@@ -80,12 +79,6 @@ sub, sup { font-size: 0.72em; line-height: 0; }
     h2 { break-after: avoid; }
 }
 STYLE
-
-if [ -n "$alone" ]; then
-    awk -v root=. -v nav=0 -v title="$(sed -n 's/^# //p;/^# /q' "$out/$alone")" -f doc/math.awk -f doc/html.awk "$out/$alone" >"$out/${alone%.md}.html"
-    echo "$out/${alone%.md}.html"
-    exit
-fi
 
 # page FILE: one page of the tree.
 page() {

@@ -6,6 +6,9 @@
 #     ref/NAME.pfm        the mean of both methods, weighted by the inverse of their variances
 #     ref/NAME.error.pfm  its standard errors
 #     ref/NAME.txt        how it was made: commands, seeds, version, mean, p-values
+# SCENES=DIR takes DIR/NAME/scene.pbrt of another folder instead, REFS=DIR keeps what is made there, RES=, SPP= (of a batch)
+# and MAXDEPTH= choose size, samples and longest path:
+#     SCENES=published REFS=published/refs RES=128 SPP=256 MAXDEPTH=8 sh ref/make-ref.sh ./asbdpt build/pub cornell-box
 # The scene "demo" is the picture that `make demo` measures against, ref/demo/corridor.png: larger, for the eye, and by
 # asbdpt alone. Batches are kept in WORK: a run that was interrupted goes on where it stopped. One thread takes about an hour and a quarter.
 set -e
@@ -13,11 +16,15 @@ program=${1:-./asbdpt} lab=${1:-./asbdpt}-lab
 work=${2:-build/ref}
 [ $# -gt 2 ] && shift 2 || set -- demo cornell-box cornell-box-modified living-room veach-ajar bathroom \
     caustic-glass sky spot corridor many-lights forest
-batches=16
+batches=16 refs=${REFS-ref}
+
+# The file of a scene.
+file() { [ -z "${SCENES-}" ] && echo "scenes/$1.pbrt" || echo "$SCENES/$1/scene.pbrt"; }
 
 # The resolution of a scene's reference: a tenth of its own, or thereabouts.
 resolution() {
-    case $1 in
+    case ${RES-$1} in
+        [0-9]*) echo "$RES" ;;
         cornell-box*) echo 32x32 ;;
         living-room | veach-ajar) echo 48x27 ;;
         *) echo 36x24 ;;
@@ -26,7 +33,8 @@ resolution() {
 
 # Samples per pixel and batch: fewer where they are dear or err little.
 samples() {
-    case $1 in
+    case ${SPP-$1} in
+        [0-9]*) echo "$SPP" ;;
         forest) echo 256 ;;
         corridor | many-lights) echo 512 ;;
         *) echo 1024 ;;
@@ -49,7 +57,7 @@ render() {
     while [ $i -lt $batches ]; do
         file=$work/$1-$2-$i.pfm
         if [ ! -f "$file" ]; then
-            "$lab" render "scenes/$1.pbrt" --integrator "${2%%:*}" ${parameter:+-P "${parameter#:}"} --filter box \
+            "$lab" render "$(file "$1")" ${MAXDEPTH:+--maxdepth "$MAXDEPTH"} --integrator "${2%%:*}" ${parameter:+-P "${parameter#:}"} --filter box \
                 --res "$(resolution "$1")" --spp "$(samples "$1")" --seed $(($3 + i)) --nthreads 1 --quiet \
                 -o "$work/part.pfm"
             mv "$work/part.pfm" "$file"
@@ -79,7 +87,7 @@ pixels, box filter"
     } >ref/demo/corridor.txt
 }
 
-mkdir -p "$work"
+mkdir -p "$work" "$refs"
 for scene; do
     [ "$scene" = demo ] && { demo; continue; }
     pair=$(methods "$scene")
@@ -88,6 +96,6 @@ for scene; do
     render "$scene" "$b" 2000
     note="$("$program" --version), ref/make-ref.sh: $a with seeds 1000 to $((999 + batches)) and $b with seeds 2000"
     note="$note to $((1999 + batches)), each with $(samples "$scene") samples per pixel, $(resolution "$scene") pixels, box filter"
-    "$lab" verify "scenes/$scene.pbrt" --files "$work/$scene-$a-"*.pfm --against "$work/$scene-$b-"*.pfm \
-        --store "ref/$scene" --note "$note"
+    "$lab" verify "$(file "$scene")" ${MAXDEPTH:+--maxdepth "$MAXDEPTH"} --files "$work/$scene-$a-"*.pfm --against "$work/$scene-$b-"*.pfm \
+        --store "$refs/$scene" --note "$note"
 done

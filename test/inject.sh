@@ -108,7 +108,7 @@ work() {
     set -- "$lab" experiment scene.pbrt -o results --res 2x1 --spp 1 --maxdepth 1 --seeds 1 --reference-spp 4 \
         --quiet
     (cd start && "$@" >/dev/null 2>&1)
-    rm -rf start/results/results.* start/results/images/*.png
+    rm -rf start/results/results.* start/results/report.html start/results/images/*.png
     all results "$@"
     cp counts.txt report.txt
     rm -rf start/results

@@ -282,7 +282,7 @@ static void check_damage(struct test *t, const char *directory)
  * stay as they are. */
 static void check_resumed(struct test *t)
 {
-    static const char *const files[] = {"family.md", "runs.csv", "images/cornell-box.png"};
+    static const char *const files[] = {"family.md", "runs.csv", "images/cornell-box.png", "report.html"};
     const char *scenes[2];
     char directory[300], path[512];
     struct error err = {.text = ""};
@@ -307,6 +307,9 @@ static void check_resumed(struct test *t)
         double a = first.scene[scene].run[method][seed][0].value[Q_SECONDS];
         double b = again.scene[scene].run[method][seed][0].value[Q_SECONDS];
         CHECK(t, same(&first, &again, scene, method, seed), "picture %d", k);
+        const struct run *early = &first.scene[scene].run[method][seed][1];
+        CHECK(t, early->spp > 0 && early->square[0] == again.scene[scene].run[method][seed][1].square[0],
+              "its earlier step");
         CHECK(t, k == 4 || a == b, "picture %d is rendered again", k);
         CHECK(t, third.scene[scene].run[2 * method][seed][0].value[Q_SECONDS] == b, "beside one more method");
     }
@@ -369,12 +372,21 @@ static void check_both_ways(struct test *t)
     for (int v = 0; ok && v < 3; v++)
         CHECK(t, by_pairs.scene[0].mark[v] == MARK_NONE && by_reference.scene[0].mark[v] == MARK_NONE, "%s is marked",
               p.methods.item[v].text);
+    struct run early[3]; /* of bdpt, after 4, 8 and 16 of its 32 samples: what is rendered by itself below */
+    memcpy(early, &by_pairs.scene[0].run[0][1][2], sizeof early);
     results_free(&by_pairs);
     p.equal = false, p.reference = NULL;
     double sum[3] = {0, 0, 0}; /* after 4, 8 and 16 samples: each step has pairs of its own */
     ok = plan_set_spp(&p, 4, 16, &err) && measure(&p, &by_pairs, &err);
     for (int i = 0; ok && i < 9 * p.n_seeds; i++)
         sum[i % 3] += by_pairs.scene[0].run[i / 3 % 3][i / 9][i % 3].square[SQUARE_MSE8];
+    for (int i = 0; ok && i < 3; i++) {
+        const struct run *alone = &by_pairs.scene[0].run[0][1][i];
+        CHECK(t, early[i].spp == 4 << i && early[i].value[Q_RMSE8] == alone->value[Q_RMSE8] &&
+                 early[i].square[SQUARE_RELMSE] == alone->square[SQUARE_RELMSE],
+              "on the way, after %ld samples: rmse8 %g, rendered by itself %g", early[i].spp, early[i].value[Q_RMSE8],
+              alone->value[Q_RMSE8]);
+    }
     CHECK(t, sum[0] / sum[2] > 2 && sum[0] / sum[2] < 8, "by pairs: %g, %g, %g", sum[0], sum[1], sum[2]);
     results_free(&by_pairs);
     results_free(&by_reference);

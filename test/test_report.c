@@ -223,7 +223,7 @@ static void check_sheet(struct test *t, const struct results *r)
     struct error err = {.text = ""};
     char path[512];
     snprintf(path, sizeof path, "%s/images/cornell-box.png", r->plan->directory);
-    if (!CHECK(t, image_read(path, NULL, &img, &err), "%s", err.text))
+    if (!CHECK(t, pictures_write(s, &err) && image_read(path, NULL, &img, &err), "%s", err.text))
         return;
     int k = COLUMN_WIDTH / s->width, column = s->width * k + COLUMN_GAP;
     CHECK(t, img.width == (COMPARED + 1) * column + COLUMN_GAP, "%d columns of %d", COMPARED + 1, column);
@@ -246,8 +246,55 @@ static void check_sheet(struct test *t, const struct results *r)
     image_free(&img);
 }
 
+static int times(const char *text, const char *piece)
+{
+    int n = 0;
+    for (; (text = strstr(text, piece)) != NULL; text++)
+        n++;
+    return n;
+}
+
+/* report.html needs nothing from elsewhere, has each method once, its points and, unless it is of a sweep alone, its
+ * picture; and whatever a file is called, it ends no string and no element. */
+static void check_page(struct test *t, struct results *r)
+{
+    static const char *const nowhere[] = {"http", " src=", "url(", "@import", "nan", "inf,", "inf]", "Infinity"};
+    char *page = text_of(t, r->plan->directory, "report.html"), *data = strstr(page, "id=\"data\">");
+    int depth = 0;
+    struct error err;
+    if (!CHECK(t, data != NULL && strlen(page) < 100000, "a page of %d bytes", (int)strlen(page)))
+        return;
+    for (size_t i = 0; i < sizeof nowhere / sizeof nowhere[0]; i++) {
+        const char *found = strstr(i < 4 ? page : data, nowhere[i]);
+        CHECK(t, found == NULL || found > strstr(data, "</script>"), "the page has %.60s", found);
+    }
+    CHECK(t, strncmp(page, "<!DOCTYPE html>", 15) == 0 && strcmp(page + strlen(page) - 8, "</html>\n") == 0 &&
+          times(page, "<script") == 2 && times(page, "</script>") == 2 && times(page, "<style>") == 1, "a whole page");
+    for (const char *c = data; c < strstr(data, "</script>"); c++)
+        depth += (*c == '{' || *c == '[') - (*c == '}' || *c == ']');
+    CHECK(t, depth == times(r->plan->command, "{"), "%d brackets are open", depth);
+    for (int v = 0; v < N_METHODS; v++) {
+        char text[METHOD_TEXT + 40];
+        snprintf(text, sizeof text, "\"text\":\"%s\",", r->plan->methods.item[v].text);
+        CHECK(t, times(data, text) == 1, "%s is there %d times", text, times(data, text));
+    }
+    char point[40];
+    snprintf(point, sizeof point, "[%ld,%.5g,%.5g,", r->plan->spp[0], results_seconds(&r->scene[0], 0, 0),
+             sqrt(results_square(&r->scene[0], 0, 0, SQUARE_MSE8))); /* after more the reference is too noisy */
+    CHECK(t, strstr(data, point) != NULL, "no point %s", point);
+    CHECK(t, times(data, "\"png\":\"iVBORw0KGgo") == COMPARED + 1 && strstr(data, "[64,1.9842]") != NULL,
+          "%d pictures", times(data, "\"png\":\"iVBORw0KGgo"));
+    free(page);
+    snprintf(r->scene[0].reference.origin, sizeof r->scene[0].reference.origin, "</script>\"&\\");
+    CHECK(t, report_write(r, &err), "%s", err.text);
+    page = text_of(t, r->plan->directory, "report.html");
+    CHECK(t, strstr(page, "\"origin\":\"\\u003c/script\\u003e\\u0022\\u0026\\u005c\",") != NULL &&
+          times(page, "</script>") == 2, "a name that ends an element");
+    free(page);
+}
+
 /* Every file the experiment leaves is well-formed, and every one that the page names is there. */
-static void check_output(struct test *t, const struct results *r)
+static void check_output(struct test *t, struct results *r)
 {
     struct error err = {.text = ""};
     CHECK(t, report_write(r, &err), "output: %s", err.text);
@@ -266,8 +313,11 @@ static void check_output(struct test *t, const struct results *r)
         CHECK(t, file_exists(path), "%s, which the page names, is not there", path);
     }
     CHECK(t, named == 2 && strstr(page, "nan") == NULL, "the page names %d files", named);
+    CHECK(t, strstr(page, "larger than what it judges; use more --reference-spp:** bdpt") != NULL, "64 samples are "
+          "compared with a reference of 64");
     check_tables(t, r, page);
     free(page);
+    check_page(t, r);
 }
 
 static void test_experiment(struct test *t)

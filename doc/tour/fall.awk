@@ -1,13 +1,16 @@
 # fall.awk: curves as SVG, both axes logarithmic, with dashed lines from where each begins. Reads lines "NAME N VALUE",
 # those of a name together; -v title=. Unless -v across= and -v up= name the axes, N are samples per pixel, and values are
 # errors. Unless -v slope= is given, the dashed lines are proportional to 1/sqrt(N). -v wide=: pixels of the N axis. Lines
-# "NAME N VALUE LOW HIGH" have bars.
+# "NAME N VALUE LOW HIGH" have bars. -v names="A B ...": whatever comes first, A has the first colour, B the second, and
+# dashes of their own. -v dashed=: what dashed lines are, said in the figure.
 BEGIN {
     if (slope == "") slope = -0.5
     if (wide == "") wide = 420
     if (across == "") across = "samples per pixel"
     if (up == "") up = "rmse of 8-bit values; lower is better"
-    split("#1d5fbf #c96f00 #23823b #b0408f #777777 #8a6d00", colour, " ")
+    split("#1d5fbf #c96f00 #23823b #b0408f #777777 #8a6d00 #007d99 #6a5acd", colour, " ")
+    split("none,8 3,2 3,9 3 2 3,14 4,5 2,1 2,6 2 1 2 1 2", dash, ",")
+    fixed = split(names, known, " ")
 }
 function X(n) { return 70 + wide * log(n / first) / log(last / first) }
 function Y(e) { return 300 - 250 * log(e / least) / log(most / least) }
@@ -31,6 +34,7 @@ END {
     for (; k <= last; k *= every)
         printf "<path d='M%g 40V300' stroke='#ddd'/><text x='%g' y='318' text-anchor='middle'>%d</text>\n", X(k), X(k), k
     print "<text x='" 70 + wide / 2 "' y='340' text-anchor='middle'>" across "</text>"
+    if (dashed != "") printf "<text x='%d' y='34' text-anchor='end' fill='#666' font-size='12'>%s</text>\n", 70 + wide, dashed
     print "<text x='14' y='175' text-anchor='middle' transform='rotate(-90 14 175)'>" up "</text>"
     for (p = -3; p < 4; p++)
         for (m = 1; m <= 5; m += m == 1 ? 1 : 3)
@@ -39,7 +43,9 @@ END {
                     Y(v), 70 + wide, Y(v) + 4, v
     for (i = 1; i <= NR; i++)
         if (name[i] != name[i - 1]) {
-            c = colour[++series]
+            series++
+            for (j = 1; j <= fixed; j++) if (known[j] == name[i]) series = j
+            c = colour[series]
             stop = last
             end = e[i] * (stop / n[i]) ^ slope
             edge = slope < 0 ? least : most
@@ -53,8 +59,8 @@ END {
                     printf "<path d='M%.1f %.1fV%.1f' stroke='%s'/>\n", X(n[j]), Y(low[j] > least ? low[j] : least), \
                         Y(high[j] < most ? high[j] : most), c
             }
-            printf "<path d='%s' fill='none' stroke='%s' stroke-width='2'/><text x='%d' y='%.1f' fill='%s'>%s</text>\n", d, c,
-                80 + wide, label(Y(e[j - 1]) + 4), c, name[i]
+            printf "<path d='%s' fill='none' stroke='%s' stroke-width='2'%s/><text x='%d' y='%.1f' fill='%s'>%s</text>\n", d, c,
+                fixed ? " stroke-dasharray='" dash[series] "'" : "", 80 + wide, label(Y(e[j - 1]) + 4), c, name[i]
         }
     print "</svg>"
 }

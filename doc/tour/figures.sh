@@ -62,7 +62,7 @@ for restart in 0 4 8 16 32; do
             printf "%s %.2f %.3f %.3f\n", n ? "restart_" n : "bdpt", mean, mean - error, mean + error
         }'
 done >table.txt
-chart bias "How far the mean of bins is from the truth" "per cent of the truth; whiskers: two standard errors"
+chart bias "How far the mean of bins is from the truth" "per cent of the truth; whiskers: two standard errors; one that reaches 0 shows no bias"
 
 # p-values of two methods that agree, and of bins.
 for seed in 1 2 3 4 5 6 7 8; do

@@ -6,8 +6,9 @@
 #include "lab/commands.h"
 #include "image/image.h"
 #include "lab/compare.h"
+#include "lab/sheet.h"
 
-enum { PERCENTILE = 99 };
+enum { PERCENTILE = 99, BAR = 10, BAR_LEAST = 160 }; /* height and least width of the colour bar */
 
 struct compare_options {
     const char *image, *reference, *heatmap;
@@ -20,7 +21,8 @@ static const struct option OPTIONS[] = {
     {"IMAGE", NULL, OPTION_TEXT, AT(image), 1, .help = "a picture"},
     {"REFERENCE", NULL, OPTION_TEXT, AT(reference), 1, .help = "a picture of the same size"},
     {"--heatmap", "FILE.png", OPTION_TEXT, AT(heatmap), .written = true,
-     .help = "write where they differ, as colours (viridis)"},
+     .help = "write where they differ, as colours (viridis) with a colour bar: of each pixel the root mean square of "
+             "its channels' linear errors"},
     {"--max", "X", OPTION_NUMBER, AT(most), 1e-30, 1e30,
      .help = "the brightest colour stands for this error (default: what 99 % of all errors are below)"},
     {"--max-rmse", "X", OPTION_NUMBER, AT(max_rmse), 1e-30, 1e30,
@@ -39,6 +41,28 @@ static void print(const struct difference *d, double blocks)
         printf("%-10s %.6g\n", lines[i].name, lines[i].value);
 }
 
+/* The map, and below it what its colours stand for. */
+static struct sheet map_with_bar(const float *map, int width, int height, double most)
+{
+    static const char unit[] = "linear rmse";
+    struct sheet s;
+    char text[32];
+    int wide = width > BAR_LEAST ? width : BAR_LEAST, y = height + BAR / 2;
+    sheet_init(&s, wide, height + 3 * BAR, SHEET_PAPER);
+    sheet_paste(&s, 0, 0, map, width, height, 1);
+    for (int x = 0; x < wide; x++) {
+        float colour[3];
+        viridis(x / (wide - 1.0), colour);
+        for (int j = 0; j < BAR; j++)
+            sheet_paste(&s, x, y + j, colour, 1, 1, 1);
+    }
+    snprintf(text, sizeof text, "%.3g", most);
+    sheet_text(&s, 2, y + BAR + 4, 1, SHEET_INK, "0");
+    sheet_text(&s, (wide - sheet_text_width(unit, 1)) / 2, y + BAR + 4, 1, SHEET_INK, unit);
+    sheet_text(&s, wide - sheet_text_width(text, 1) - 2, y + BAR + 4, 1, SHEET_INK, text);
+    return s;
+}
+
 /* Into a file that is open. */
 static bool write_heatmap(const struct compare_options *o, struct file_output *f, const float *x, const float *r,
                           int width, int height, struct error *err)
@@ -48,8 +72,10 @@ static bool write_heatmap(const struct compare_options *o, struct file_output *f
     compare_errors(x, r, pixels, error);
     double most = o->most > 0 ? o->most : picture_percentile(error, pixels, PERCENTILE);
     compare_heatmap(error, pixels, most, map);
-    const struct raster picture = {{0, 0, 0, 0}, width, height, map, NULL, 0};
+    struct sheet sheet = map_with_bar(map, width, height, most);
+    const struct raster picture = {{0, 0, 0, 0}, sheet.width, sheet.height, sheet.pixels, NULL, 0};
     bool ok = image_finish(f, &picture, err);
+    sheet_free(&sheet);
     if (ok)
         printf("heatmap    0 to %.6g%s\n", most, o->most > 0 ? "" : " (percentile)");
     free(error);

@@ -41,7 +41,8 @@ static const struct option SHARED[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXTS, AT(scenes),
      .help = "scene files (default: eleven of scenes/, of which experiment measures five)"},
     {"-o", "DIR", OPTION_TEXT, AT(plan.directory), 1,
-     .help = "a directory for its results; started again with the same, it goes on"},
+     .help = "a directory for its results, of which report.html is the one to open; started again with the same, it "
+             "goes on"},
     {"--seeds", "N", OPTION_INTEGER, AT(plan.n_seeds), 1, PLAN_MAX_SEEDS,
      .help = "renders per method (default: 3; equal-time, family: 5, of which 1 and 2 need a stored reference)"},
     {"--maxdepth", "N", OPTION_INTEGER, AT(plan.max_depth), 1, PATH_MAX_DEPTH,
@@ -176,7 +177,7 @@ static bool write_equal(const struct results *r, struct error *err)
     bool ok = family_write(r, "equal-time.md", err);
     if (ok) {
         family_tables(stdout, r);
-        printf("%s/equal-time.md\n", r->plan->directory);
+        printf("%s/report.html\n", r->plan->directory);
         equal_verdict(stdout, r);
     }
     return ok;
@@ -186,7 +187,7 @@ static bool write_family(const struct results *r, struct error *err)
 {
     bool ok = family_write(r, "family.md", err);
     if (ok && !r->plan->quiet)
-        printf("%s/family.md\n", r->plan->directory);
+        printf("%s/report.html\n", r->plan->directory);
     return ok;
 }
 
@@ -194,7 +195,7 @@ static bool write_experiment(const struct results *r, struct error *err)
 {
     bool ok = report_write(r, err);
     if (ok && !r->plan->quiet)
-        printf("%s/results.md\n", r->plan->directory);
+        printf("%s/report.html\n", r->plan->directory);
     return ok;
 }
 

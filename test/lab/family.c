@@ -6,8 +6,9 @@
 
 #include "lab/claims.h"
 #include "lab/equal.h"
-#include "lab/pictures.h"
 #include "lab/md_table.h"
+#include "lab/page.h"
+#include "lab/pictures.h"
 
 /* The methods that a table or figure shows, the first of them that which all are compared with. */
 struct view {
@@ -217,8 +218,9 @@ void family_tables(FILE *f, const struct results *e)
 
 bool family_write(const struct results *r, const char *page, struct error *err)
 {
-    bool ok = results_write(r, "runs.csv", results_csv, err) && results_write(r, page, family_tables, err);
-    for (int i = 0; ok && i < r->plan->n_scenes; i++)
+    bool ok = results_write(r, "runs.csv", results_csv, err) && results_write(r, page, family_tables, err) &&
+              page_write(r, "Methods after the same CPU time", page, NULL, err);
+    for (int i = 0; ok && r->plan->n_compared <= PICTURES_MOST && i < r->plan->n_scenes; i++)
         ok = pictures_write(&r->scene[i], err);
     return ok;
 }

@@ -1,7 +1,7 @@
 /* family.h: methods compared at equal time (equal.h): what `asbdpt-lab equal-time` and `family` write.
  *
- * Files: a page of Markdown with the ratios to the first method and their intervals, runs.csv with every picture's
- * errors, and images/SCENE.png with all pictures and their errors.
+ * Files: a page of Markdown with the ratios to the first method and their intervals, the same with curves and pictures
+ * as report.html (page.h), runs.csv with every picture's errors, and of few methods images/SCENE.png with all pictures.
  *
  * Tests: test_equal_time.c.
  */

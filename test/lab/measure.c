@@ -19,28 +19,67 @@ enum {
     CLEANER = 4 /* times as many samples of it, where all errors are against it */
 };
 
-/* How far all is; counted in runs. */
+/* How far all is; counted in runs. At equal time a render is stored at earlier numbers of samples, too. */
 struct pace {
     struct progress bar;
     double total, done, share; /* share: of the run that is going on */
+    struct subject *s;         /* of a render at equal time; NULL: of another */
+    const struct film *film;
+    int method;
+    uint64_t seed;
+    long spp; /* that it will have */
 };
+
+/* Step i > 0 of a render of so many samples: powers of two from a sixteenth on; 0: there is none. */
+static long earlier_step(long spp, int i)
+{
+    long n = 1;
+    while (n <= spp / 32)
+        n *= 2;
+    return i < PLAN_MAX_STEPS && n << (i - 1) < spp ? n << (i - 1) : 0;
+}
+
+
+/* --- one run ----------------------------------------------------------------------------------------- */
+
+/* Of so many samples; of > 0: on the way to as many. */
+static void picture_key(struct subject *s, int method, uint64_t seed, long spp, long of, char name[STORE_NAME],
+                        char key[STORE_KEY])
+{
+    int n = subject_key(s, method, key);
+    n += snprintf(key + n, (size_t)(STORE_KEY - n), " seed=%" PRIu64 " spp=%ld", seed, spp);
+    int k = snprintf(name, STORE_NAME, "store/%s--%s--%d--seed%" PRIu64 "--%ld", s->out->name,
+                     s->plan->methods.item[method].file, s->scene.width, seed, spp);
+    if (of > 0) {
+        snprintf(key + n, (size_t)(STORE_KEY - n), " of %ld", of);
+        snprintf(name + k, (size_t)(STORE_NAME - k), "-of-%ld", of);
+    }
+}
+
+/* If the film has as many samples as one of the earlier steps. What cannot be stored is a point less. */
+static void keep_earlier(const struct pace *pace)
+{
+    char name[STORE_NAME], key[STORE_KEY];
+    struct subject *s = pace->s;
+    struct record r = {{0, (double)pace->film->nonfinite}, NULL, s->scene.width, s->scene.height};
+    int i = 1;
+    while (earlier_step(pace->spp, i) != 0 && earlier_step(pace->spp, i) != pace->film->iterations)
+        i++;
+    if (earlier_step(pace->spp, i) == 0)
+        return;
+    picture_key(s, pace->method, pace->seed, earlier_step(pace->spp, i), pace->spp, name, key);
+    r.pixels = timed_develop(&s->scene, pace->film);
+    store_write(s->plan->directory, name, key, &r, NULL);
+    free(r.pixels);
+}
 
 static enum render_wish show_progress(void *context, double done)
 {
     struct pace *pace = context;
     progress_update(&pace->bar, (pace->done + done * pace->share) / pace->total);
+    if (pace->s != NULL && done < 1 && pace->film->passes == 0 && pace->film->iterations > 0)
+        keep_earlier(pace);
     return RENDER_GO_ON;
-}
-
-/* --- one run ----------------------------------------------------------------------------------------- */
-
-static void picture_key(struct subject *s, int method, uint64_t seed, long spp, char name[STORE_NAME],
-                        char key[STORE_KEY])
-{
-    int n = subject_key(s, method, key);
-    snprintf(key + n, (size_t)(STORE_KEY - n), " seed=%" PRIu64 " spp=%ld", seed, spp);
-    snprintf(name, STORE_NAME, "store/%s--%s--%d--seed%" PRIu64 "--%ld", s->out->name,
-             s->plan->methods.item[method].file, s->scene.width, seed, spp);
 }
 
 /* Against the reference. */
@@ -79,7 +118,7 @@ static bool read_run(struct subject *s, int method, int seed, const long *spp, i
     char name[STORE_NAME], key[STORE_KEY];
     for (int i = 0; i < n; i++) {
         struct record r = {{0}, NULL, 0, 0};
-        picture_key(s, method, plan_seed(p, method, seed), spp[i], name, key);
+        picture_key(s, method, plan_seed(p, method, seed), spp[i], 0, name, key);
         if (!store_read(p->directory, name, key, &r))
             return false;
         take_step(s, method, seed, i, spp[i], &r);
@@ -101,11 +140,20 @@ static bool render_run(struct subject *s, int method, int seed, const long *spp,
     bool ok = n == 1 || timed_prepare(&s->scene, &o, &prepared, &block, s->err);
     o.progress = show_progress;
     o.progress_context = s->pace;
+    s->pace->s = NULL;
+    if (p->equal) {
+        o.block = (int)earlier_step(spp[0], 1); /* where the method leaves that open; changes nothing of the picture */
+        s->pace->s = s;
+        s->pace->film = &film;
+        s->pace->method = method;
+        s->pace->seed = number;
+        s->pace->spp = spp[0];
+    }
     film_init(&film, render_crop(&s->scene), s->scene.width, s->scene.height);
     for (int i = 0; ok && i < n; i++) {
         struct timed took = {0};
         char name[STORE_NAME], key[STORE_KEY];
-        picture_key(s, method, number, spp[i], name, key);
+        picture_key(s, method, number, spp[i], 0, name, key);
         o.first = i > 0 && (block == 0 || spp[i - 1] % block == 0) ? spp[i - 1] : 0;
         o.end = spp[i];
         if (o.first == 0 && i > 0) {
@@ -142,15 +190,15 @@ static bool read_or_render_run(struct subject *s, int method, int seed)
 
 /* --- errors from pairs ------------------------------------------------------------------------------- */
 
-static void compare_pairs(struct subject *s, int method, int step)
+/*   picture  [n_seeds] of the step */
+static void compare_pairs(struct subject *s, int method, int step, float *const *picture)
 {
     struct scene_results *out = s->out;
     int n = out->plan->n_seeds;
     double half[N_SQUARES][PLAN_MAX_SEEDS * PLAN_MAX_SEEDS], square[N_SQUARES], each[PLAN_MAX_SEEDS];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < i; j++) {
-            compare_squares(s->picture[method][step][i], s->picture[method][step][j], out->reference.pixels,
-                            out->width, out->height, square);
+            compare_squares(picture[i], picture[j], out->reference.pixels, out->width, out->height, square);
             for (int k = 0; k < N_SQUARES; k++)
                 half[k][i * n + j] = half[k][j * n + i] = square[k] / 2;
         }
@@ -159,6 +207,30 @@ static void compare_pairs(struct subject *s, int method, int step)
         for (int i = 0; i < n; i++)
             out->run[method][i][step].square[k] = each[i];
     }
+}
+
+/* At equal time: what all seeds have stored on the way. */
+static void compare_earlier(struct subject *s, int method, int step)
+{
+    const struct plan *p = s->plan;
+    long of = s->out->run[method][0][0].spp, spp = earlier_step(of, step);
+    float *picture[PLAN_MAX_SEEDS];
+    int n = 0;
+    for (bool there = spp > 0; there && n < p->n_seeds; n += there) {
+        char name[STORE_NAME], key[STORE_KEY];
+        struct record r = {{0}, NULL, 0, 0};
+        picture_key(s, method, plan_seed(p, method, n + 1), spp, of, name, key);
+        there = store_read(p->directory, name, key, &r);
+        picture[n] = r.pixels;
+    }
+    for (int i = 0; n == p->n_seeds && i < n; i++) {
+        s->out->run[method][i][step].spp = spp;
+        compare_picture(s, method, i + 1, step, picture[i]);
+    }
+    if (n == p->n_seeds && results_by_pairs(s->out, method))
+        compare_pairs(s, method, step, picture);
+    while (n > 0)
+        free(picture[--n]);
 }
 
 /* --- one scene --------------------------------------------------------------------------------------- */
@@ -210,7 +282,9 @@ static void judge(struct subject *s)
             out->mark[v] = mark_of(mark_tests(s->picture[v][plan_last_step(p)], n, &out->reference),
                                    p->methods.n * p->n_scenes);
         for (int step = 0; results_by_pairs(out, v) && step < p->n_steps; step++)
-            compare_pairs(s, v, step);
+            compare_pairs(s, v, step, s->picture[v][step]);
+        for (int step = 1; p->equal && step < PLAN_MAX_STEPS; step++)
+            compare_earlier(s, v, step);
     }
 }
 

@@ -49,13 +49,6 @@ static float *display_errors(const struct scene_results *s, long *n)
     return out;
 }
 
-/* How many times as wide and high as it is a picture is shown: of many methods less. */
-static int enlarged(int width, int methods)
-{
-    int most = COLUMN_WIDTH / (1 + methods / 8);
-    return width < most ? most / width : 1;
-}
-
 /* The errors of all methods below their pictures, and what their colours mean. */
 static void draw_errors(const struct scene_results *s, struct sheet *sheet, int k)
 {
@@ -79,7 +72,7 @@ struct sheet pictures_sheet(const struct scene_results *s)
 {
     const struct plan *p = s->plan;
     struct sheet sheet;
-    int k = enlarged(s->width, p->n_compared);
+    int k = s->width < COLUMN_WIDTH ? COLUMN_WIDTH / s->width : 1;
     char text[100];
     sheet_init(&sheet, (p->n_compared + 1) * (s->width * k + COLUMN_GAP) + COLUMN_GAP,
                COLUMN_GAP + COLUMN_LABEL + 2 * (s->height * k + COLUMN_GAP), SHEET_PAPER);

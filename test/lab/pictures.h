@@ -5,7 +5,7 @@
  * pixels. The heat maps share one scale, so that they can be compared: dark is no error, bright is the 99th percentile
  * of all their errors, and more. Errors are those of the displayed 8-bit values, as in the tables.
  *
- * Tests: test_report.c, test_pictures.c, test/cli.sh.
+ * Tests: test_report.c, test/cli.sh.
  */
 #ifndef ASBDPT_PICTURES_H
 #define ASBDPT_PICTURES_H
@@ -14,6 +14,7 @@
 #include "lab/sheet.h"
 
 enum { COLUMN_GAP = 24, COLUMN_LABEL = 60, COLUMN_WIDTH = 480, PICTURES_PERCENTILE = 99 };
+enum { PICTURES_MOST = 6 }; /* methods; more have report.html alone */
 
 /* pictures_sheet: the sheet, to be released with sheet_free. pictures_write: the same as
  * images/SCENE.png; false with a message. */

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "lab/numbers.h"
-#include "lab/pictures.h"
 #include "lab/md_table.h"
+#include "lab/page.h"
 
 #define PLUS_MINUS "\xc2\xb1" /* U+00B1 in UTF-8 */
 
@@ -54,6 +54,86 @@ static void add_columns(struct md_table *t, const char *const *name, int n)
         md_column(t, "%s", name[i]);
 }
 
+/* --- what was printed, and the same here --------------------------------------------------------------- */
+
+static void add_number(struct md_table *t, double x, const char *format)
+{
+    if (isfinite(x))
+        md_add(t, format, x);
+    else
+        md_add_missing(t, 1);
+}
+
+/* The ratio of the two printed methods after a step: printed and here. */
+static void add_ratios(struct md_table *t, const struct scene_results *s, long spp, int step)
+{
+    int bins = methods_find(&s->plan->methods, METHOD_PRINTED);
+    add_number(t, printed(s->name, METHOD_PRINTED, spp) / printed(s->name, METHOD_REFERENCE, spp), "%.3f");
+    if (step >= 0)
+        md_add_interval(t, results_over_first(s, bins, step, false), "");
+    else
+        md_add_missing(t, 1);
+}
+
+/* Can a page show both methods beside what was printed? Others are compared with the first, which must be bdpt. */
+static bool has_printed(const struct plan *p)
+{
+    return methods_find(&p->methods, METHOD_REFERENCE) == 0 && methods_find(&p->methods, METHOD_PRINTED) > 0;
+}
+
+/* The last step of which something was printed, or the last one. */
+static int printed_step(const struct scene_results *s)
+{
+    int step = plan_last_step(s->plan);
+    while (step > 0 && isnan(printed(s->name, METHOD_REFERENCE, s->plan->spp[step])))
+        step--;
+    return isnan(printed(s->name, METHOD_REFERENCE, s->plan->spp[step])) ? plan_last_step(s->plan) : step;
+}
+
+static void findings_table(FILE *f, const struct results *r)
+{
+    struct md_table t = md_begin(f, "RMSE of bins over that of bdpt after the same samples, printed in chapter 4 of "
+                                 "the dissertation and measured here, with its 95 %% interval; and what the mean of "
+                                 "bins is off by");
+    static const char *const heads[] = {"scene", "spp", "printed", "here", "mean off by, %"};
+    add_columns(&t, heads, 5);
+    for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++) {
+        int step = printed_step(s), bins = methods_find(&r->plan->methods, METHOD_PRINTED);
+        struct estimate off = results_mean(s, bins, plan_last_step(r->plan), Q_MEAN_ERROR);
+        md_add(&t, "%.90s", s->name);
+        md_add(&t, "%ld", r->plan->spp[step]);
+        add_ratios(&t, s, r->plan->spp[step], step);
+        add_estimate(&t, 100 * off.mean, 100 * off.error);
+    }
+    md_end(&t);
+}
+
+/* As a table of chapter 4: a row for a number of samples, of all that were printed or measured. */
+static void chapter_table(FILE *f, const struct scene_results *s)
+{
+    static const char *const heads[] = {"spp", "bdpt, printed", "bdpt", "bins, printed", "bins",
+                                        "bins over bdpt, printed", "bins over bdpt [95 %]"};
+    const struct plan *p = s->plan;
+    const char *const names[2] = {METHOD_REFERENCE, METHOD_PRINTED};
+    struct md_table t = md_begin(f, "RMSE on the 8-bit scale, printed in the dissertation and measured here");
+    add_columns(&t, heads, 7);
+    long spp = 0;
+    for (int step = 0; step < p->n_steps || 2 * spp <= PUBLISHED_FIRST << (PUBLISHED_STEPS - 1); step++) {
+        bool measured = step < p->n_steps;
+        spp = measured ? p->spp[step] : 2 * spp;
+        md_add(&t, "%ld", spp);
+        for (int i = 0; i < 2; i++) {
+            struct estimate e = {NAN, NAN, 0};
+            if (measured)
+                e = results_mean(s, methods_find(&p->methods, names[i]), step, Q_RMSE8);
+            add_number(&t, printed(s->name, names[i], spp), "%.4f");
+            add_estimate(&t, e.mean, e.error);
+        }
+        add_ratios(&t, s, spp, measured ? step : -1);
+    }
+    md_end(&t);
+}
+
 /* --- the table --------------------------------------------------------------------------------------- */
 
 /* A row is a method in a scene after a step. */
@@ -98,7 +178,12 @@ static void scene_table(FILE *f, const struct results *r, const struct scene_res
     char own[32] = "not known";
     if (isfinite(s->reference.mean_error))
         snprintf(own, sizeof own, "%.2g %%", 100 * s->reference.mean_error);
-    fprintf(f, "The standard error of the reference's own mean is %s.\n\n", own);
+    fprintf(f, "The standard error of the reference's own mean is %s.", own);
+    for (int v = 0, n = 0; v < r->plan->n_compared; v++)
+        if (isnan(results_doubt(s, v, plan_last_step(r->plan), SQUARE_MSE8)))
+            fprintf(f, "%s%s", n++ > 0 ? ", " : " **Its noise is unknown or larger than what it judges; use more "
+                    "--reference-spp:** ", r->plan->methods.item[v].text);
+    fputs("\n\n", f);
     struct md_table t = begin_rows(f);
     for (int v = 0; v < r->plan->methods.n; v++)
         for (int i = 0; i < r->plan->n_steps; i++) {
@@ -149,8 +234,9 @@ static const char NOTES[] =
 
 static void write_scene(FILE *f, const struct results *r, const struct scene_results *s)
 {
-    fprintf(f, "## %s\n\n![Each method's picture and below it where it errs, and the reference](images/%s.png)\n\n",
-            s->name, s->name);
+    fprintf(f, "## %s\n\n", s->name);
+    if (has_printed(r->plan) && isfinite(printed(s->name, METHOD_REFERENCE, PUBLISHED_FIRST)))
+        chapter_table(f, s);
     scene_table(f, r, s);
 }
 
@@ -158,9 +244,11 @@ static void write_page(FILE *f, const struct results *r)
 {
     const struct plan *p = r->plan;
     fprintf(f, "# Methods measured\n\n%d scene%s, %ld to %ld samples per pixel, %d seed%s; "
-            "[runs.csv](runs.csv) has every run.\n\n",
+            "[runs.csv](runs.csv) has every run, [report.html](report.html) curves and pictures.\n\n",
             p->n_scenes, p->n_scenes == 1 ? "" : "s", p->spp[0], plan_last_spp(p), p->n_seeds,
             p->n_seeds == 1 ? "" : "s");
+    if (has_printed(p))
+        findings_table(f, r);
     plan_write_command(f, p);
     setup_table(f, r);
     for (int i = 0; i < p->n_scenes; i++)
@@ -170,8 +258,6 @@ static void write_page(FILE *f, const struct results *r)
 
 bool report_write(const struct results *r, struct error *err)
 {
-    for (int i = 0; i < r->plan->n_scenes; i++)
-        if (!pictures_write(&r->scene[i], err))
-            return false;
-    return results_write(r, "runs.csv", results_csv, err) && results_write(r, "results.md", write_page, err);
+    return results_write(r, "runs.csv", results_csv, err) && results_write(r, "results.md", write_page, err) &&
+           page_write(r, "Chapter 4 and appendix A of the dissertation, measured again", "results.md", printed, err);
 }

@@ -1,5 +1,5 @@
-/* report.h: everything an experiment leaves in its directory with its runs: numbers, pictures, and a page of Markdown
- * with the tables.
+/* report.h: everything an experiment leaves in its directory with its runs: numbers, a page of Markdown with the
+ * tables, and the same with curves and pictures as report.html.
  *
  * Tests: test_report.c.
  */
@@ -8,7 +8,7 @@
 
 #include "lab/results.h"
 
-/* report_write: images/, runs.csv and results.md in plan->directory. False with a message. */
+/* report_write: runs.csv, results.md, report.html and its images/ in plan->directory. False with a message. */
 bool report_write(const struct results *r, struct error *err);
 
 #endif

@@ -125,15 +125,33 @@ bool results_by_pairs(const struct scene_results *s, int method)
            !s->lacks && s->mark[method] == MARK_NONE;
 }
 
-double results_doubt(const struct scene_results *s, int method, int step, enum square which)
+static double mean_square(const struct scene_results *s, int method, int step, enum square which)
 {
-    double sum = 0, noise = s->reference.noise[which];
+    double sum = 0;
     int n = plan_seeds(s->plan, method);
-    if (results_by_pairs(s, method))
-        return 0;
     for (int i = 0; i < n; i++)
         sum += s->run[method][i][step].square[which] / n;
+    return sum;
+}
+
+double results_doubt(const struct scene_results *s, int method, int step, enum square which)
+{
+    double sum = mean_square(s, method, step, which), noise = s->reference.noise[which];
+    if (results_by_pairs(s, method))
+        return 0;
     return noise <= sum ? sqr(noise / sum) : NAN;
+}
+
+double results_square(const struct scene_results *s, int method, int step, enum square which)
+{
+    return isnan(results_doubt(s, method, step, which)) ? NAN : mean_square(s, method, step, which);
+}
+
+double results_seconds(const struct scene_results *s, int method, int step)
+{
+    const struct price *p = &s->price[method];
+    return s->plan->equal ? s->seconds * (p->before + p->each * (double)s->run[method][0][step].spp) :
+                            results_mean(s, method, step, Q_SECONDS).mean;
 }
 
 int results_marked(const struct results *r, int method)

@@ -23,9 +23,10 @@ enum quantity {
     N_QUANTITIES
 };
 
-/* Measured after `spp` samples per pixel. The values are against the reference; the squares are the squared errors of
- * the picture itself, in two ways: against a reference, whose own noise is subtracted, which sees all errors; or by
- * pairs of renders with unlike seeds, whose half squared difference sees all but a bias, and needs no reference.
+/* Measured after `spp` samples per pixel; 0: not at all. The values are against the reference; the squares are the
+ * squared errors of the picture itself, in two ways: against a reference, whose own noise is subtracted, which sees all
+ * errors; or by pairs of renders with unlike seeds, whose half squared difference sees all but a bias, and needs no
+ * reference.
  *     Of S seeds with half squared differences d_ij, V is the mean of all pairs, and seed i has
  *     V + 2 (S-1)/(S-2) (mean_j d_ij - V): these have the mean V and scatter as independent errors would.
  * A square may be below 0. */
@@ -52,7 +53,9 @@ struct scene_results {
     enum mark mark[METHODS_MAX]; /* after all samples */
     struct price price[METHODS_MAX]; /* of equal time */
     double seconds;                  /* of equal time: CPU seconds of a sample of the first method */
-    struct run run[METHODS_MAX][PLAN_MAX_SEEDS][PLAN_MAX_STEPS]; /* the first plan_seeds() and n_steps of each */
+    /* The first plan_seeds() and n_steps of each. At equal time the steps from 1 on are earlier numbers of samples of
+     * the same render, for curves; some may be missing. */
+    struct run run[METHODS_MAX][PLAN_MAX_SEEDS][PLAN_MAX_STEPS];
     float *image[METHODS_MAX]; /* [height*width*3] of the first seed, all samples; owned */
 };
 
@@ -75,6 +78,11 @@ bool results_by_pairs(const struct scene_results *s, int method);
  * reference has been subtracted, and that may be wrong by as much as it is. NaN where the noise is not known, or more
  * than what is left: then nothing can be told of the square. */
 double results_doubt(const struct scene_results *s, int method, int step, enum square which);
+
+/* results_square: the mean of a method's squares; NaN where nothing can be told of it. results_seconds: mean CPU
+ * seconds, at equal time those that its prices say. */
+double results_square(const struct scene_results *s, int method, int step, enum square which);
+double results_seconds(const struct scene_results *s, int method, int step);
 
 /* results_csv: runs.csv. */
 void results_csv(FILE *f, const struct results *r);
