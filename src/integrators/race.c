@@ -23,7 +23,7 @@ enum { KINDS = TURNS - HALF_FIRST_DRAWS };
 
 /* A path that contributes x to FIRST. */
 struct event {
-    int pixel;     /* number; of a splat MOST_PIXELS, for any */
+    int cell;      /* of pixels, in which it is seen */
     enum turn half; /* the turn with half the count of its strategy, if there is one */
     bool direct;   /* light at a first hit */
     double x, weight;
@@ -33,7 +33,7 @@ struct event {
 /* Sums over samples. */
 struct tally {
     double count[ITEMS];
-    double value[FIRST + 1][MOST_PIXELS];  /* by turn: luminance, t >= 2; not for PLAIN */
+    double value[FIRST + 1][MOST_PIXELS];  /* by turn: luminance of a pixel, and of the splats in its cell */
     double direct[FIRST + 1][MOST_PIXELS]; /* by turn: the part of it that is direct light */
 };
 
@@ -55,7 +55,7 @@ struct race {
     struct tile *tile;
     struct lap lap[SAMPLES];
     struct tally tally; /* of all laps */
-    double unit[MOST_PIXELS + 1]; /* brightness in which contributions are measured; the last: of splats */
+    double unit[MOST_PIXELS]; /* brightness in which contributions are measured */
 };
 
 /* --- one path ---------------------------------------------------------------------------------------- */
@@ -66,7 +66,10 @@ static void joined(void *context, const struct sample *sample, const struct join
     bool first = p->t > 1 && (p->s == 0 ? p->z - 1 : p->z)->eye_end == FIRST_HIT; /* s = 0: z is on the light */
     bool direct = first && p->s <= 1 && p->s + p->t > 2;
     enum turn half = p->t == 1 ? HALF_SPLATS : p->s <= 1 ? TURNS : first ? HALF_FIRST_DRAWS : HALF_LATER_DRAWS;
-    int pixel = p->t == 1 ? MOST_PIXELS : pixels_cell(l->pixels, sample->x, sample->y);
+    struct pixel_rect film = l->pixels.rect; /* a splat next to the film counts at its edge */
+    int x_seen = p->t == 1 ? int_within(floor(p->c->px), film.x0, film.x1 - 1) : sample->x;
+    int y_seen = p->t == 1 ? int_within(floor(p->c->py), film.y0, film.y1 - 1) : sample->y;
+    int cell = pixels_cell(l->pixels, x_seen, y_seen);
     double x = fabs(rgb_luminance(p->added)); /* that signs of a filter differ is no noise of an image (filter.h) */
     if (l->turn == FIRST && p->t > 1 && p->s > 0)
         l->tally.count[(p->s == 1 ? FIRST_POINT : FIRST_DRAW) + !first]++;
@@ -78,13 +81,11 @@ static void joined(void *context, const struct sample *sample, const struct join
         e->share[l->turn - HALF_FIRST_DRAWS] = S <= 1 ? fmin(2 * (1 - S), 1) : 0;
         return;
     }
-    if (p->t > 1) {
-        l->tally.value[l->turn][pixel] += x;
-        l->tally.direct[l->turn][pixel] += direct ? x : 0;
-    }
+    l->tally.value[l->turn][cell] += x;
+    l->tally.direct[l->turn][cell] += direct ? x : 0;
     if (l->turn == FIRST) {
         l->event = mem_grow(l->event, &l->capacity, l->n + 1, sizeof *l->event);
-        l->event[l->n++] = (struct event){pixel, half, direct, x, p->c->weight, {0}};
+        l->event[l->n++] = (struct event){cell, half, direct, x, p->c->weight, {0}};
     }
 }
 
@@ -168,8 +169,8 @@ static void find_units(struct race *r)
     for (const struct lap *l = r->lap; l < r->lap + SAMPLES; l++)
         for (size_t i = 0; i < l->n; i++)
             mean += l->event[i].x / r->tally.count[SAMPLE];
-    for (int i = 0; i <= MOST_PIXELS; i++) {
-        double own = i == MOST_PIXELS ? mean : (r->tally.value[OTHER][i] + r->tally.value[FIRST][i]) / (2 * SAMPLES);
+    for (int i = 0; i < MOST_PIXELS; i++) {
+        double own = (r->tally.value[OTHER][i] + r->tally.value[FIRST][i]) / (2 * SAMPLES);
         r->unit[i] = 0.75 * own + 0.25 * mean + 1e-30;
     }
 }
@@ -197,13 +198,12 @@ static void predict(const struct race *r, struct runner *k)
     k->variance = variance(r, r->tally.value[OTHER], r->tally.value[FIRST]);
     for (const struct lap *l = r->lap; l < r->lap + SAMPLES; l++)
         for (const struct event *e = l->event; e < l->event + l->n; e++) {
-            double S = 1, x = e->x / r->unit[e->pixel]; /* S_k / S */
+            double S = 1, x = e->x / r->unit[e->cell]; /* S_k / S */
             for (int i = 0; i < KINDS; i++)
                 S += (times[FIRST_DRAW + i] - 1) * e->share[i];
             S = fmax(S, 1e-9);
             more[e->direct] += (huber(x / S) * S - huber(x)) / (e->half < HALF_SPLATS ? credit : 1);
             square += e->direct ? huber(x) : 0;
-            k->variance += e->half == HALF_SPLATS ? huber(x) : 0;
         }
     more[1] *= square > 0 ? fmin(direct / square, 1) : 0;
     if (k->plain)

@@ -3,6 +3,7 @@
  *
  * Runners differ in their numbers of samples (struct numbers). The first has the most. It takes SAMPLES samples of some
  * pixels with random numbers that the render does not use, and as many with others. The difference shows its variance.
+ * Each pixel is one of a cell of pixels, and splats anywhere in the cell count as its own.
  *
  * What another runner would have made of the same paths follows from their weights [Grittmann 2022]. Let S be the sum
  * in (1) of mis.h, of n_i p_i over all strategies i of a path. Let S_k be that of runner k, and x what the path
