@@ -3,8 +3,29 @@
 # better: the mean over the better of bdpt and pt, which counts where it has no mark, like "misses light", behind its
 # interval; losses: where that is above 1. Of two files, with 16 and 64 samples: sizes, what the default makes of the
 # better one, a line where learning left no time for a sample. With -v kinds=, a file of scenes and their kinds, a
-# section for each kind: both means.
-BEGIN { while (kinds != "" && (getline < kinds) > 0) kind[$1] = $2 }
+# section for each kind: both means; and halves, of the scenes that nothing was chosen on, every second of the file from
+# the first, and of the others: means and worst of all measures.
+BEGIN {
+    while (kinds != "" && (getline < kinds) > 0) {
+        kind[$1] = $2
+        if (!/^#/) half[$1] = ++rows % 2 ? "not used for tuning" : "used for tuning"
+    }
+}
+function halves(    i, h, m, text, names, over) {
+    print "== halves\n| scenes | number | mse8 | worst | relmse | worst | 8x8 | worst |\n|---|---:|---:|---|---:|---|---:|---|"
+    for (names = split("not used for tuning;used for tuning", of, ";"); names >= 1; names--) {
+        h = of[3 - names]; text = ""
+        for (m = 1; m <= 3; m++) {
+            sum = most = many = 0
+            for (i = 1; i <= n; i++) if (half[scene[i]] == h && (over = over_better(file, name[m], i)) > 0) {
+                sum += log(over); many++
+                if (over > most) { most = over; where = scene[i] }
+            }
+            text = text sprintf(" %.2f | %.2f `%s` |", exp(sum / many), most, where)
+        }
+        print "| " h " | " many " |" text
+    }
+}
 function cell(method, m, i) { return value[file, method, m, i] }
 function least(v) { return v + 0 > 0 ? v + 0 : 0.0005 } # what is printed as 0.000 is taken for half of the last digit
 # What the default of a file makes of the better one in a scene; 0: not known. bdpt is 1.
@@ -62,6 +83,7 @@ END {
     printf "== mean\n%s\n== without\n%.2f without `%s`\n", all, exp((rest - log(q[best])) / (n - 1)), scene[best]
     printf "== better\n%.2f\n== losses\n%d of %d\n", exp(better / n), losses, n
     if (file > 1) sizes()
+    if (rows) halves()
     for (k in count) if (k != "") printf "== %s\n%.2f (%.2f with the better of `bdpt` and `pt`; %d scenes)\n", k,
         exp(ours[k] / count[k]), exp(betters[k] / count[k]), count[k]
 }
