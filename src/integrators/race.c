@@ -14,7 +14,7 @@ static const double FIREFLY = 8;
 /* What is counted, and its price. Prices were fitted to CPU times; only their ratios count. The price of a light vertex
  * includes its splat. A light point that the guide chooses costs GUIDE more. */
 enum item { SAMPLE, EYE_VERTEX, FIRST_POINT, LATER_POINT, FIRST_DRAW, LATER_DRAW, LIGHT_VERTEX, ITEMS };
-static const double PRICE[ITEMS] = {4, 0.5, 1.25, 1.25, 1.4, 1.4, 4}, GUIDE = 1.5;
+static const double PRICE[ITEMS] = {1, 1.25, 1.75, 1.75, 2.75, 2.75, 4}, GUIDE = 0.25;
 
 /* How a sample is taken. PLAIN: by a path tracer that chooses lights by power. FIRST: by the first runner. OTHER: with
  * other random numbers. Then as FIRST, with half the count of one kind of strategy. */
