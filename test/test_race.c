@@ -128,7 +128,7 @@ static void test_predictions(struct test *t)
         static struct runner said[4];
         struct scene scene;
         struct bench b;
-        if (!scene_from_file(t, scenes[i / 4], 96, 64, &scene))
+        if (!scene_from_file(t, scenes[i / 4], 192, 128, &scene))
             continue;
         if (bench_new(t, &scene, set_method(&scene, runners[i % 4]), 5, 0, &b)) {
             struct runner own = b.prepared.runner[0];
