@@ -39,6 +39,8 @@ const struct option RENDER_OPTIONS[] = {
      .help = "stop when the noise is below X relative to the local brightness, e.g. 0.05; checked every 64 samples"},
     {"--noise8", "X", OPTION_NUMBER, AT(keep.noise[NOISE_8_BIT]), 1e-9, 1e9,
      .help = "stop when the noise is below X of the 255 levels of 8-bit images; with --noise, when both hold"},
+    {"--preview", "TIME", OPTION_TIME, AT(keep.preview), 1e-9, 1e9,
+     .help = "write the image so far to the first -o file after 1, 2, 4 ... seconds, then every TIME"},
     {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .written = true,
      .help = "save the render in FILE at intervals, and when a signal stops it"},
     {"--interval", "TIME", OPTION_TIME, AT(keep.interval), 0, 1e9, .fallback = "60",
@@ -134,6 +136,7 @@ static bool names_differ(struct job_options *o, const struct scene *scene, const
 static bool open_others(struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
 {
     return (f->pictures.n > 0 || open_default_output(o, scene, &f->pictures, err)) &&
+           (o->keep.preview == 0 || outputs_previews(&f->pictures, err)) &&
            aov_open(&f->aov, o->layers, &f->pictures, err) && lights_open(o->lights, scene, &f->pictures, err) &&
            names_differ(o, scene, f, err);
 }
@@ -245,7 +248,7 @@ static bool render(const struct job_options *o, const struct scene *scene, const
     film_init(&film, render_crop(scene), scene->width, scene->height);
     film_keep_planes(&film, planes);
     bool ok = parameters_max_depth(scene, o->max_depth, &options.max_depth, err) &&
-              keep_begin(&keep, &o->keep, o->quiet, scene, &options, &film, err);
+              keep_begin(&keep, &o->keep, o->quiet, scene, &options, &film, &files->pictures, err);
     if (ok) {
         if (files->aov.wanted[AOV_VARIANCE])
             film_keep_errors(&film);
