@@ -91,6 +91,10 @@ demo: ## build both programs with all cores, and render the corridor by bdpt and
 	@cp out/demo/images/corridor.png out/demo.png
 	@awk -F , 'NR > 1 { printf "%s: %d samples in %.1f s of CPU, rmse8 %.2f\n", $$2, $$4, $$5, sqrt($$8) }' out/demo/runs.csv
 
+gallery: asbdpt ## render the images of doc/gallery.md by the commands there, into out/gallery (20 minutes of CPU)
+	@mkdir -p out/gallery
+	@sed -n 's/^    //p' doc/gallery.md | sh -ex
+
 experiments: asbdpt-lab ## chapter 4 of the dissertation, measured again, into out/experiments/report.html (five minutes on two cores; PUBLISHED=DIR: on its scenes)
 	sh test/experiments.sh out/experiments
 
@@ -201,5 +205,5 @@ help: ## list the targets
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt asbdpt-lab
 
-.PHONY: FORCE all install uninstall demo experiments web bench ref test check-long check-ref portability hashes faults mutants \
+.PHONY: FORCE all install uninstall demo gallery experiments web bench ref test check-long check-ref portability hashes faults mutants \
 	layers standard references links evidence measured doc figures san tsan stats tidy help clean

@@ -34,6 +34,7 @@ for step in $steps; do
     grep -q "($step.c).* | $lines |$" "$mini/README.md" || fault "doc/mini/README.md: $step.c has $lines lines"
     before=$lines
 done
+grep -q "one file of $lines lines" "$top/README.md" || fault "README.md: the whole method has $lines lines"
 
 {
     ./1-rays p1.png &&
