@@ -76,6 +76,8 @@ static void joined(void *context, const struct sample *sample, const struct join
     if (!(rgb_luminance(p->c->value) > 0) || !fits_float(x))
         return; /* in every turn */
     if (l->turn > FIRST) {
+        if (l->next >= l->n)
+            return; /* what overflows in one turn alone */
         struct event *e = &l->event[l->next++];
         double S = e->weight / p->c->weight * (half == l->turn ? 0.5 : 1); /* S of this turn over that of FIRST */
         e->share[l->turn - HALF_FIRST_DRAWS] = S <= 1 ? fmin(2 * (1 - S), 1) : 0;
