@@ -40,6 +40,9 @@ async function rendered(settings) {
   }
   await sleep(200);
   check($('plot0').querySelectorAll('path').length > 6 && $('plot1').querySelectorAll('path').length > 4, 'plots');
+  check([0, 1].every(i => $(`plot${i}`).querySelectorAll('.title').length === 2), 'titles of axes');
+  check([...document.querySelectorAll('form label')].every(l => l.querySelector('small').textContent.length > 20), 'words');
+  check([...$('select').options].every(o => ABOUT[o.value]), 'a method without words');
   check($('verdict').textContent.includes('times that of bdpt'), 'verdict');
 
   // The sliders reach the renderer: other numbers, other pictures; only those that the choice has can be moved.
@@ -81,7 +84,7 @@ async function rendered(settings) {
   check($('scene').value === 'rooms' && $('select').value === 'bins' && sides[1].points.length > 0, 'a link');
   sides[0].points[1][2] = 1e6;
   plot();
-  const path = $('plot1').querySelector('path[stroke="#1d5fbf"]').getAttribute('d');
+  const path = $('plot1').querySelector('path.side0').getAttribute('d');
   check(!/e|NaN/.test(path) && path.split('M').length > 2, 'a mean outside is drawn: ' + path.slice(0, 60));
   location.hash = '#scene=cornell-box&select=bins&spp=3&scale=2&binpaths=4&restart=0';
   await sleep(400);
@@ -94,6 +97,9 @@ async function rendered(settings) {
       clientX: box.left + 32.5 / 64 * box.width, clientY: box.top + 16.5 / 64 * box.height }));
     await until(() => words.test($('story').textContent), words);
     check($('story').textContent.endsWith('outside the picture\n'), 'the story is cut');
+    check(/^An eye sub-path starts.* surface.*tried \d+ conn.* The strongest is/.test($('tale').textContent), 'the words: ' +
+      $('tale').textContent);
+    check(!document.querySelector('#inspector details').open, 'numbers before words');
     await until(() => $('drawing').naturalWidth > 1000, 'the drawing');
     check(!$(`mark${i}`).hidden && $(`mark${1 - i}`).hidden, 'the pixel is not marked');
   }

@@ -77,7 +77,7 @@ static struct watch {
     struct scene scene;
     struct render_options options;
     struct render_job job;
-    struct preparation prepared;
+    struct prepared prepared;
     struct tiling tiling;
     struct tile tile;
     struct workspace *work;
@@ -191,7 +191,6 @@ static bool begin(struct watch *w, const struct method *integrator, const char *
         w->prepared.size.block = 1;
     w->tiling = tiling_of(rect, &w->prepared.size);
     w->work = workspaces_new(1, w->job.max_depth);
-    w->work->scratch = method_scratch(&w->prepared);
     film_init(&w->film, rect, w->scene.width, w->scene.height);
     w->tile.planes = w->film.planes;
     w->pixels = mem_alloc(3 * n, sizeof *w->pixels);
