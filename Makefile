@@ -186,7 +186,7 @@ tsan: ## run the threaded tests under the thread sanitizer
 	build-tsan/test threads
 
 # ---- about the tree ----
-doc: ## all documents as static HTML in out/html
+doc: ## all documents as static HTML in out/html; begin with index.html
 	sh doc/html.sh out/html
 
 figures: asbdpt asbdpt-lab ## make the figures of doc/tour again

@@ -196,7 +196,7 @@ BEGIN {
     print "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
     print "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" title "</title>"
     print "<link rel=\"stylesheet\" href=\"" root "/style.css\"></head><body" (source ? " class=\"source\"" : "") ">"
-    print "<nav><a href=\"" root "/README.html\">asbdpt</a> <a href=\"" root "/doc/tour/README.html\">tour</a> " \
+    print "<nav><a href=\"" root "/index.html\">asbdpt</a> <a href=\"" root "/doc/tour/README.html\">tour</a> " \
         "<a href=\"" root "/doc/course/README.html\">course</a> <a href=\"" root "/doc/tour/glossary.html\">glossary</a> " \
         "<a href=\"" root "/doc/README.html\">all pages</a></nav>"
     if (source) print "<h1>" title "</h1><pre>"

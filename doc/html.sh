@@ -119,4 +119,38 @@ linked=$(awk '
 for file in $documents $linked; do
     [ -f "$file" ] && page "$file"
 done
-echo "wrote $(find "$out" -name '*.html' | wc -l | tr -d ' ') pages; begin with $out/doc/tour/README.html"
+
+# The first page: images, all pages, the small programs, and the headings of all pages to search in.
+{
+    echo '# asbdpt'
+    echo '[What it is](README.md). All pages work without a network.'
+    printf '\n## Gallery\n\n[The command and time of each image](doc/gallery.md)\n\n| | |\n|---|---|\n'
+    awk '/^!\[/ && n < 6 { sub(/\]\(/, "](doc/"); row = row "| " $0 " "; if (++n % 2 == 0) { print row "|"; row = "" } }' doc/gallery.md
+    printf '\n## Pages\n\n'
+    sed -n '/^|/{s,](,](doc/,g;s,](doc/\.\./,](,g;p;}' doc/README.md
+    printf '\n## Eight programs, from a ray to the whole method\n\n[How to read them](doc/mini/README.md)\n\n| program | what is new | image |\n|---|---|---|\n'
+    sed -n 's,^| \([1-8]\) | \(\[.*\]\)(\(.*\)) | \(.*\) | [0-9]* |$,| \2(doc/mini/\3) | \4 | ![](doc/mini/figures/\1.png) |,p' doc/mini/README.md
+} >"$out/index.md"
+{
+    awk -v root=. -v title=asbdpt -f doc/math.awk -f doc/html.awk "$out/index.md" | sed '$d'
+    echo '<h2 id="headings">Headings</h2><p><label>Search <input id="search" type="search"></label></p><ul id="list">'
+    for file in $documents; do
+        page=${file%.md}.html
+        sed -n 's,^<h[12] id="\([^"]*\)">\(.*\)</h[12]>$,\1 \2,p' "$out/$page" | awk -v page="$page" '
+            { id = $1; sub(/^[^ ]* /, ""); gsub(/<[^>]*>/, "") }
+            NR == 1 { title = $0 }
+            { print "<li><a href=\"" page "#" id "\">" title (NR > 1 ? ": " $0 : "") "</a></li>" }'
+    done
+    cat <<'END'
+</ul>
+<script>
+document.getElementById('search').oninput = event => {
+  for (const item of document.querySelectorAll('#list li'))
+    item.hidden = !item.textContent.toLowerCase().includes(event.target.value.toLowerCase());
+};
+</script>
+</body></html>
+END
+} >"$out/index.html"
+rm "$out/index.md"
+echo "wrote $(find "$out" -name '*.html' | wc -l | tr -d ' ') pages; begin with $out/index.html"

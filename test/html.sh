@@ -71,6 +71,21 @@ for text in '<msub><mi>p</mi><mrow><mi>s</mi></mrow></msub>' '<mo>&#x2211;</mo><
     grep -qF "$text" "$tour/06-connections.html" "$tour/07-weights.html" "$tour/07b-constant-time.html" ||
         wrong "no $text"
 done
+# The first page: six images, eight programs, and headings that lead to where they are.
+index="$dir/html/index.html"
+for count in '6 <img src="doc/gallery/' '8 <img src="doc/mini/'; do
+    [ "$(grep -o "${count#* }" "$index" | wc -l | tr -d ' ')" = "${count%% *}" ] || wrong "index.html has not $count"
+done
+leads() { # prints the headings of a list that are not where it says
+    sed -n 's/^<li><a href="\([^"#]*\)#\([^"]*\)".*/\1 \2/p' "$1" | while read -r page id; do
+        grep -qF " id=\"$id\">" "$dir/html/$page" || echo "$page#$id"
+    done
+}
+[ "$(grep -c '^<li><a href="[^"]*#' "$index")" -gt 200 ] || wrong "index.html lists few headings"
+found=$(leads "$index")
+[ -z "$found" ] || wrong "index.html leads to no heading: $found"
+sed 's/#render"/#rendered"/' "$index" >"$dir/index.html"
+[ -n "$(leads "$dir/index.html")" ] || wrong "a heading that is not there is not noticed"
 mkdir "$dir/damaged"
 while IFS= read -r damage; do
     echo "$damage" >"$dir/damaged/damaged.html"
