@@ -125,7 +125,7 @@ check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject #
 	    diff -r -x equal.png -x gains.svg doc/tour/figures out/figures"
 	sh test/cluster.sh $(PROGRAM)
 	BUILD=$(BUILD) sh test/structures.sh out/structures
-	BUILD=$(BUILD) COUNT=10 SPP=16 sh test/race.sh out/race
+	BUILD=$(BUILD) COUNT=10 SPP=16 sh test/predictions.sh out/race
 
 check-ref: asbdpt asbdpt-lab ## check that the program still converges to the stored references
 	sh ref/check-ref.sh $(PROGRAM)

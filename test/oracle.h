@@ -11,8 +11,8 @@
 bool oracle_weights(const struct scene *scene, const struct counts *counts, const struct vertex *light, int s,
                     const struct vertex *eye, int t, double *weight);
 
-/* oracle_value: what the path contributes by the strategy (s,t), unweighted: the measurement contribution divided by the
- * strategy's own density. [V97 10.2] False for paths with delta vertices, which it does not cover. */
+/* oracle_value: what the path contributes by the strategy (s,t), unweighted: the measurement contribution divided by
+ * the strategy's own density. [V97 10.2] False for paths with delta vertices, which it does not cover. */
 bool oracle_value(const struct scene *scene, const struct counts *counts, const struct vertex *light, int s,
                   const struct vertex *eye, int t, rgb *value);
 

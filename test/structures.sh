@@ -1,9 +1,9 @@
 #!/bin/sh
 # structures.sh DIR: bdpt, pt and asbdpt after the same CPU time in COUNT (40) scenes of test/random_structure.h, from
 # number FIRST (300) on, on which nothing was chosen: RES (128x96), the time of SPP (64) samples of bdpt, SEEDS (3)
-# seeds. Into DIR, going on with what is there: what equal-time writes, and structures.txt and structures.svg (structures.awk). Needs BUILD/test.
-# Exit status 1 if asbdpt surely has more than WORST (1.15) of the squared error of the better of the others in a
-# scene, or more than MEAN (0.55) in the geometric mean, or no sample in that time.
+# seeds. Into DIR, going on with what is there: what equal-time writes, and structures.txt and structures.svg
+# (structures.awk). Needs BUILD/test. Exit status 1 if asbdpt surely has more than WORST (1.15) of the squared error of
+# the better of the others in a scene, or more than MEAN (0.55) in the geometric mean, or no sample in that time.
 # structures.sh draw: structures.svg of structures.txt.
 draw() {
     awk '/^== / { on = $2 == "data" } on && NF == 7 { print $1, $2, $3, $4, "-" }' | sort -t - -k 2,2 -k 1,1n |

@@ -171,6 +171,30 @@ static void test_early_end(struct test *t)
     scene_free(&scene);
 }
 
+/* Of fewer light sub-paths the mean number of vertices is about the same, wherever learning ends. */
+static void test_cut_short(struct test *t)
+{
+    struct scene scene;
+    struct watcher whole = {.patience = INFINITY};
+    int in_part = 0;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 48, 32, &scene))
+        return;
+    struct tables *all = learn_scene(&scene, &whole, 1);
+    for (int i = 1; i < 64; i++) {
+        struct watcher w = {.patience = whole.traced * i / 64};
+        struct tables *l = learn_scene(&scene, &w, 1);
+        if (l->light_vertices > 0) {
+            double ratio = l->light_vertices / all->light_vertices;
+            CHECK(t, ratio > 0.8 && ratio < 1.2, "of %d/64 of all sub-paths: %.3f times as many vertices", i, ratio);
+            in_part += l->light_vertices != all->light_vertices;
+        }
+        drop(l);
+    }
+    CHECK(t, in_part > 2, "learning has ended among light sub-paths %d times", in_part);
+    drop(all);
+    scene_free(&scene);
+}
+
 /* --- grids -------------------------------------------------------------------------------------------- */
 
 /* One triangle far away moves no region, be it black or seen by few. */
@@ -245,6 +269,7 @@ void test_learning(struct test *t)
     test_bounds(t);
     test_dear_paths(t);
     test_early_end(t);
+    test_cut_short(t);
     test_far_triangle(t);
     test_unevenness(t);
 }

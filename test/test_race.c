@@ -45,35 +45,35 @@ static bool settle(struct test *t, const struct scene *scene, struct settled *ou
     return true;
 }
 
+static bool settle_file(struct test *t, const char *path, struct settled *out)
+{
+    struct scene scene;
+    if (!scene_from_file(t, path, 96, 64, &scene))
+        return false;
+    bool settled = settle(t, &scene, out);
+    scene_free(&scene);
+    return settled;
+}
+
 static void test_where_they_pay(struct test *t)
 {
     static const char *const scenes[] = {"scenes/cornell-box.pbrt", "scenes/bathroom.pbrt", "scenes/corridor.pbrt"};
-    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
-        struct scene scene;
-        struct settled s;
-        if (!scene_from_file(t, scenes[i], 96, 64, &scene))
-            continue;
-        if (settle(t, &scene, &s))
+    struct settled s;
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++)
+        if (settle_file(t, scenes[i], &s))
             CHECK(t, s.numbers.path_pixels > 0 && s.counts.pair[FIRST_HIT] > 0 && s.counts.lens > 0,
                   "%s has no light sub-paths", scenes[i]);
-        scene_free(&scene);
-    }
 }
 
 /* Under an open sky a path tracer is the best runner, or nearly. */
 static void test_where_nothing_pays(struct test *t)
 {
     static const char *const scenes[] = {"scenes/forest.pbrt", "scenes/sky.pbrt"};
-    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
-        struct scene scene;
-        struct settled s;
-        if (!scene_from_file(t, scenes[i], 96, 64, &scene))
-            continue;
-        if (settle(t, &scene, &s))
+    struct settled s;
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++)
+        if (settle_file(t, scenes[i], &s))
             CHECK(t, s.path_tracer < 1.25, "%s: %d pixels for a light sub-path, a path tracer is %.2f times as bad",
                   scenes[i], s.numbers.path_pixels, s.path_tracer);
-        scene_free(&scene);
-    }
 }
 
 /* Paths that only light sub-paths find keep these alive, whatever was measured; else a path tracer, which keeps no
@@ -134,6 +134,8 @@ static void test_predictions(struct test *t)
             struct runner own = b.prepared.runner[0];
             for (int k = 0; k < 4 && i % 4 == 0; k++)
                 said[k] = b.prepared.runner[k];
+            CHECK(t, said[1].price < 0.9 * said[0].price, "%s: a quarter of the light sub-paths costs %.3f times as much",
+                  scenes[i / 4], said[1].price / said[0].price);
             double variance = own.variance / said[i % 4].variance, price = own.price / said[i % 4].price;
             CHECK(t, fabs(price - 1) < 0.02, "%s, %s: %.3f times the price", scenes[i / 4], said[i % 4].name, price);
             CHECK(t, variance > 0.6 && variance < 1.7, "%s, %s: %.2f times the variance", scenes[i / 4],

@@ -55,7 +55,7 @@ static void replace(struct pixel *p, struct element *e, long iteration)
 {
     uint64_t number = ((uint64_t)p->pass->first << 32) + p->traced++;
     arena_reset(&e->arena);
-    e->vertex = arena_alloc(&e->arena, ((size_t)p->prepared->max_depth + 1) * sizeof *e->vertex);
+    e->vertex = arena_alloc(&e->arena, ((size_t)p->pass->job->max_depth + 1) * sizeof *e->vertex);
     e->length = sample_light_path(p->pass, &p->prepared->counts, p->x, p->y, number, &e->arena, e->vertex);
     e->beta = path_throughput(e->vertex, e->length);
     e->born = iteration;
@@ -101,7 +101,7 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
     struct vertex *eye = p->pass->work->eye;
     arena_reset(&p->pass->work->arena);
     struct sample sample = sample_begin(p->pass, &p->prepared->counts, 1, p->x, p->y, iteration);
-    int n = sample_eye_path(&sample, eye, p->prepared->max_depth + 2);
+    int n = sample_eye_path(&sample, eye, p->pass->job->max_depth + 2);
     struct sampler choice = sample_stream(p->pass, RNG_SELECT, p->x, p->y, (uint64_t)iteration);
     replace_aged(p, iteration);
     double u = sampler_number(&choice, DRAW_LIGHT_END), pmf;

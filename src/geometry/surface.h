@@ -9,7 +9,7 @@
 /* A ray segment: the open interval (tmin, tmax) of o + t d. d is unit, so t is a world distance. */
 struct ray {
     vec3 o, d;
-    double tmin, tmax; /* tmin >= 0; tmax may be HUGE_VAL */
+    double tmin, tmax; /* tmin < 0: the ray begins on a light, whose place extends to -tmin; tmax may be HUGE_VAL */
     uint64_t from, to; /* primitives that the segment begins and ends on, as shape_prim_id numbers them; 0: none
                         * known. A line meets a triangle once and a quadric twice, so these meetings are left out. */
 };

@@ -1,8 +1,8 @@
 /* bdpt.c: Veach's bidirectional path tracing, and its two halves, path tracing and light tracing.           [V97 10]
  *
- * A pixel has an eye sub-path, a light sub-path and all their connections. The halves trace the same sub-paths. They use
- * different strategies, so they differ in their numbers of samples (counts.h). Light tracing uses the eye sub-path only
- * for lights that the camera sees directly (s = 0, t = 2).
+ * A pixel has an eye sub-path, a light sub-path and all their connections. The halves trace the same sub-paths. They
+ * use different strategies, so they differ in their numbers of samples (counts.h). Light tracing uses the eye sub-path
+ * only for lights that the camera sees directly (s = 0, t = 2).
  *
  * Tests: test_render.c (they agree with each other and with analytic scenes).
  */

@@ -7,7 +7,7 @@
 static void add_light_path(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration)
 {
     struct pool *pool = &pass->work->pool;
-    struct vertex *path = pool_room(pool, (size_t)p->max_depth + 1);
+    struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
     pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, &pool->arena, path));
 }
 
@@ -50,7 +50,7 @@ int loop_begin(const struct prepared *p, const struct tile_pass *pass, int x, in
     *sample = sample_begin(pass, &p->counts, p->numbers.light_points, x, y, iteration);
     if (p->method->build != NULL)
         sample->choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
-    return sample_eye_path(sample, eye, p->numbers.light_points > 0 || pairs ? p->max_depth + 2 : 2);
+    return sample_eye_path(sample, eye, p->numbers.light_points > 0 || pairs ? pass->job->max_depth + 2 : 2);
 }
 
 void loop_eye(struct sample *sample, const struct vertex *eye, int n)
@@ -80,12 +80,13 @@ void loop_join(const struct prepared *p, const struct index *index, struct sampl
         pool_clear(&sample->pass->work->pool);
         add_light_path(p, sample->pass, sample->x, sample->y, sample->iteration);
     }
-    for (int t = 2; t <= n && t <= p->max_depth && p->numbers.path_pixels > 0 && p->method->draw != NULL; t++)
+    int most = sample->pass->job->max_depth;
+    for (int t = 2; t <= n && t <= most && p->numbers.path_pixels > 0 && p->method->draw != NULL; t++)
         join(p, index, sample, number, &eye[t - 1], t);
 }
 
-/* The weights count one sub-path per path_pixels pixels of the film. A tile has K, which is rounded up: `scale` makes up
- * for the difference. */
+/* The weights count one sub-path per path_pixels pixels of the film. A tile has K, which is rounded up: `scale` makes
+ * up for the difference. */
 void loop_splat(const struct prepared *p, struct sample *sample, int number)
 {
     const struct pool *pool = &sample->pass->work->pool;

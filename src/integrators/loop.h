@@ -28,7 +28,7 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass);
  *   loop_begin  begin a sample and trace its eye sub-path into eye [max_depth + 2]; returns the number of vertices
  *   loop_eye    add s = 0 and s = 1 for all vertices of the eye sub-path
  *   loop_join   if no light sub-paths are shared, trace that of the pixel; add what the eye vertices draw
- *   loop_splat  connect to the lens the light sub-path that belongs to the pixel of this number of the tile, if one does
+ *   loop_splat  connect to the lens the light sub-path of the tile's pixel of this number, if it has one
  */
 void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration);
 int loop_begin(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration,

@@ -1,9 +1,9 @@
-/* method.h: a method is one file and one row. Methods differ in how many samples they take of each kind, and in how they
- * choose light vertices for an eye vertex.
+/* method.h: a method is one file and one row. Methods differ in how many samples they take of each kind, and in how
+ * they choose light vertices for an eye vertex.
  *
  * A row describes a method completely; the table of all rows is render/methods.h. Before the first sample, a method
- * reads its parameters and is prepared: tables are learnt, a race may decide on the numbers of samples, and the counts in
- * the weights follow. Then it renders tile passes (tile_pass.h) on all threads.
+ * reads its parameters and is prepared: tables are learnt, a race may decide on the numbers of samples, and the counts
+ * in the weights follow. Then it renders tile passes (tile_pass.h) on all threads.
  *
  * doc/add-a-method.md adds one. Tests: test_render.c, test_options.c, test/add_method.sh.
  */
@@ -38,9 +38,11 @@ struct parameters {
 /* Rows of a method's table of parameters, with these defaults. */
 #define PARAMETER(NAME, KIND, MEMBER, DEFAULT, LEAST, MOST, HELP, WORDS) \
     {NAME, KIND, offsetof(struct parameters, MEMBER), DEFAULT, LEAST, MOST, HELP, WORDS}
+#define PARAMETER_DELTA(DEFAULT) \
+    PARAMETER("delta", FIELD_NUMBER, delta, DEFAULT, 1e-6, 1, "share of draws that ignore what was learnt", NULL)
 #define PARAMETER_GUIDE(DEFAULT) \
-    PARAMETER("guide", FIELD_WORD, guide, DEFAULT, 0, 0, "choose lights by what a region sees, where there are several", \
-              OFF_ON)
+    PARAMETER("guide", FIELD_WORD, guide, DEFAULT, 0, 0, \
+              "choose lights by what a region sees, where there are several", OFF_ON)
 #define PARAMETER_EMISSION(DEFAULT) \
     PARAMETER("emission", FIELD_NUMBER, emission, DEFAULT, 1e-6, 1, \
               "share of light sub-paths that leave lights as if nothing were learnt", NULL)
@@ -69,7 +71,6 @@ struct prepared {
     const struct method *method;
     struct parameters parameters;
     void *own;                /* see struct method; owned */
-    int max_depth;
     struct numbers numbers;   /* those of the parameters, or of the winner of a race */
     struct counts counts;     /* in the weights */
     struct tables *tables;    /* owned */

@@ -8,8 +8,8 @@
  * multiplies the strategies s >= 2, t >= 2 by
  *     W = 1 / (K q_k).
  * For a fixed pool, the expectation of a pixel is sum_k q_k F(k) / (K q_k), the mean over the pool. So the estimate is
- * unbiased for any I that does not depend on the eye sub-path. If I is constant, every bin has one sub-path, and this is
- * BDPT with the pixels' sub-paths permuted.
+ * unbiased for any I that does not depend on the eye sub-path. If I is constant, every bin has one sub-path, and this
+ * is BDPT with the pixels' sub-paths permuted.
  *
  * Tests: test_asbdpt.c.
  */
@@ -67,7 +67,7 @@ static bool draw(const struct prepared *p, const struct index *index, struct sam
 
 static const struct field PARAMETERS[] = {
     PARAMETER("metric", FIELD_WORD, metric, METRIC_USE, 0, 0, "what a light sub-path is chosen by", METRICS),
-    PARAMETER("delta", FIELD_NUMBER, delta, 0.1, 1e-6, 1, "share of draws that ignore it", NULL),
+    PARAMETER_DELTA(0.1),
     PARAMETERS_SHARED(false, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 

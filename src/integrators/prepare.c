@@ -53,7 +53,6 @@ bool method_prepare(const struct method *m, const struct render_job *job, struct
     if (!method_read(m, job->scene, out, err))
         return false;
     bool plain = false;
-    out->max_depth = job->max_depth;
     out->numbers = out->parameters.numbers;
     out->size = (struct pass_size){0, out->parameters.tile, out->parameters.spread};
     out->tables = mem_alloc(1, sizeof *out->tables);

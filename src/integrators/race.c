@@ -210,7 +210,7 @@ static void predict(const struct race *r, struct runner *k)
     more[1] *= square > 0 ? fmin(direct / square, 1) : 0;
     if (k->plain)
         more[1] = variance(r, r->tally.direct[PLAIN_OTHER], r->tally.direct[PLAIN]) - direct;
-    k->variance += more[0] + more[1];
+    k->variance = fmax(k->variance + more[0] + more[1], 1e-30); /* by chance a difference may be negative */
     k->price = 0;
     for (int i = 0; i < ITEMS; i++) {
         bool guided = (i == FIRST_POINT || i == LATER_POINT) && p->tables->direct.rows > 0 && !k->plain;
@@ -247,7 +247,7 @@ static void add_runners(const struct scene *scene, struct prepared *p)
 {
     struct numbers all = p->numbers, quarter = all, first = all, quarter_first, guided = all;
     quarter.path_pixels *= 4;
-    first.draws[FIRST_HIT] = 1;
+    first.draws[FIRST_HIT] = all.draws[FIRST_HIT] > 0;
     first.draws[LATER_HIT] = 0;
     quarter_first = first;
     quarter_first.path_pixels *= 4;

@@ -2,16 +2,16 @@
  *
  * As in vertices.c a light vertex represents the sub-path that ends there, and an eye vertex draws C of the light
  * vertices that the K sub-paths of a tile and iteration have. Here the probability depends on both ends. Let ratio(e,l)
- * tell what a light vertex in region l is worth to an eye vertex in region e (table.h), and L_v the luminance of beta_v.
- * Then
+ * tell what a light vertex in region l is worth to an eye vertex in region e (table.h), and L_v the luminance of
+ * beta_v. Then
  *     P(v|z) = ratio(e(z), l(v)) L_v / sum over the pool.
  * A draw has two steps, first the region and then the vertex, each by bisection of cumulative sums. So the C strata of
  * one eye vertex are distributed over space. (An alias table for each region e would need all vertices. The sums of a
  * region e need only the regions that have any.)
  *
- * The MIS weights take this into account: the strategies count as 2 C ratio(e(z), l(y)) / l samples, where l is the mean
- * number of vertices of a light sub-path: a function of the two surface points at the ends of the edge. 2 is the credit
- * of a draw, since stratified draws have less variance than independent ones.
+ * The MIS weights take this into account: the strategies count as 2 C ratio(e(z), l(y)) / l samples, where l is the
+ * mean number of vertices of a light sub-path: a function of the two surface points at the ends of the edge. 2 is the
+ * credit of a draw, since stratified draws have less variance than independent ones.
  *
  * The credit of direct light, 4, has the same reason. The first numbers of an eye sub-path are spread evenly over the
  * iterations of a pixel (sampler.h), so the mean of N samples of direct light has less than 1/N of the variance of one.
@@ -131,12 +131,12 @@ static const struct field PARAMETERS[] = {
               "light vertices drawn for each other eye vertex", NULL),
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path; 0: trace none", NULL),
-    PARAMETER("delta", FIELD_NUMBER, delta, 0.1, 1e-6, 1, "share of draws that ignore what was learnt", NULL),
+    PARAMETER_DELTA(0.1),
     PARAMETERS_SHARED(true, true, 0.2, MAX_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_subspaces = {
     .name = "asbdpt", .select = "subspaces", .help = "light vertices by what they are worth where the eye vertex is",
     .parameters = PARAMETERS, .numbers = {.light_points = 2}, .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .direct_credit = 4, .pair_credit = 2, .single = true, .learns_use = true, .learns_pairs = true, .render = loop_render,
-    .build = build, .draw = draw};
+    .direct_credit = 4, .pair_credit = 2, .single = true, .learns_use = true, .learns_pairs = true,
+    .render = loop_render, .build = build, .draw = draw};

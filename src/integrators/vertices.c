@@ -62,11 +62,12 @@ static const struct field PARAMETERS[] = {
               "light vertices drawn for each eye vertex", NULL),
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 2, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path", NULL),
-    PARAMETER("delta", FIELD_NUMBER, delta, 0.1, 1e-6, 1, "share of draws that ignore what was learnt", NULL),
+    PARAMETER_DELTA(0.1),
     PARAMETERS_SHARED(false, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_vertices = {
     .name = "asbdpt", .select = "vertices", .help = "one alias table over the light vertices of a tile",
     .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .direct_credit = 2,
-    .pair_credit = 2, .single = true, .learns_use = true, .prepare = prepare, .render = loop_render, .build = build, .draw = draw};
+    .pair_credit = 2, .single = true, .learns_use = true, .prepare = prepare, .render = loop_render, .build = build,
+    .draw = draw};

@@ -82,7 +82,7 @@ static void find_box(const struct learning *l, vec3 *low, vec3 *high)
 /* --- eye vertices: regions, what the camera can use there, the lights that they see ------------------- */
 
 enum { LIGHTS_PER_VERTEX = 2 };         /* number of light points that each eye vertex tries */
-enum { VISIT = -1 };                    /* column of a lesson of an eye vertex */
+enum { VISIT = -1 };                    /* column of a lesson of an eye vertex, or of a light sub-path */
 static const double DIRECT_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
 
 static void trace_uses(struct learning *l, const struct counts *counts, struct workspace *work, long i,
@@ -190,11 +190,16 @@ static void trace_vertices(struct learning *l, const struct counts *counts, stru
     for (const struct vertex *y = path + 1; y < path + n; y++)
         if (vertex_connectible(y))
             lessons_add(out, (struct lesson){regions_key(&l->tables->regions, y->p, vertex_side(y)), 0, 0, 1});
+    lessons_add(out, (struct lesson){0, VISIT, 0, 1});
 }
 
 static void take_vertex(struct learning *l, const struct lesson *lesson)
 {
     struct tables *t = l->tables;
+    if (lesson->column == VISIT) {
+        l->n_visits++;
+        return;
+    }
     if (t->vertices != NULL)
         t->vertices[regions_add(&t->regions, lesson->row)]++;
     t->light_vertices++;
@@ -208,7 +213,7 @@ static void learn_vertices(struct learning *l, long first, long end)
     lessons_learn(l, &pass, first, end);
     for (int i = 0; t->light_vertices > 0 && i < t->regions.n; i++)
         t->vertices[i] /= t->light_vertices;
-    t->light_vertices /= (double)(end - first);
+    t->light_vertices /= most_of(l->n_visits, 1);
 }
 
 /* --- trial connections ------------------------------------------------------------------------------- */

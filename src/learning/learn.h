@@ -1,10 +1,10 @@
 /* learn.h: learn tables about a scene before it is rendered (tables.h).
  *
  * Learning traces a fixed number of eye sub-paths: LEARN_PER_PIXEL for each pixel of the image, but at least
- * LEARN_LEAST and at most LEARN_MOST. It traces as many light sub-paths, but at most LEARN_LIGHT. The number does not
- * depend on the number of samples, so an image that is continued or rendered in parts has one estimator. Memory is
- * bounded by REGIONS. job->watch may end learning early. Then the tables have fewer sub-paths, which is valid but
- * noisier. Tables are not stored: every render learns them again.
+ * LEARN_LEAST and at most LEARN_MOST. It traces as many light sub-paths, but at most LEARN_LIGHT, and more for trial
+ * connections. The number does not depend on the number of samples, so an image that is continued or rendered in parts
+ * has one estimator. Memory is bounded by REGIONS. job->watch may end learning early. Then the tables have fewer
+ * sub-paths, which is valid but noisier. Tables are not stored: every render learns them again.
  *
  * Tests: test_asbdpt.c (same result for any number of threads, unbiased renders), test_learning.c.
  */

@@ -1,5 +1,5 @@
-/* lessons.h: a pass over sub-paths that fills tables. All threads trace sub-paths, in chunks. Each chunk makes a list of
- * lessons, and the lists are taken in in order (parallel.h). So sums and the numbers of regions are the same for any
+/* lessons.h: a pass over sub-paths that fills tables. All threads trace sub-paths, in chunks. Each chunk makes a list
+ * of lessons, and the lists are taken in in order (parallel.h). So sums and the numbers of regions are the same for any
  * number of threads.
  *
  * Tests: test_learning.c.
@@ -33,6 +33,7 @@ struct learning {
     struct tables *tables;
     struct table_sums direct, sums; /* of the table of direct light; of the pass under way */
     struct axis columns;
+    double n_visits;         /* light sub-paths whose vertices were counted */
     struct workspace *work;  /* [n_threads] */
     struct patience patience;
 };

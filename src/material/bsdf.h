@@ -1,7 +1,7 @@
 /* bsdf.h: how a surface point scatters light, and how to sample that: a sum of lobes (lobe.h) in a shading frame.
  *
  * Delta lobes (mirror, smooth glass) have no density: bsdf_eval leaves them out and bsdf_sample marks them. The factor
- * for shading normals is applied in path.c, not here.
+ * for shading normals is applied in vertex.h, not here.
  *
  * Tests: test_bsdf.c.
  */

@@ -86,7 +86,7 @@ struct bsdf_value {
 };
 static const struct bsdf_value NO_SCATTERING = {{0, 0, 0}, 0, 0};
 
-/* A drawn direction. The walk's throughput is to be multiplied by f |cos(wi, ns)| / pdf in all cases. */
+/* A drawn direction. A walk multiplies its throughput by f / pdf and by the cosine of scatter_cosine (vertex.h). */
 struct bsdf_sample {
     vec3 wi;
     rgb f;      /* value for wi, 1/sr; of a delta lobe: the coefficient of the delta over |cos(wi, ns)| */

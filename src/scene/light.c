@@ -153,7 +153,8 @@ static struct envmap *sum_of_layers(const struct light_set *set)
     return sum;
 }
 
-/* The lights but for the sky, in cells of equal numbers, and then the sky's; power: out, [LAMP_CELLS + SKY_CELLS]. */
+/* Make the cells: all lights except the sky are divided into cells of equal numbers. The sky's own cells follow.
+ *   power  out, [LAMP_CELLS + SKY_CELLS] */
 static void make_cells(struct light_set *set, double *power)
 {
     int lamps = set->n - (set->n_layers > 0), each = (lamps + LAMP_CELLS - 1) / LAMP_CELLS, sky = sky_cells(set);

@@ -6,8 +6,8 @@
  * Lights are chosen in proportion to their power by an alias table; s = 1 and emission use the same choice and the
  * same density of y0, so one number serves both in the MIS weights.
  *
- * A ray that leaves the scene meets all infinite lights at once. So they are one light, the sky, which is the sum of its
- * layers. Its directions have one density, whichever layer sends light from there.
+ * A ray that leaves the scene meets all infinite lights at once. So they are one light, the sky, which is the sum of
+ * its layers. Its directions have one density, whichever layer sends light from there.
  *
  * Tests: test_light.c.
  */

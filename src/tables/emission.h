@@ -3,14 +3,14 @@
  *
  * Emission by power chooses a light cell c with probability e(c), a point of the cell, and with a point of the unit
  * square the ray: its direction, or for lights at infinity its origin on a disk. The square is cut into SIDE x SIDE
- * bins. A table (table.h) has one row and a column for each bin of each cell, with e(c) / BINS for e. Above the bins are
- * 4 x 4 and 2 x 2 wider ones, the cell, and all cells. Learning traces rays, and squares the worth of each [Rath 2020]:
- * probabilities in proportion to the root of the mean square minimise the variance of the sum of worths.
+ * bins. A table (table.h) has one row and a column for each bin of each cell, with e(c) / BINS for e. Above the bins
+ * are 4 x 4 and 2 x 2 wider ones, the cell, and all cells. Learning traces rays, and squares the worth of each
+ * [Rath 2020]: probabilities in proportion to the root of the mean square minimise the variance of the sum of worths.
  *
  * A ray of the table has `ratio` times the density of light.h. The density of y_0 stays as it is. So p_i has the factor
- * `ratio` for every i >= 2, but not for i = 0 and i = 1, and the recursions of mis.h need no other change. The ratio is a
- * function of the cell and of the point of the square, not of the point on the light.  [Grittmann 2018] has such tables
- * for photons.
+ * `ratio` for every i >= 2, but not for i = 0 and i = 1, and the recursions of mis.h need no other change. The ratio is
+ * a function of the cell and of the point of the square, not of the point on the light.  [Grittmann 2018] has such
+ * tables for photons.
  *
  * Tests: test_emission.c, test_mis.c.
  */

@@ -105,7 +105,7 @@ void table_free(struct table *t)
     free(t->before);
 }
 
-/* Rounding may move the target to the end of the sums or beyond. Then the result is the last group that can be drawn. */
+/* Rounding may move the target to the end of the sums or beyond. Then this is the last group that can be drawn. */
 int table_draw(const struct table *t, int r, struct span among, double u, double *pmf, double *left)
 {
     const double *before = &t->before[(size_t)r * (size_t)(t->columns + 1) + (size_t)among.first];

@@ -60,8 +60,8 @@ void table_free(struct table *t);
 /* table_of_row: a table of one row, by these mean worths [n]; empty if m is NULL. */
 struct table table_of_row(const double *m, const double *e, int n, double delta);
 
-/* table_row: the ratios of a row, [columns]; a table of one row has it for all. table_ratio: one of them; 1 if the table
- * is empty. */
+/* table_row: the ratios of a row, [columns]; a table of one row has it for all. table_ratio: one of them; 1 if the
+ * table is empty. */
 static inline const double *table_row(const struct table *t, int r)
 {
     return &t->ratio[t->rows > 1 ? (size_t)r * (size_t)t->columns : 0];

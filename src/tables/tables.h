@@ -10,7 +10,7 @@
 
 struct tables {
     struct regions regions;
-    double *use;           /* [regions.limit] how much light the camera can use from a region: the sum of luminance(beta)
+    double *use;           /* [regions.limit] how much light the camera can use there: the sum of luminance(beta)
                             * over the eye vertices there; NULL: not learnt; owned */
     double *vertices;      /* [regions.limit] share of the connectible light vertices there; NULL: not learnt; owned */
     double light_vertices; /* mean number of connectible vertices of a light sub-path */

@@ -2,7 +2,7 @@
  *
  *   s = 0           the eye sub-path's last vertex is itself on a light        connect_hit
  *   s = 1, t >= 2   joined to a new point on a light                           connect_direct
- *   s >= 2, t >= 2  two surface vertices joined                                connect_pair
+ *   s >= 2, t >= 2  two vertices joined                                        connect_pair
  *   s >= 2, t = 1   joined to a new point on the lens                          connect_lens
  *
  * A connection's value is the unweighted contribution C* of [V97 10.2]: the product of throughputs, both BSDFs,

@@ -17,8 +17,8 @@ struct sample;
 struct joined {
     int s, t;
     const struct vertex *light;  /* [s] the light sub-path; NULL if s <= 1 */
-    const struct vertex *z;      /* z_{t-1}; the vertices before it are in front of it in memory. NULL if t = 1, or if it
-                                  * is not the sample's own vertex */
+    const struct vertex *z;      /* z_{t-1}; the vertices before it are in front of it in memory. NULL if t = 1, or if
+                                  * it is not the sample's own vertex */
     const struct connection *c;  /* value C*, weight, light */
     const struct light_point *y0; /* s = 1: the light point that was drawn; else NULL */
     double pmf;                  /* probability with which it was chosen; 1: there was no choice */

@@ -1,5 +1,5 @@
-/* sample.h: one sample of a pixel: one pixel, one iteration. It consists of an eye sub-path, light sub-paths, and sums of
- * connections, weight times C* [V97 10.2], over the strategies of a sub-path or of a pair of sub-paths.
+/* sample.h: one sample of a pixel: one pixel, one iteration. It consists of an eye sub-path, light sub-paths, and sums
+ * of connections, weight times C* [V97 10.2], over the strategies of a sub-path or of a pair of sub-paths.
  *
  * A method chooses which of these sums to take, with which light sub-paths, and the counts of counts.h. Random streams
  * are a function of (seed, purpose, pixel, iteration), so a sub-path does not depend on the tile or thread.

@@ -28,7 +28,7 @@ enum vertex_kind {
  *   wo           0            at infinity: towards the light    towards the previous vertex  inwards
  *   beta         1            radiance or intensity emitted     throughput on arrival        throughput on arrival
  *                             towards y_1 (no throughput)
- *   pdf_fwd      1, unused    1/m^2; at infinity 1/sr           1/m^2                        1/sr
+ *   pdf_fwd      1            1/m^2; at infinity 1/sr           1/m^2                        1/sr
  *   pdf_origin   -            -                                 eye walk, on a light:        1/sr, of y_0 in this
  *                                                               density of y_0 here, 1/m^2   direction
  *   region       -            -                                 by tables.h                  -

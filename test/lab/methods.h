@@ -54,8 +54,8 @@ bool method_merges(const struct method *m);
 /* method_observable: can it be told what each sample of a pixel is made of? False with a message if not. */
 bool method_observable(const struct method *m, struct error *err);
 
-/* method_why: for trace: how it chooses what it joins to an eye sub-path, of methods that nobody has described here their
- * `help`; NULL: it does not choose. */
+/* method_why: for trace: how it chooses what it joins to an eye sub-path, of methods that nobody has described here
+ * their `help`; NULL: it does not choose. */
 const char *method_why(const struct method *m);
 
 /* methods_read: a list. False with a message on an integrator, a parameter or a value that does not exist, and if a

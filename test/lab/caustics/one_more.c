@@ -95,7 +95,7 @@ static void fill_pool(const struct prepared *p, const struct tile_pass *pass, st
     struct pool *pool = &pass->work->pool;
     pool_clear(pool);
     for (int i = 0, x, y; pixels_get(pixels, i, &x, &y); i += p->numbers.path_pixels) {
-        struct vertex *path = pool_room(pool, (size_t)p->max_depth + 1);
+        struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
         pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, &pool->arena, path));
     }
 }
@@ -104,7 +104,7 @@ static void join(const struct prepared *p, const struct index *index, struct sam
                  const struct vertex *z, int t)
 {
     int C = p->numbers.draws[z->eye_end];
-    for (int i = 0; i < C && t <= p->max_depth && vertex_connectible(z); i++) {
+    for (int i = 0; i < C && t <= sample->pass->job->max_depth && vertex_connectible(z); i++) {
         struct drawn drawn;
         if (p->method->draw(p, index, sample, number, z, i, C, &drawn))
             sample_pairs(sample, &drawn, z, t, 1 / (C * sample->pass->work->pool.n * drawn.pmf));
@@ -128,7 +128,7 @@ static void render_pixel(const struct prepared *p, const struct one_more *more, 
     }
     struct sample sample = sample_begin(pass, &p->counts, p->numbers.light_points, x, y, iteration);
     sample.choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
-    int n = sample_eye_path(&sample, eye, p->max_depth + 2);
+    int n = sample_eye_path(&sample, eye, pass->job->max_depth + 2);
     one_more_sum_eye(&sample, more, eye, n);
     for (int t = 2; t <= n && each > 0 && p->method->draw != NULL; t++)
         join(p, index, &sample, number, &eye[t - 1], t);

@@ -65,8 +65,8 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     struct index *index = arena_alloc(&pool->arena, sizeof *index);
     bool throughput = ((const struct mbdpt *)p->own)->throughput;
     (void)iteration;
-    index->column = arena_alloc(&pool->arena, (size_t)(p->max_depth + 1) * sizeof *index->column);
-    for (int s = 2; s <= p->max_depth; s++) {
+    index->column = arena_alloc(&pool->arena, (size_t)(pass->job->max_depth + 1) * sizeof *index->column);
+    for (int s = 2; s <= pass->job->max_depth; s++) {
         struct ranked *column = index->column[s] = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *column);
         for (int k = 0; k < pool->n; k++) {
             const struct vertex *path = pool_path(pool, k);
@@ -87,7 +87,7 @@ static void connect_length(const struct prepared *p, const struct pool *pool, co
         rank(row, i, pixel[i].eye, pixel[i].n, t, false, ((const struct mbdpt *)p->own)->throughput);
     qsort(row, (size_t)n, sizeof *row, by_key);
     for (int i = 0; i < n && row[i].key < INFINITY; i++)
-        for (int s = 2; s <= p->max_depth + 2 - t; s++) {
+        for (int s = 2; s <= pixel->sample.pass->job->max_depth + 2 - t; s++) {
             double u = (double)(i * step % n) / n + shift[s];
             int j = (int)((u - floor(u)) * pool->n), k = index->column[s][j < pool->n ? j : pool->n - 1].number;
             const struct drawn drawn = {pool_path(pool, k), s - 1, s, 1.0 / pool->n};
@@ -102,11 +102,11 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
 {
     const struct pool *pool = &pass->work->pool;
     struct ranked *row = arena_alloc(&pass->work->arena, (size_t)n * sizeof *row);
-    double *shift = arena_alloc(&pass->work->arena, (size_t)(p->max_depth + 1) * sizeof *shift);
+    double *shift = arena_alloc(&pass->work->arena, (size_t)(pass->job->max_depth + 1) * sizeof *shift);
     for (int i = 0; i < n; i++)
         loop_eye(&pixel[i].sample, pixel[i].eye, pixel[i].n);
-    for (int t = 2; t <= p->max_depth && !pass_enough(pass->job); t++) {
-        for (int s = 2; s <= p->max_depth; s++)
+    for (int t = 2; t <= pass->job->max_depth && !pass_enough(pass->job); t++) {
+        for (int s = 2; s <= pass->job->max_depth; s++)
             shift[s] = sampler_number(&pixel[0].sample.choice, DRAW_LIGHT_END);
         connect_length(p, pool, index, pixel, n, row, t, shift);
     }

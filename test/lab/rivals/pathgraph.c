@@ -217,7 +217,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
         of[i] = arena_alloc(arena, (size_t)x->n * sizeof **of);
         for (int t = 1; t <= x->n; t++) {
             struct node node = {.z = &x->eye[t - 1], .ends = t == x->n, .number = i};
-            if (node.z->kind == VERTEX_SURFACE && t <= p->max_depth + 1)
+            if (node.z->kind == VERTEX_SURFACE && t <= pass->job->max_depth + 1)
                 draw_light(&x->sample, &node);
             of[i][t - 1] = node;
         }

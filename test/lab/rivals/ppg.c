@@ -130,7 +130,7 @@ static int trace_pixel(const struct prepared *p, const struct tile_pass *pass, i
                        struct sample *sample, struct step **step)
 {
     struct vertex *eye = pass->work->eye;
-    int most = p->max_depth + 2;
+    int most = pass->job->max_depth + 2;
     struct sampler sampler = sample_stream(pass, RNG_EYE, x, y, (uint64_t)iteration);
     const struct walk w = {pass->job->scene, &p->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
     arena_reset(&pass->work->arena);

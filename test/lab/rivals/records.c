@@ -19,7 +19,7 @@ struct records records_place(const struct prepared *p, const struct tile_pass *p
     const struct tile_pixels pixels = pass->tile->pixels;
     int width = pixels_columns(pixels), height = pixels_rows(pixels), x, y;
     int n = share > 0 ? (int)ceil(share * width * height) : 0, longest = RECORDS_DEPTH;
-    longest = longest < p->max_depth ? longest : p->max_depth;
+    longest = longest < pass->job->max_depth ? longest : pass->job->max_depth;
     struct records r = {arena_alloc(arena, (size_t)n * (size_t)longest * sizeof *r.item), 0};
     for (int i = 0; i < n; i++) {
         double u, v, filter_weight;

@@ -327,7 +327,7 @@ static void fill(struct index *r, const struct prepared *p, const struct tile_pa
 void ris_begin(struct index *r, const struct prepared *counted, const struct tile_pass *pass, long iteration)
 {
     struct arena *arena = &r->arena[iteration % 2 != 0];
-    size_t n_sights = (size_t)counted->max_depth + 2;
+    size_t n_sights = (size_t)pass->job->max_depth + 2;
     r->vertices = counted->tables->light_vertices;
     if (iteration == pass->first) /* the same whatever pass comes before this */
         fill(r, counted, pass, iteration - 1);
@@ -401,7 +401,7 @@ static void render_weighed(const struct prepared *p, const struct tile_pass *pas
             arena_reset(&pass->work->arena);
             int n = loop_begin(p, pass, x, y, iteration, &sample, eye);
             sum_eye(&r, &sample, eye, n);
-            for (int t = 2; t <= n && t <= p->max_depth; t++)
+            for (int t = 2; t <= n && t <= pass->job->max_depth; t++)
                 if (vertex_connectible(&eye[t - 1]))
                     ris_join(&r, &sample, &eye[t - 1], t);
             loop_splat(p, &sample, i);

@@ -259,8 +259,8 @@ static double step_again(const struct counts *counts, const struct vertex *x, co
     return mis_step(counts, v->prev_delta ? 0 : x->mis_c, pdf_rev, x->mis, x->pdf_fwd, v->back);
 }
 
-/* The subspaces of a sub-path's vertices, and what weights depend on them: walks know no trees. A vertex has that of its
- * own end of an edge for its region. If it is the other end, for mis_c, it has that of the other tree. */
+/* The subspaces of a sub-path's vertices, and what weights depend on them: walks know no trees. A vertex has that of
+ * its own end of an edge for its region. If it is the other end, for mis_c, it has that of the other tree. */
 static void classify(const struct prepared *p, struct vertex *path, int n, struct arena *arena, enum transport mode)
 {
     const struct spcbpt *own = p->own;
@@ -349,7 +349,7 @@ static void splat(const struct prepared *p, struct sample *sample, struct vertex
     for (const struct observer *o = sample->pass->observer; o != NULL; o = o->next)
         if (o->walked != NULL)
             o->walked(o->context, sample, IMPORTANCE, light, n);
-    for (int s = 2; s <= n && s <= p->max_depth + 1; s++) {
+    for (int s = 2; s <= n && s <= sample->pass->job->max_depth + 1; s++) {
         struct vertex *y = &light[s - 1];
         int region = y->region;
         y->region = tree_find(own->tree[0], place_of(y));
@@ -397,7 +397,7 @@ static void release(struct prepared *p)
 static const struct field PARAMETERS[] = {
     PARAMETER("connections", FIELD_INTEGER, numbers.draws[FIRST_HIT], 3, 1, 1024,
               "light vertices drawn for each eye vertex", NULL),
-    PARAMETER("delta", FIELD_NUMBER, delta, 0.2, 1e-6, 1, "share of draws that ignore what was learnt", NULL),
+    PARAMETER_DELTA(0.2),
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path", NULL),
     PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(MAX_TILE_SIZE, 1),

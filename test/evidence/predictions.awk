@@ -1,4 +1,4 @@
-# race.awk: predictions of a race (race.sh) against what was measured: its files predicted, runs.csv and equal-time.md.
+# predictions.awk: predictions of a race (predictions.sh) against what was measured: its files predicted, runs.csv and equal-time.md.
 # Sections: prices, the root of the mean square of log(predicted / measured), each scene in a unit of its own; winners,
 # how often the predicted runner was the best and the mean and the worst of its error over that of the best; scenes, a
 # row each. Exit status 1 if prices are wrong by more than `most`.
