@@ -1,6 +1,6 @@
 /* page.h: report.html, what experiment, equal-time and family leave for the eye: one file that needs no other.
  *
- * It holds the page of Markdown that lies beside it, and for each scene the curves of error over CPU time and over
+ * It holds the page of Markdown that lies next to it, and for each scene the curves of error over CPU time and over
  * samples on logarithmic axes, and every compared method's picture with its errors as colours. The script of the page
  * (page_parts.c) makes tables, curves and colours of what is in it: text, numbers and PNGs.
  *

@@ -56,7 +56,7 @@ const char *const PAGE_SCRIPT[] = {
     "};",
     "const safe = text => text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/'/g, '&#39;');",
     "",
-    "// ---- tables: of the page of Markdown that lies beside this one ----",
+    "// ---- tables: of the page of Markdown that lies next to this one ----",
     "const words = text => safe(text).replace(/`([^`]*)`/g, '<code>$1</code>')",
     "  .replace(/\\*\\*([^*]*)\\*\\*/g, '<b>$1</b>')",
     "  .replace(/\\[([^\\]]*)\\]\\(([\\w./-]+)\\)/g, `<a href='$2'>$1</a>`);",

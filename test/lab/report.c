@@ -75,7 +75,7 @@ static void add_ratios(struct md_table *t, const struct scene_results *s, long s
         md_add_missing(t, 1);
 }
 
-/* Can a page show both methods beside what was printed? Others are compared with the first, which must be bdpt. */
+/* Can a page show both methods next to what was printed? Others are compared with the first, which must be bdpt. */
 static bool has_printed(const struct plan *p)
 {
     return methods_find(&p->methods, METHOD_REFERENCE) == 0 && methods_find(&p->methods, METHOD_PRINTED) > 0;

@@ -87,7 +87,7 @@ static void sum_lens(struct sample *sample, const struct one_more *more, const s
     }
 }
 
-/* --- a tile pass, as in loop.c, but for one_more_sum_eye and sum_lens ---------------------------------- */
+/* --- a tile pass, as in loop.c, except one_more_sum_eye and sum_lens ---------------------------------- */
 
 /* Those of every path_pixels-th of the pixels. */
 static void fill_pool(const struct prepared *p, const struct tile_pass *pass, struct tile_pixels pixels, long iteration)
