@@ -14,7 +14,7 @@
 #include "transport/tile_pass.h"
 
 enum { LEARN_PER_PIXEL = 4, LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LEARN_LIGHT = 16 * 1024 };
-enum { REGIONS = 1536, REGION_CELLS = 12 }; /* at most so many; along the diagonal of the box of eye vertices */
+enum { REGIONS = 1536, REGION_CELLS = 8 }; /* at most so many; along the diagonal of the box of eye vertices */
 
 /* What to learn. The vertices of light sub-paths are always counted. */
 struct learn_options {

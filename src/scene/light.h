@@ -92,7 +92,7 @@ enum { LIGHT_MAX_GROUPS = 64 }; /* that films keep */
 struct light_cell {
     int light, n; /* the first light and how many; of the sky 1 */
 };
-enum { LAMP_CELLS = 512, SKY_CELLS = 512 };
+enum { LAMP_CELLS = 256, SKY_CELLS = 512 };
 
 /* All lights of a scene and what sampling them needs. A cell is chosen first, then a light in it by power, then a point
  * on the light. */

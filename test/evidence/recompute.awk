@@ -13,9 +13,11 @@ file == 1 && FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
 file == 1 {
     s = $at["scene"]; h = $at["half"]
     n = split(h == "both" ? "choice services" : h == "" ? "all" : h, half, " ")
-    if (!(s in time)) { scene[++scenes] = s; first = $at["label"]; time[s] = $at["price_before"] + $at["spp"] }
+    if (!(s in known)) { scene[++scenes] = s; first = $at["label"]; known[s] }
+    i = ++seeds[$at["label"], s] # methods have seeds of their own
+    if ($at["label"] == first) time[s, i] = $at["price_before"] + $at["spp"]
     mark[$at["label"], s] = $at["mark"]
-    afforded = (time[s] - $at["price_before"]) / $at["price_each"] # samples
+    afforded = (time[s, i] - $at["price_before"]) / $at["price_each"] # samples
     for (h = 1; h <= n; h++)
         for (k = 1; k <= 3; k++)
             sum[half[h], $at["label"], s, k] += afforded >= 1 ? $at[square[k]] * $at["spp"] / afforded : -1e99

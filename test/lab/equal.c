@@ -15,41 +15,37 @@ const char *const EQUAL_NAMES[N_SQUARES] = {"mse8", "relmse", "8x8"};
 
 /* --- arithmetic -------------------------------------------------------------------------------------- */
 
-double equal_afforded(const struct scene_results *s, int method)
+double equal_afforded(const struct scene_results *s, int method, int seed)
 {
     const struct plan *p = s->plan;
-    double time = p->seconds > 0 ? p->seconds / s->seconds : s->price[0].before + (double)plan_last_spp(p);
-    return (time - s->price[method].before) / s->price[method].each;
+    const struct price *price = &s->price[method][seed];
+    double time = p->seconds > 0 ? p->seconds / s->seconds : s->price[0][seed].before + (double)plan_last_spp(p);
+    return (time - price->before) / price->each;
 }
 
-long equal_samples(const struct scene_results *s, int method)
+long equal_samples(const struct scene_results *s, int method, int seed)
 {
-    double n = floor(equal_afforded(s, method) + 0.5);
+    double n = floor(equal_afforded(s, method, seed) + 0.5);
     return n >= 1 ? (long)fmin(n, MOST_SAMPLES) : 1;
 }
 
 void equal_squares(const struct scene_results *s, int method, enum square which, enum basis basis, double *out)
 {
-    double n = equal_afforded(s, method);
     for (int i = 0; i < s->plan->n_seeds; i++) {
         const struct run *r = &s->run[method][i][0];
+        double n = equal_afforded(s, method, i);
         out[i] = n >= 1 ? r->square[which] * (double)r->spp / (basis == AT_EQUAL_TIME ? n : 1) : NAN;
     }
 }
-
-/* Variance of the logarithm of a price that is the median of three rounds: their range is 1.69 standard deviations, the
- * median's own is 0.67 of one. */
-static double price_variance(const struct scene_results *s, int method) { return sqr(0.396 * s->price[method].spread); }
 
 static struct interval ratio_at(const struct scene_results *s, int method, int over, enum square which,
                                 enum basis basis)
 {
     double x[PLAN_MAX_SEEDS], y[PLAN_MAX_SEEDS];
-    double price = basis == AT_EQUAL_TIME ? price_variance(s, method) + price_variance(s, over) : 0;
     double doubt = results_doubt(s, method, 0, which) + results_doubt(s, over, 0, which);
     equal_squares(s, method, which, basis, x);
     equal_squares(s, over, which, basis, y);
-    return results_ratio(x, s->plan->n_seeds, y, s->plan->n_seeds, price, doubt);
+    return results_ratio(x, s->plan->n_seeds, y, s->plan->n_seeds, doubt);
 }
 
 struct interval equal_ratio(const struct scene_results *s, int method, int over, enum square which)
@@ -79,9 +75,20 @@ struct equal_ends equal_ends(const struct results *r, int method, enum square wh
 double equal_price(const struct results *r, int method)
 {
     double sum = 0;
-    for (int i = 0; i < r->plan->n_scenes; i++)
-        sum += m_log(r->scene[i].price[method].each);
-    return m_exp(sum / r->plan->n_scenes);
+    int n = r->plan->n_scenes * r->plan->n_seeds;
+    for (int i = 0; i < n; i++)
+        sum += m_log(r->scene[i / r->plan->n_seeds].price[method][i % r->plan->n_seeds].each);
+    return m_exp(sum / n);
+}
+
+double equal_spread(const struct results *r)
+{
+    double spread = 0;
+    for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
+        for (int v = 0; v < r->plan->methods.n; v++)
+            for (int i = 0; i < r->plan->n_seeds * r->plan->n_seeds; i++)
+                spread = fmax(spread, s->price[v][i / r->plan->n_seeds].each / s->price[v][i % r->plan->n_seeds].each - 1);
+    return spread;
 }
 
 /* --- means over scenes ------------------------------------------------------------------------------- */

@@ -1,8 +1,8 @@
 /* equal.h: methods after the same CPU time, by arithmetic.
  *
  * The first method has N samples per pixel, or all have as many seconds as were asked for. Time is counted in samples
- * of the first method: T = before_1 + N. A method that prepares for `before` and spends `each` per sample (struct
- * price) can afford n = (T - before) / each, and is rendered with the nearest whole number of samples. The squared
+ * of the first method: T = before_1 + N. A method that with a seed prepares for `before` and spends `each` per sample
+ * (struct price) can afford n = (T - before) / each, and is rendered with the nearest whole number of samples. The squared
  * error of an unbiased method falls as 1 / samples, so at T it is that of the render times samples / n: nothing but the
  * rounding. (A bias does not fall; half a sample of some dozen is not seen in it. At equal samples scenes do not count
  * where one of the two methods is marked.)
@@ -14,14 +14,14 @@
 
 #include "lab/results.h"
 
-/* Intervals hold the truth 95 % of the time. That of one scene is results_ratio's, over seeds, with the error of the
- * price. That of several is Student's, on the logarithms of the scenes' ratios, which scatter by their seeds, by their
+/* Intervals hold the truth 95 % of the time. That of one scene is results_ratio's, over seeds, whose
+ * prices are part of what scatters. That of several is Student's, on the logarithms of the scenes' ratios, which scatter by their seeds, by their
  * prices and above all by their scenes. Logarithms far from normal make it too narrow: of 11 scenes as skewed as an
  * exponential distribution it holds the truth in 90 %. */
 
-/* equal_afforded: n; equal_samples: as rendered, at least 1. */
-double equal_afforded(const struct scene_results *s, int method);
-long equal_samples(const struct scene_results *s, int method);
+/* equal_afforded: n; equal_samples: as rendered, at least 1.  seed: from 0 */
+double equal_afforded(const struct scene_results *s, int method, int seed);
+long equal_samples(const struct scene_results *s, int method, int seed);
 
 /* equal_squares: of all seeds, the squared errors at T, or of one sample, into out [PLAN_MAX_SEEDS]; NaN where not even
  * one sample can be afforded. equal_ratio: their mean at T over that of another method, with the interval of
@@ -39,8 +39,10 @@ struct equal_ends {
 };
 struct equal_ends equal_ends(const struct results *r, int method, enum square which);
 
-/* equal_price: of a sample over one of the first, geometric mean over scenes. */
+/* equal_price: of a sample over one of the first, geometric mean over scenes and seeds. equal_spread: the largest ratio
+ * of two seeds' prices of a method in a scene, less 1. */
 double equal_price(const struct results *r, int method);
+double equal_spread(const struct results *r);
 
 /* equal_mean: the geometric mean over scenes of a method's ratio to another, with its interval. NaN where a scene has
  * no ratio.

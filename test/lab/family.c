@@ -131,17 +131,15 @@ static void ratio_table(FILE *f, const struct results *e, enum half half, enum s
 /* What was given, and what it came to. */
 static void write_samples(FILE *f, const struct results *e)
 {
-    double spread = 0;
     for (const struct scene_results *s = e->scene; s < e->scene + e->plan->n_scenes; s++) {
-        double seconds = (s->price[0].before + (double)equal_samples(s, 0)) * s->seconds;
+        double seconds = (s->price[0][0].before + (double)equal_samples(s, 0, 0)) * s->seconds;
         fprintf(f, "- %s: %.3g s of CPU; samples of each:", s->name, seconds);
-        for (int v = 0; v < e->plan->methods.n; v++) {
+        for (int v = 0; v < e->plan->methods.n; v++)
             fprintf(f, "%s %ld", v > 0 ? "," : "", s->run[v][0][0].spp);
-            spread = fmax(spread, s->price[v].spread);
-        }
         fputs("\n", f);
     }
-    fprintf(f, "\nPrices of a sample by rounds differ by %.0f %% at most.\n\n", 100 * spread);
+    fprintf(f, "\nThese are of the first seed. Prices of a sample by seeds differ by %.0f %% at most.\n\n",
+            100 * equal_spread(e));
 }
 
 /* What errors are against, and what the marks mean. */
@@ -168,7 +166,7 @@ static void write_notes(FILE *f, const struct results *e)
           "`compare` calls rmse8; relmse: of the relative squared error of linear values; 8x8: the same of means "
           "over 8x8 pixels, which pixels that err together do not hide. ", f);
     write_light(f, e);
-    fputs("Prices were measured by turns with the first method, on one thread, in three rounds, of which the medians "
+    fputs("Prices were measured by turns with the first method, on one thread, in three rounds of each seed, of which the medians "
           "count. Samples are those that the time affords, all that is prepared included.\n\n", f);
     write_samples(f, e);
     plan_write_command(f, e->plan);

@@ -180,7 +180,7 @@ static bool render_run(struct subject *s, int method, int seed, const long *spp,
 static bool read_or_render_run(struct subject *s, int method, int seed)
 {
     const struct plan *p = s->plan;
-    long spp = p->equal ? equal_samples(s->out, method) : 0;
+    long spp = p->equal ? equal_samples(s->out, method, seed - 1) : 0;
     const long *steps = p->equal ? &spp : p->spp;
     s->pace->share = 0;
     bool ok = read_run(s, method, seed, steps, p->n_steps) || render_run(s, method, seed, steps, p->n_steps);
@@ -213,18 +213,20 @@ static void compare_pairs(struct subject *s, int method, int step, float *const 
 static void compare_earlier(struct subject *s, int method, int step)
 {
     const struct plan *p = s->plan;
-    long of = s->out->run[method][0][0].spp, spp = earlier_step(of, step);
+    long spp[PLAN_MAX_SEEDS];
     float *picture[PLAN_MAX_SEEDS];
     int n = 0;
-    for (bool there = spp > 0; there && n < p->n_seeds; n += there) {
+    for (bool there = true; there && n < p->n_seeds; n += there) {
         char name[STORE_NAME], key[STORE_KEY];
         struct record r = {{0}, NULL, 0, 0};
-        picture_key(s, method, plan_seed(p, method, n + 1), spp, of, name, key);
-        there = store_read(p->directory, name, key, &r);
+        long of = s->out->run[method][n][0].spp;
+        spp[n] = earlier_step(of, step);
+        picture_key(s, method, plan_seed(p, method, n + 1), spp[n], of, name, key);
+        there = spp[n] > 0 && store_read(p->directory, name, key, &r);
         picture[n] = r.pixels;
     }
     for (int i = 0; n == p->n_seeds && i < n; i++) {
-        s->out->run[method][i][step].spp = spp;
+        s->out->run[method][i][step].spp = spp[i];
         compare_picture(s, method, i + 1, step, picture[i]);
     }
     if (n == p->n_seeds && results_by_pairs(s->out, method))
@@ -263,8 +265,8 @@ static bool measure_methods(struct subject *s)
 {
     const struct plan *p = s->plan;
     bool ok = true;
-    for (int v = 0; ok && p->equal && v < p->methods.n; v++)
-        ok = subject_price(s, v);
+    for (int i = 0; ok && p->equal && i < p->methods.n * p->n_seeds; i++)
+        ok = subject_price(s, i % p->methods.n, i / p->methods.n + 1);
     for (int seed = 1; ok && seed <= p->n_seeds; seed++)
         for (int v = 0; ok && v < p->methods.n; v++)
             ok = seed > plan_seeds(p, v) || read_or_render_run(s, v, seed);

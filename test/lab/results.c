@@ -55,8 +55,8 @@ static void write_run(FILE *f, const struct scene_results *s, int method, int se
     for (int k = 0; k < N_SQUARES; k++)
         write_number(f, run->square[k]);
     fprintf(f, ",%ld", run->nonfinite);
-    write_number(f, s->plan->equal ? s->price[method].before : NAN);
-    write_number(f, s->plan->equal ? s->price[method].each : NAN);
+    write_number(f, s->plan->equal ? s->price[method][seed].before : NAN);
+    write_number(f, s->plan->equal ? s->price[method][seed].each : NAN);
     fprintf(f, ",%s,%s,%s\n", MARKS[s->mark[method]], m->label,
             (const char *const[]){"", "choice", "services", "both"}[m->halves]);
 }
@@ -149,9 +149,13 @@ double results_square(const struct scene_results *s, int method, int step, enum 
 
 double results_seconds(const struct scene_results *s, int method, int step)
 {
-    const struct price *p = &s->price[method];
-    return s->plan->equal ? s->seconds * (p->before + p->each * (double)s->run[method][0][step].spp) :
-                            results_mean(s, method, step, Q_SECONDS).mean;
+    double sum = 0;
+    int n = plan_seeds(s->plan, method);
+    if (!s->plan->equal)
+        return results_mean(s, method, step, Q_SECONDS).mean;
+    for (int i = 0; i < n; i++)
+        sum += s->price[method][i].before + s->price[method][i].each * (double)s->run[method][i][step].spp;
+    return s->seconds * sum / n;
 }
 
 int results_marked(const struct results *r, int method)
@@ -177,7 +181,7 @@ double student_quantile(double p, double dof)
     return 0.5 * (low + high);
 }
 
-struct interval results_ratio(const double *a, int na, const double *b, int nb, double price, double doubt)
+struct interval results_ratio(const double *a, int na, const double *b, int nb, double doubt)
 {
     struct estimate ea = mean_of(a, na), eb = mean_of(b, nb);
     struct interval out = {ea.mean / eb.mean, NAN, NAN};
@@ -188,8 +192,8 @@ struct interval results_ratio(const double *a, int na, const double *b, int nb, 
     if (na < 2 || nb < 2)
         return out;
     /* var ln x = var x / x^2; Welch's degrees of freedom. */
-    double va = sqr(ea.error / ea.mean), vb = sqr(eb.error / eb.mean), v = va + vb + price + doubt;
-    double dof = v > 0 ? sqr(v) / (sqr(va) / (na - 1) + sqr(vb) / (nb - 1) + sqr(price) / 2) : 1;
+    double va = sqr(ea.error / ea.mean), vb = sqr(eb.error / eb.mean), v = va + vb + doubt;
+    double dof = v > 0 ? sqr(v) / (sqr(va) / (na - 1) + sqr(vb) / (nb - 1)) : 1;
     double factor = m_exp(student_quantile(0.05, dof) * sqrt(v));
     out.low = out.value / factor;
     out.high = out.value * factor;
@@ -216,5 +220,5 @@ struct interval results_over_first(const struct scene_results *s, int method, in
         }
         doubt += paid ? results_doubt(s, compared[k], step, SQUARE_MSE8) : 0;
     }
-    return results_ratio(x[0], n[0], x[1], n[1], 0, doubt);
+    return results_ratio(x[0], n[0], x[1], n[1], doubt);
 }

@@ -36,10 +36,11 @@ struct run {
     long nonfinite; /* values that could not be compared */
 };
 
-/* What a method costs, in CPU time of a sample of the first method, by medians over rounds in which both were timed:
- * what it prepares, and each sample per pixel. spread: how far the rounds' prices of a sample are apart, relative. */
+/* What a method costs with one seed, in CPU time of a sample of the first method, by medians over rounds in which both
+ * were timed: what it prepares, and each sample per pixel. Seeds have prices of their own, since a method may choose by
+ * its seed how it renders. */
 struct price {
-    double before, each, spread;
+    double before, each;
 };
 
 struct scene_results {
@@ -51,8 +52,8 @@ struct scene_results {
     const char *by;   /* the method that rendered it; NULL: it was stored, or given */
     bool lacks;       /* that one may not find all light: see reference_method */
     enum mark mark[METHODS_MAX]; /* after all samples */
-    struct price price[METHODS_MAX]; /* of equal time */
-    double seconds;                  /* of equal time: CPU seconds of a sample of the first method */
+    struct price price[METHODS_MAX][PLAN_MAX_SEEDS]; /* of equal time */
+    double seconds; /* of equal time: CPU seconds of a sample of the first method */
     /* The first plan_seeds() and n_steps of each. At equal time the steps from 1 on are earlier numbers of samples of
      * the same render, for curves; some may be missing. */
     struct run run[METHODS_MAX][PLAN_MAX_SEEDS][PLAN_MAX_STEPS];
@@ -110,9 +111,9 @@ bool results_write(const struct results *r, const char *name, void (*write)(FILE
 
 /* results_ratio: mean of a[na] over mean of b[nb], both independent and positive on average. The interval is Welch's,
  * on the logarithm of the ratio.
- *   price  variance of that logarithm which seeds do not show, known by three rounds of timing; or 0
- *   doubt  more of it, taken for exact: the sum of both methods' results_doubt; with NaN there is no ratio */
-struct interval results_ratio(const double *a, int na, const double *b, int nb, double price, double doubt);
+ *   doubt  variance of that logarithm which seeds do not show: the sum of both methods' results_doubt; with NaN there
+ *          is no ratio */
+struct interval results_ratio(const double *a, int na, const double *b, int nb, double doubt);
 
 /* results_mean_log: geometric mean of n numbers given by their logarithms, with Student's interval. */
 struct interval results_mean_log(const double *log, int n);

@@ -9,7 +9,7 @@
 #include "lab/stats.h"
 #include "lab/timed.h"
 
-enum { PROBE_WIDTH = 24, ROUNDS = 3, LEAST_TIMED = 4, TIMED_SHARE = 8 };
+enum { PROBE_WIDTH = 24, ROUNDS = 3, LEAST_TIMED = 4, TIMED_SHARE = 16 };
 
 struct render_options subject_options(struct subject *s, const struct measured *m, uint64_t seed, int n_threads)
 {
@@ -59,9 +59,10 @@ int subject_key(struct subject *s, int method, char key[STORE_KEY])
 
 /* CPU seconds of what a method prepares and of each of a few samples: a whole block of them, unless that is longer than
  * what the first method renders. */
-static bool time_method(struct subject *s, int method, long spp, double *before, double *each)
+static bool time_method(struct subject *s, int method, int seed, long spp, double *before, double *each)
 {
-    struct render_options o = subject_options(s, &s->plan->methods.item[method], 0, 1);
+    uint64_t number = plan_seed(s->plan, method, seed);
+    struct render_options o = subject_options(s, &s->plan->methods.item[method], number, 1);
     struct timed took;
     int block;
     if (!timed_prepare(&s->scene, &o, before, &block, s->err))
@@ -75,13 +76,14 @@ static bool time_method(struct subject *s, int method, long spp, double *before,
 }
 
 /* The first method and another by turns. */
-static bool measure_price(struct subject *s, int method, double out[STORE_NUMBERS])
+static bool measure_price(struct subject *s, int method, int seed, double out[STORE_NUMBERS])
 {
     double before[ROUNDS], each[ROUNDS], first[ROUNDS], ignored;
     long spp = plan_last_spp(s->plan) / TIMED_SHARE;
     spp = spp > LEAST_TIMED ? spp : LEAST_TIMED;
     for (int i = 0; i < ROUNDS; i++) {
-        if (!time_method(s, 0, spp, &ignored, &first[i]) || !time_method(s, method, spp, &before[i], &each[i]))
+        if (!time_method(s, 0, seed, spp, &ignored, &first[i]) ||
+            !time_method(s, method, seed, spp, &before[i], &each[i]))
             return false;
         before[i] /= first[i];
         each[i] = method == 0 ? 1 : each[i] / first[i];
@@ -89,26 +91,25 @@ static bool measure_price(struct subject *s, int method, double out[STORE_NUMBER
     stats_sort(first, ROUNDS);
     out[0] = stats_median(before, ROUNDS);
     out[1] = stats_median(each, ROUNDS);
-    out[2] = each[ROUNDS - 1] / each[0] - 1;
-    out[3] = first[0];
+    out[2] = first[0];
     return true;
 }
 
-bool subject_price(struct subject *s, int method)
+bool subject_price(struct subject *s, int method, int seed)
 {
     const struct plan *p = s->plan;
     const struct measured *first = &p->methods.item[0];
     struct record r = {{0}, NULL, 0, 0};
     char name[STORE_NAME], key[STORE_KEY];
     int n = subject_key(s, method, key);
-    snprintf(key + n, (size_t)(STORE_KEY - n), " price over %s, %08lx, spp=%ld", first->text, subject_probe(s, 0),
-             plan_last_spp(p));
-    snprintf(name, sizeof name, "store/%s--%s--%d--price-over-%s", s->out->name, p->methods.item[method].file,
-             s->scene.width, first->file);
+    snprintf(key + n, (size_t)(STORE_KEY - n), " price over %s, %08lx, spp=%ld seed=%" PRIu64, first->text,
+             subject_probe(s, 0), plan_last_spp(p), plan_seed(p, method, seed));
+    snprintf(name, sizeof name, "store/%s--%s--%d--price-over-%s--seed%" PRIu64, s->out->name,
+             p->methods.item[method].file, s->scene.width, first->file, plan_seed(p, method, seed));
     bool ok = store_read(p->directory, name, key, &r) ||
-              (measure_price(s, method, r.number) && store_write(p->directory, name, key, &r, s->err));
-    struct price price = {r.number[0], r.number[1], r.number[2]};
-    s->out->price[method] = price;
-    s->out->seconds = method == 0 || r.number[3] < s->out->seconds ? r.number[3] : s->out->seconds;
+              (measure_price(s, method, seed, r.number) && store_write(p->directory, name, key, &r, s->err));
+    s->out->price[method][seed - 1] = (struct price){r.number[0], r.number[1]};
+    bool less = (method == 0 && seed == 1) || r.number[2] < s->out->seconds;
+    s->out->seconds = less ? r.number[2] : s->out->seconds;
     return ok;
 }

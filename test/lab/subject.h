@@ -30,7 +30,8 @@ unsigned long subject_probe(struct subject *s, int method);
  * length. */
 int subject_key(struct subject *s, int method, char key[STORE_KEY]);
 
-/* subject_price: s->out->price of a method, read from the store or measured. False with a message. */
-bool subject_price(struct subject *s, int method);
+/* subject_price: s->out->price of a method with a seed, from 1 on, read from the store or measured. False with a
+ * message. */
+bool subject_price(struct subject *s, int method, int seed);
 
 #endif
