@@ -166,8 +166,8 @@ static void write_notes(FILE *f, const struct results *e)
           "`compare` calls rmse8; relmse: of the relative squared error of linear values; 8x8: the same of means "
           "over 8x8 pixels, which pixels that err together do not hide. ", f);
     write_light(f, e);
-    fputs("Prices were measured by turns with the first method, on one thread, in three rounds of each seed, of which the medians "
-          "count. Samples are those that the time affords, all that is prepared included.\n\n", f);
+    fputs("Prices were measured by turns with the first method, on one thread, in three rounds of each seed, of which "
+          "the medians count. Samples are those that the time affords, all that is prepared included.\n\n", f);
     write_samples(f, e);
     plan_write_command(f, e->plan);
 }
