@@ -41,7 +41,7 @@ static const struct test_entry ENTRIES[] = {
     {"table", test_table, false}, {"regions", test_regions, false},
     {"emission", test_emission, false},
     {"learning", test_learning, false},
-    {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false},
+    {"options", test_options, false}, {"render", test_render, false}, {"asbdpt", test_asbdpt, false}, {"bins", test_bins, false},
     {"draws", test_what_is_drawn, true}, {"growth", test_growth, true},
     {"rivals", test_rivals, false},   {"ellipse", test_ellipse, false},
     {"sdtree", test_sdtree, false},

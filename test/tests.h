@@ -6,6 +6,7 @@
 
 void test_part(struct test *t);
 void test_asbdpt(struct test *t);
+void test_bins(struct test *t);
 void test_asbdpt_long(struct test *t);
 void test_what_is_drawn(struct test *t); /* part of test_asbdpt, quick */
 void test_aov(struct test *t);

@@ -9,7 +9,8 @@
  * block) it discards all bins.
  *
  * Choices that the text leaves open: Algorithm 2 prints the comparison of the random number with p_e0 the other way
- * round; we follow the text (take e0 if u < p_e0). An empty sub-path has beta 0, and two zeros give 1/2. The method
+ * round. By default we follow the text (`order = text`: take e0 if u < p_e0); `order = printed` takes e0 if u > p_e0. An
+ * empty sub-path has beta 0, and two zeros give 1/2. The method
  * visits bins in the order of the van der Corput sequence, from a random start for each pixel and block.
  *
  * This estimator is BIASED. Every sub-path that is used counts once, whatever its probability of being used was. The
@@ -17,7 +18,7 @@
  * sub-paths that are used have another distribution than those that are traced. If high beta means "escaped after one
  * bounce", the image is too dark. doc/dissertation.md measures the bias; select = pool is the smallest repair.
  *
- * Tests: test_asbdpt.c (must be rejected by the test that accepts BDPT).
+ * Tests: test_asbdpt.c (must be rejected by the test that accepts BDPT), test_bins.c (the predicted bias).
  */
 #include <limits.h>
 #include <stdlib.h>
@@ -25,9 +26,13 @@
 #include "base/number.h"
 #include "integrators/method.h"
 
+/* Algorithm 2's comparison, as the text around it says or as it is printed. */
+enum order { ORDER_TEXT, ORDER_PRINTED };
+static const char *const ORDERS[] = {"text", "printed", NULL};
+
 /* Parameters. */
 struct bins_parameters {
-    int bin_paths, max_age, restart;
+    int bin_paths, max_age, restart, order;
 };
 
 struct element {
@@ -50,10 +55,11 @@ struct pixel {
 
 /* Trace a new sub-path for element e. The number of its random stream is made of the block's first iteration and of the
  * order of tracing within the block. An iteration traces at most binpaths + 1 <= 2^13 sub-paths, so the numbers of a
- * block stay below those of the next. */
+ * block stay below those of the next. Consecutive numbers would be points of one net, which avoid each other, and so
+ * would the elements of a bin: the hash, a bijection, makes them independent. */
 static void replace(struct pixel *p, struct element *e, long iteration)
 {
-    uint64_t number = ((uint64_t)p->pass->first << 32) + p->traced++;
+    uint64_t number = hash_mix(((uint64_t)p->pass->first << 32) + p->traced++);
     arena_reset(&e->arena);
     e->vertex = arena_alloc(&e->arena, ((size_t)p->pass->job->max_depth + 1) * sizeof *e->vertex);
     e->length = sample_light_path(p->pass, &p->prepared->counts, p->x, p->y, number, &e->arena, e->vertex);
@@ -92,8 +98,9 @@ static struct element *choose(const struct pixel *p, double shift, uint64_t step
     int bin = (int)((position - floor(position)) * (p->own->bin_paths / 2));
     struct element *e = &p->element[2 * bin];
     double p_e0 = first_probability(e);
-    *pmf = u < p_e0 ? p_e0 : 1 - p_e0;
-    return u < p_e0 ? &e[0] : &e[1];
+    bool first = p->own->order == ORDER_TEXT ? u < p_e0 : u > p_e0;
+    *pmf = (p->own->order == ORDER_TEXT) == first ? p_e0 : 1 - p_e0;
+    return first ? &e[0] : &e[1];
 }
 
 static void render_iteration(struct pixel *p, double shift, long iteration)
@@ -159,6 +166,8 @@ static const struct field OWN[] = {
      "iterations after which an unused sub-path is replaced, 0: never", NULL},
     {"restart", FIELD_INTEGER, AT(restart), 32, 0, INT_MAX,
      "iterations after which all bins are rebuilt, 0: never", NULL},
+    {"order", FIELD_WORD, AT(order), ORDER_TEXT, 0, 0, "take the first element if u < p_e0 (text) or u > p_e0 (printed)",
+     ORDERS},
     {.name = NULL}};
 
 /* The dissertation has no Russian roulette. Its selection uses the throughput at the last vertex, and roulette would
