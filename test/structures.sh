@@ -6,7 +6,7 @@
 # the better of the others in a scene, or more than MEAN (0.55) in the geometric mean, or no sample in that time.
 # structures.sh draw: structures.svg of structures.txt.
 draw() {
-    awk '/^== / { on = $2 == "data" } on && NF == 7 { print $1, $2, $3, $4, "-" }' | sort -t - -k 2,2 -k 1,1n |
+    awk '/^== / { on = $2 == "data" } on && NF == 10 { print $1, $2, $3, $4, "-" }' | sort -t - -k 2,2 -k 1,1n |
         awk -v title="Squared error (mse8) in the same CPU time, relative to the better of bdpt and pt" \
             -v dot="asbdpt, with its 95 % interval" -v axis="1: as good as the better; lower is better" \
             -v least=0.1 -v most=5 -f doc/tour/dots.awk
@@ -23,8 +23,8 @@ for number in $(seq "$first" $((first + ${COUNT:-40} - 1))); do
 done
 ./asbdpt-lab equal-time "$@" -o "$dir" --methods bdpt,pt,asbdpt --res "${RES:-128x96}" --spp "${SPP:-64}" \
     --seeds "${SEEDS:-3}" --quiet >"$dir/said" || exit 1
-awk -v worst="${WORST:-1.15}" -v mean="${MEAN:-0.55}" -f test/evidence/structures.awk \
-    "$dir/equal-time.md" >"$dir/structures.txt"
+awk -v worst="${WORST:-1.15}" -v mean="${MEAN:-0.55}" -f test/evidence/better.awk \
+    -f test/evidence/structures.awk "$dir/equal-time.md" >"$dir/structures.txt"
 status=$?
 draw <"$dir/structures.txt" >"$dir/structures.svg"
 exit $status

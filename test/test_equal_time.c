@@ -83,6 +83,7 @@ static void check_time(struct test *t, struct results *r)
     struct plan *p = (struct plan *)r->plan;
     CHECK(t, equal_samples(s, 0, 0) == 32 && equal_samples(s, 1, 0) == 16 && equal_samples(s, 2, 0) == 64, "%ld, %ld, %ld",
           equal_samples(s, 0, 0), equal_samples(s, 1, 0), equal_samples(s, 2, 0));
+    CHECK(t, equal_samples(&r->scene[2], 1, 2) == 8 && equal_samples(&r->scene[2], 1, 1) == 16, "seeds' own prices");
     s->price[0][0].before = s->price[0][1].before = s->price[0][2].before = 4; /* which all are given, too */
     CHECK(t, near(equal_afforded(s, 0, 0), 32) && near(equal_afforded(s, 1, 0), 28 / 1.5) && equal_samples(s, 1, 0) == 19,
           "%g, %g", equal_afforded(s, 0, 0), equal_afforded(s, 1, 0));
@@ -373,10 +374,14 @@ static void check_both_ways(struct test *t)
     for (int v = 0; ok && v < 3; v++)
         CHECK(t, by_pairs.scene[0].mark[v] == MARK_NONE && by_reference.scene[0].mark[v] == MARK_NONE, "%s is marked",
               p.methods.item[v].text);
+    p.reference = NULL;
+    CHECK(t, !ok || results_by_pairs(&by_pairs.scene[0], 1), "pt is not measured by pairs");
+    by_pairs.scene[0].mark[0] = MARK_DARK;
+    CHECK(t, !ok || !results_by_pairs(&by_pairs.scene[0], 1), "a ratio to a marked method is measured in two ways");
     struct run early[3]; /* of bdpt, after 4, 8 and 16 of its 32 samples: what is rendered by itself below */
     memcpy(early, &by_pairs.scene[0].run[0][1][2], sizeof early);
     results_free(&by_pairs);
-    p.equal = false, p.reference = NULL;
+    p.equal = false;
     double sum[3] = {0, 0, 0}; /* after 4, 8 and 16 samples: each step has pairs of its own */
     ok = plan_set_spp(&p, 4, 16, &err) && measure(&p, &by_pairs, &err);
     for (int i = 0; ok && i < 9 * p.n_seeds; i++)

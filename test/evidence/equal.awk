@@ -1,45 +1,35 @@
-# equal.awk: sections of doc/measured from family.md of `asbdpt-lab family`, where the default is called subspaces. Of
-# the last file: table, a row for each scene; mean: that alone; without: the mean without the best scene;
-# better: the mean over the better of bdpt and pt, which counts where it has no mark, like "misses light", behind its
-# interval; losses: where that is above 1. Of two files, with 16 and 64 samples: sizes, what the default makes of the
-# better one, a line where learning left no time for a sample. With -v kinds=, a file of scenes and their kinds, a
-# section for each kind: both means; and halves, of the scenes that nothing was chosen on, every second of the file from
-# the first, and of the others: means and worst of all measures.
+# equal.awk, after better.awk: sections of doc/measured from family.md of `asbdpt-lab family`, where the default is
+# called subspaces. Of the last file: table, a row for each scene; mean: that alone; without: the mean without the best
+# scene; better, of the default over the better of bdpt and pt: the mean of each measure, the worst, and where that is
+# above 1, as cells of a table. Of two files, with 16 and 64 samples: sizes, the same by scenes, a line where learning
+# left no time for a sample. With -v kinds=, a file of scenes and their kinds, a section for each kind: both means; and
+# halves, of the scenes that nothing was chosen on, every second of the file from the first, and of the others.
 BEGIN {
     while (kinds != "" && (getline < kinds) > 0) {
         kind[$1] = $2
         if (!/^#/) half[$1] = ++rows % 2 ? "not used for tuning" : "used for tuning"
     }
 }
-function halves(    i, h, m, text, names, over) {
-    print "== halves\n| scenes | number | mse8 | worst | relmse | worst | 8x8 | worst |\n|---|---:|---:|---|---:|---|---:|---|"
-    for (names = split("not used for tuning;used for tuning", of, ";"); names >= 1; names--) {
-        h = of[3 - names]; text = ""
-        for (m = 1; m <= 3; m++) {
-            sum = most = many = 0
-            for (i = 1; i <= n; i++) if (half[scene[i]] == h && (over = over_better(file, name[m], i)) > 0) {
-                sum += log(over); many++
-                if (over > most) { most = over; where = scene[i] }
-            }
-            text = text sprintf(" %.2f | %.2f `%s` |", exp(sum / many), most, where)
-        }
-        print "| " h " | " many " |" text
-    }
+function halves(    h, of) {
+    print "== halves\n| scenes | number | mse8 | worst | above 1 | relmse | worst | above 1 | 8x8 | worst | above 1 |"
+    print "|---|---:|---:|---|---:|---:|---|---:|---:|---|---:|"
+    for (h = split("not used for tuning;used for tuning", of, ";"); h >= 1; h--)
+        print "| " of[3 - h] " | " number[of[3 - h], 1] " |" cells(of[3 - h], 1)
 }
 function cell(method, m, i) { return value[file, method, m, i] }
-function least(v) { return v + 0 > 0 ? v + 0 : 0.0005 } # what is printed as 0.000 is taken for half of the last digit
-# What the default of a file makes of the better one in a scene; 0: not known. bdpt is 1.
-function over_better(f, m, i,    q, pt) {
-    q = value[f, "subspaces", m, i]; pt = value[f, "pt", m, i]
-    return q !~ /^[0-9]/ ? 0 : least(q) / (pt ~ /[a-z]/ || pt !~ /^[0-9]/ || pt + 0 >= 1 ? 1 : least(pt))
-}
+# What the default of a file makes of the better one in a scene; 0: not known.
+function over(f, m, i) { return over_better(value[f, "subspaces", m, i], value[f, "pt", m, i], blind[f, m, i]) }
 FNR == 1 { file++; measure = "" }
 /^(mse8|relmse|8x8): squared/ { measure = $1; sub(/:/, "", measure) }
 /^\| method \|.*price/ { measure = "summary" }
 measure == "" { next }
 /^\| method \|/ && measure != "summary" {
     n = split($0, scene, / *\| */) - 3
-    for (i = 1; i <= n; i++) { scene[i] = scene[i + 2]; sub(/,.*/, "", scene[i]) }
+    for (i = 1; i <= n; i++) {
+        scene[i] = scene[i + 2]
+        blind[file, measure, i] = scene[i] ~ /\(bdpt: /
+        sub(/,.*/, "", scene[i])
+    }
 }
 /^\| (pt|subspaces) \|/ {
     m = split($0, c, / *\| */)
@@ -53,7 +43,7 @@ function sizes(    i, f, m, q, line, mean, sum, count) {
     for (i = 1; i <= n; i++) {
         line = "| " scene[i] " |"
         for (f = 1; f <= 2; f++) for (m = 1; m <= 3; m++) {
-            q = over_better(f, name[m], i)
+            q = over(f, name[m], i)
             if (q > 0) { sum[f, m] += log(q); count[f, m]++ }
             line = line (q > 0 ? sprintf(q > 1 ? " **%.2f** |" : " %.2f |", q) : " **-** |")
         }
@@ -72,18 +62,22 @@ END {
             cell("subspaces", "relmse", i) " | " cell("subspaces", "8x8", i) " |"
         q[i] = least(cell("subspaces", "mse8", i))
         if (q[i] < q[best]) best = i
-        if ((over = over_better(file, "mse8", i)) > 0) over = log(over)
-        better += over; losses += over > 0; rest += log(q[i])
-        k = kind[scene[i]]; count[k]++; ours[k] += log(q[i]); betters[k] += over
+        rest += log(q[i])
+        k = kind[scene[i]]; count[k]++; ours[k] += log(q[i])
+        for (m = 1; m <= 3; m++) {
+            take("all", m, scene[i], over(file, name[m], i))
+            take(k, m, scene[i], over(file, name[m], i))
+            take(half[scene[i]], m, scene[i], over(file, name[m], i))
+        }
     }
     all = cell("subspaces", "summary", 4)
     print "| **geometric mean** | " cell("pt", "summary", 4) " | " bold(all) " | " \
         cell("subspaces", "summary", 5) " | " cell("subspaces", "summary", 6) " |"
     sub(/ .*/, "", all)
     printf "== mean\n%s\n== without\n%.2f without `%s`\n", all, exp((rest - log(q[best])) / (n - 1)), scene[best]
-    printf "== better\n%.2f\n== losses\n%d of %d\n", exp(better / n), losses, n
+    answers("all")
     if (file > 1) sizes()
     if (rows) halves()
     for (k in count) if (k != "") printf "== %s\n%.2f (%.2f with the better of `bdpt` and `pt`; %d scenes)\n", k,
-        exp(ours[k] / count[k]), exp(betters[k] / count[k]), count[k]
+        exp(ours[k] / count[k]), mean_of(k, 1), count[k]
 }

@@ -14,7 +14,7 @@ file == 1 {
     s = $at["scene"]; h = $at["half"]
     n = split(h == "both" ? "choice services" : h == "" ? "all" : h, half, " ")
     if (!(s in known)) { scene[++scenes] = s; first = $at["label"]; known[s] }
-    i = ++seeds[$at["label"], s] # methods have seeds of their own
+    i = ++seeds[$at["label"], $at["half"], s] # methods have seeds of their own
     if ($at["label"] == first) time[s, i] = $at["price_before"] + $at["spp"]
     mark[$at["label"], s] = $at["mark"]
     afforded = (time[s, i] - $at["price_before"]) / $at["price_each"] # samples
@@ -23,7 +23,9 @@ file == 1 {
             sum[half[h], $at["label"], s, k] += afforded >= 1 ? $at[square[k]] * $at["spp"] / afforded : -1e99
     next
 }
-function near(a, b) { return (a - b) ^ 2 <= (0.0006 + 0.0006 * b) ^ 2 || sprintf("%.2g", a) == sprintf("%.2g", b) }
+function near(a, b, by) { # by: of a quotient of rounded numbers
+    return (a - b) ^ 2 <= (0.0006 + (0.0006 + by) * b) ^ 2 || sprintf("%.2g", a) == sprintf("%.2g", b)
+}
 # Is the cell of a row, "VALUE [LOW, HIGH]", what the runs say by measure k?
 function compare(half, method, k, text,    i, x, a, b, mean, squares, error, stored) {
     for (i = 1; i <= scenes; i++) {
@@ -52,10 +54,29 @@ section ~ /^(choice|services)$/ && /^\| / {
     compare(of, "pt", 1, " " c[3])
     for (k = 1; k <= 3; k++) compare(of, "subspaces", k, " " c[3 + k])
 }
-section == "data" && split($0, c, " ") == 7 { # of structures.awk: asbdpt over the better of bdpt and pt, by mse8
-    b = sum["all", "bdpt", c[1], 1]; p = sum["all", "pt", c[1], 1]; a = sum["all", "asbdpt", c[1], 1]
-    better = mark["pt", c[1]] == "" && (p < b || mark["bdpt", c[1]] != "") ? p : b
+# The default over the better of bdpt and pt, each measure with its own better one.
+function over_better(h, ours, s, k,    a, b, p) {
+    a = sum[h, ours, s, k]; b = sum[h, "bdpt", s, k]; p = sum[h, "pt", s, k]
+    if (a <= 0 || b <= 0) return 0
+    return a / (p > 0 && mark["pt", s] == "" && (p < b || mark["bdpt", s] != "") ? p : b)
+}
+section == "data" && split($0, c, " ") == 10 { # of structures.awk
+    for (k = 1; k <= 3; k++) {
+        v = over_better("all", "asbdpt", c[1], k)
+        compared++
+        if (c[3 * k - 1] == "-" ? v > 0 : !near(c[3 * k - 1], v, 0.01)) wrong("all", c[1], k, " " c[3 * k - 1], v)
+    }
+}
+section ~ /^(better|losses)-/ && /^[0-9]/ { # of equal.awk
+    h = ("all", first, scene[1], 1) in sum ? "all" : "services"
+    for (k = 1; substr(square[k], 1, 6) != substr(section, 8, 6) && k < 3; k++) ;
+    mean = above = number = 0
+    ours = (h, "asbdpt", scene[1], 1) in sum ? "asbdpt" : "subspaces"
+    for (i = 1; i <= scenes; i++) if ((v = over_better(h, ours, scene[i], k)) > 0) {
+        mean += log(v); above += v > 1; number++
+    }
     compared++
-    if (!near(c[2], a / better)) wrong("all", c[1], 1, " " c[2], a / better)
+    if (section ~ /^b/ ? !near($1, exp(mean / number)) : $0 != above " of " number)
+        wrong(h, section, k, " " $0, exp(mean / number) ", " above " of " number)
 }
 END { print compared + 0 " numbers computed again"; exit bad || !compared }

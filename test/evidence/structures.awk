@@ -1,27 +1,13 @@
-# structures.awk: asbdpt over the better of bdpt and pt, by mse8, in scenes NUMBER-KIND, from equal-time.md of
-# `asbdpt-lab equal-time`. A method with a mark, like "misses light", is no better one. Sections: kinds, a row for each;
-# all, in words; data, lines "SCENE RMSE8 LOW HIGH 8x8 LOW HIGH", "-" without a sample.
-# With -v worst= and -v mean=: exit status 1 beyond them, or where asbdpt has a mark.
-function cell(s, measure, method,    part) { # "VALUE [LOW, HIGH]"
-    split(ratio[method, measure, s], part, /[][, ]+/)
-    value = part[1]; low = part[2]; high = part[3]
-    return value ~ /^[0-9]/
-}
-function over(s, measure,    by) {
-    by = !misses[s] && cell(s, "mse8:", "pt") && (value < 1 || blind[s]) && cell(s, measure, "pt") ? value + 0 : 1
-    if (by == 0) by = 0.0005
-    return cell(s, measure, "asbdpt") ? sprintf("%.3f %.3f %.3f", value / by, low / by, high / by) : "- - -"
-}
-function add(kind, k, v) {
-    n[kind, k]++
-    logs[kind, k] += log(v > 0 ? v : 0.0005)
-    if (v > most[kind, k]) most[kind, k] = v
-}
-function row(kind,    k, text) {
-    for (k = 1; k <= 4; k += 3)
-        text = text (n[kind, k] ? sprintf(" %.2f | %.2f |", exp(logs[kind, k] / n[kind, k]), most[kind, k]) : \
-            " - | - |")
-    print "| " kind " | " scenes[kind] " |" text
+# structures.awk, after better.awk: asbdpt over the better of bdpt and pt, by each measure, in scenes NUMBER-KIND, from
+# equal-time.md of `asbdpt-lab equal-time`. A method with a mark, like "misses light", is no better one. Sections: kinds,
+# a row for each; all, in words; mean, over bdpt by mse8; better-... and losses-..., see better.awk; data, lines "SCENE MSE8 LOW HIGH RELMSE LOW HIGH 8x8 LOW HIGH", "-" without a number.
+# With -v worst= and -v mean=: exit status 1 beyond them by mse8, or where asbdpt has a mark.
+function over(s, measure,    v, part, a) { # and its interval
+    a = ratio["asbdpt", measure, s]
+    v = over_better(a, ratio["pt", measure, s], blind[s])
+    if (!v) return "- - -"
+    split(a, part, /[][, ]+/)
+    return sprintf("%.3f %.3f %.3f", v, part[2] * v / least(a), part[3] * v / least(a))
 }
 /^(mse8|relmse|8x8): squared/ { measure = $1 }
 /^\| method \|/ {
@@ -35,33 +21,36 @@ function row(kind,    k, text) {
 END {
     for (i = 3; i <= columns; i++) {
         s = name[i]
-        misses[s] = ratio["pt", "mse8:", s] ~ /[a-z]/
-        missed += misses[s]
+        take("over bdpt", 1, s, least(ratio["asbdpt", "mse8:", s]))
+        missed += ratio["pt", "mse8:", s] ~ /[a-z]/
         if (ratio["asbdpt", "mse8:", s] ~ /[a-z]/) dark = dark (dark ? ", `" : " in `") s "`"
-        line = s " " over(s, "mse8:") " " over(s, "8x8:")
+        line = s " " over(s, "mse8:") " " over(s, "relmse:") " " over(s, "8x8:")
         data = data line "\n"
         kind = s; sub(/^[0-9]+-/, "", kind)
         if (!scenes[kind]++) order[++kinds] = kind
         scenes["**all**"]++
         split(line, part, " ")
-        if (part[2] == "-") lost++
-        for (k = 1; k <= 4; k += 3)
-            if (part[k + 1] != "-") { add(kind, k, part[k + 1] + 0); add("**all**", k, part[k + 1] + 0) }
+        for (m = 1; m <= 3; m++) {
+            take(kind, m, s, part[3 * m - 1] + 0)
+            take("**all**", m, s, part[3 * m - 1] + 0)
+        }
         if (worst && (part[2] == "-" || part[3] > worst + 0 || ratio["asbdpt", "mse8:", s] ~ /[a-z]/)) {
             bad = 1
             print "structures: " line, ratio["asbdpt", "mse8:", s] >"/dev/stderr"
         }
     }
-    if (!n["**all**", 1]) exit 1
-    print "== kinds\n| structure | scenes | mean, mse8 | worst | mean, 8x8 | worst |\n|---|---:|---:|---:|---:|---:|"
-    for (j = 1; j <= kinds; j++) row(order[j])
-    row("**all**")
+    if (!number["**all**", 1]) exit 1
+    print "== kinds\n| structure | scenes | mse8 | worst | above 1 | relmse | worst | above 1 | 8x8 | worst | above 1 |"
+    print "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
+    order[++kinds] = "**all**"
+    for (j = 1; j <= kinds; j++) print "| " order[j] " | " scenes[order[j]] " |" cells(order[j], 0)
     print "\n![Squared error of asbdpt over the better of bdpt and pt, in each generated scene](structures.svg)"
-    all = exp(logs["**all**", 1] / n["**all**", 1])
-    printf "== all\n%.2f of the squared error of the better of `bdpt` and `pt` in the mean, %.2f at worst. ", all,
-        most["**all**", 1]
-    printf "`pt` misses light in %d, `asbdpt`%s. Learning leaves `asbdpt` no time in %d.\n== data\n%s", missed,
-        dark ? dark : " in 0", lost, data
-    if (mean && all > mean) { bad = 1; print "structures: mean " all >"/dev/stderr" }
+    print "== all"
+    printf "`pt` misses light in %d, `asbdpt`%s. There is no number by mse8 in %d, by relmse in %d, by 8x8 in %d.\n", missed,
+        dark ? dark : " in 0", lost["**all**", 1], lost["**all**", 2], lost["**all**", 3]
+    print "== mean\n" interval("over bdpt", 1)
+    answers("**all**")
+    printf "== data\n%s", data
+    if (mean && mean_of("**all**", 1) > mean) { bad = 1; print "structures: mean " mean_of("**all**", 1) >"/dev/stderr" }
     exit bad
 }

@@ -122,7 +122,7 @@ void results_pairs(const double *half, int n, double *out)
 bool results_by_pairs(const struct scene_results *s, int method)
 {
     return plan_seeds(s->plan, method) >= 3 && s->plan->reference == NULL && s->reference.variance != NULL &&
-           !s->lacks && s->mark[method] == MARK_NONE;
+           !s->lacks && s->mark[0] == MARK_NONE && s->mark[method] == MARK_NONE;
 }
 
 static double mean_square(const struct scene_results *s, int method, int step, enum square which)

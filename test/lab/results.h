@@ -72,7 +72,8 @@ void results_free(struct results *r);
 void results_pairs(const double *half, int n, double *out);
 
 /* results_by_pairs: are a method's squares by pairs? These see all the error of a method that has all light. Where
- * perhaps none has, all are against the reference: few seeds may not tell which of two lacks the same light. */
+ * perhaps none has, or the first method is marked, all are against the reference: few seeds may not tell which of two
+ * lacks the same light, and a ratio needs one way of measuring. */
 bool results_by_pairs(const struct scene_results *s, int method);
 
 /* results_doubt: variance of the logarithm of a method's mean square that its seeds do not show: the noise of the
