@@ -129,6 +129,20 @@ static void check_ratios(struct test *t, struct results *r)
     i = equal_over_best(r, 1, both, 2, SQUARE_BLOCKS);
     r->scene[1].mark[2] = MARK_NONE;
     CHECK(t, near(i.value, cbrt(2 * 4 * 4)), "what misses light is not the best: %g", i.value);
+    static const double lucky[SEEDS] = {0.1, 0.1, 9}; /* bdpt: 1, 1.1, 1.2; two of lvc's seeds are its luck */
+    double old[SEEDS];
+    for (int k = 0; k < SEEDS; k++) {
+        old[k] = r->scene[0].run[2][k][0].square[SQUARE_BLOCKS];
+        r->scene[0].run[2][k][0].square[SQUARE_BLOCKS] = lucky[k];
+    }
+    i = equal_over_best(r, 1, both, 2, SQUARE_BLOCKS);
+    for (int k = 0; k < SEEDS; k++)
+        r->scene[0].run[2][k][0].square[SQUARE_BLOCKS] = old[k];
+    CHECK(t, near(i.value, cbrt(1.65 / (1 + 1.1 + 9) * 16 * 4)), "seeds choose for others: %g", i.value);
+    const struct measured *item = r->plan->methods.item;
+    CHECK(t, !measured_biased(&item[0]) && !measured_biased(&item[1]), "bdpt or asbdpt is biased");
+    struct measured vcm = {.integrator = "vcm"};
+    CHECK(t, measured_biased(&vcm), "vcm is not biased");
 }
 
 /* lvc has a quarter of bdpt's error everywhere; asbdpt half, four times and as much. */

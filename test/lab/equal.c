@@ -117,18 +117,38 @@ struct interval equal_mean(const struct results *r, int method, int over, enum s
     return *n == 1 ? ratio_at(last, method, over, which, basis) : results_mean_log(log, *n);
 }
 
+/* Logarithm of the sum of a method's squares over that of the best others, of which seed i takes the one with the least
+ * sum over the other seeds. */
+static double log_over_best(const struct scene_results *s, int method, const int *others, int n_others,
+                            enum square which)
+{
+    int n = s->plan->n_seeds;
+    double own[PLAN_MAX_SEEDS], x[METHODS_MAX][PLAN_MAX_SEEDS], best = 0;
+    equal_squares(s, method, which, AT_EQUAL_TIME, own);
+    for (int k = 0; k < n_others; k++)
+        equal_squares(s, others[k], which, AT_EQUAL_TIME, x[k]);
+    for (int i = 0; i < n; i++) {
+        double least = NAN, of_seed = NAN;
+        for (int k = 0; k < n_others; k++) {
+            double sum = sum_of(x[k], n) - (n > 1 ? x[k][i] : 0);
+            if (s->mark[others[k]] != MARK_NONE || isnan(results_doubt(s, others[k], 0, which)) || !(sum > 0) ||
+                sum >= least)
+                continue;
+            least = sum;
+            of_seed = x[k][i];
+        }
+        best += of_seed;
+    }
+    double ratio = sum_of(own, n) / best;
+    return ratio > 0 && !isnan(results_doubt(s, method, 0, which)) ? m_log(ratio) : NAN;
+}
+
 struct interval equal_over_best(const struct results *r, int method, const int *others, int n_others, enum square which)
 {
     double log[MOST_SCENES];
     int n = r->plan->n_scenes < MOST_SCENES ? r->plan->n_scenes : MOST_SCENES;
-    for (int i = 0; i < n; i++) {
-        log[i] = NAN;
-        for (int k = 0; k < n_others; k++) {
-            double over = log_ratio(&r->scene[i], method, others[k], which, AT_EQUAL_TIME);
-            if (r->scene[i].mark[others[k]] == MARK_NONE && !(over <= log[i]))
-                log[i] = over;
-        }
-    }
+    for (int i = 0; i < n; i++)
+        log[i] = log_over_best(&r->scene[i], method, others, n_others, which);
     return results_mean_log(log, n);
 }
 

@@ -50,7 +50,8 @@ double equal_spread(const struct results *r);
 struct interval equal_mean(const struct results *r, int method, int over, enum square which, enum basis basis,
                            const char *wanted, int *n);
 
-/* equal_over_best: the same of a method over the best of several in each scene, of those that have no mark there.
+/* equal_over_best: the same of a method over the best of several in each scene, of those that have no mark there. Which
+ * is the best one for a seed the other seeds say: a method that is chosen for its luck has less error than it will have.
  *   others  [n_others] */
 struct interval equal_over_best(const struct results *r, int method, const int *others, int n_others,
                                 enum square which);

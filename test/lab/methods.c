@@ -21,6 +21,14 @@ static bool set_pairs(const char *text, struct settings *out, struct error *err)
     return true;
 }
 
+bool measured_biased(const struct measured *m)
+{
+    for (const struct method *const *row = method_rows; *row != NULL; row++)
+        if (strcmp((*row)->name, m->integrator) == 0 && (*row)->select == NULL)
+            return strstr((*row)->help, "; biased") != NULL;
+    return false;
+}
+
 struct settings measured_settings(const struct measured *m, const struct settings *base)
 {
     struct settings out = {0};

@@ -81,6 +81,9 @@ const char *method_short(const char *text);
 /* methods_find: the number of the method of that text, or -1. */
 int methods_find(const struct methods *list, const char *text);
 
+/* measured_biased: does its help say that it is biased? */
+bool measured_biased(const struct measured *m);
+
 /* measured_settings: its settings, over those of `base` (NULL: none). To be given to settings_clear. */
 struct settings measured_settings(const struct measured *m, const struct settings *base);
 
