@@ -36,6 +36,15 @@ static void test_statistics(struct test *t)
           doubted.high);
     CHECK(t, fabs(log(mean.value) - 2.2) < 1e-12 && fabs(log(mean.high) - 2.2 - 4.302653 * 0.2 / sqrt(3)) < 1e-5,
           "geometric mean %g, to %g", mean.value, mean.high);
+    struct plan p = {.n_seeds = 2, .n_compared = 1};
+    struct scene_results *s = mem_alloc(1, sizeof *s);
+    s->plan = &p;
+    s->run[0][1][0].value[Q_MEAN_ERROR] = 0.02;
+    s->reference.mean_error = 0.01;
+    struct estimate off = results_mean(s, 0, 0, Q_MEAN_ERROR);
+    CHECK(t, fabs(off.mean - 0.01) < 1e-12 && fabs(off.error - sqrt(1 + 1.01 * 1.01) / 100) < 1e-12,
+          "off by %g +- %g, of which the reference has 0.0101", off.mean, off.error);
+    free(s);
     CHECK(t, isnan(one.low) && isfinite(one.value), "one seed has no interval");
     CHECK(t, isnan(results_ratio(below, 2, b, 2, 0).value), "error below the reference's noise has no ratio");
 }

@@ -103,7 +103,10 @@ struct estimate results_mean(const struct scene_results *s, int method, int step
     int n = plan_seeds(s->plan, method);
     for (int i = 0; i < n; i++)
         x[i] = s->run[method][i][step].value[q];
-    return mean_of(x, n);
+    struct estimate e = mean_of(x, n);
+    if (q == Q_MEAN_ERROR && isfinite(s->reference.mean_error))
+        e.error = sqrt(sqr(e.error) + sqr((1 + e.mean) * s->reference.mean_error));
+    return e;
 }
 
 void results_pairs(const double *half, int n, double *out)

@@ -95,7 +95,7 @@ struct estimate {
     int n;              /* seeds; 0: mean is NaN */
 };
 
-/* results_mean: of a value. */
+/* results_mean: of a value. The error of Q_MEAN_ERROR has that of the reference's mean in it, if this is known. */
 struct estimate results_mean(const struct scene_results *s, int method, int step, enum quantity q);
 
 /* A ratio of two means with its 95 % confidence interval; NaN where it cannot be told. */
