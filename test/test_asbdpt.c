@@ -41,11 +41,12 @@ static void test_bias(struct test *t)
     "lvc connections=2, cbdpt connections=2"
 /* Services, each alone, on a method whose choice learns nothing; and what rivals have of them. */
 #define ALONE                                                                                                          \
-    "lvc guide=on, lvc emission=0.2, lvc tile=5 spread=3, asbdpt select=pool guide=off emission=0.2"
+    "lvc guide=on, lvc emission=0.2, lvc tile=5 spread=3, lvc lightpoints=3, lvc race=on,"                             \
+    "asbdpt select=pool guide=off emission=0.2"
 #define RIVALS                                                                                                         \
-    "pcbdpt guide=on emission=0.2 tile=9 spread=2 records=.05,"                                               \
+    "pcbdpt guide=on emission=0.2 tile=9 spread=2 records=.05 lightpoints=2, mbdpt lightpoints=2,"                     \
     "ris emission=0.2 tile=9 spread=2 records=.05, ris2 emission=0.2 tile=9 spread=2 records=.05,"                     \
-    "spcbpt guide=on emission=0.2 tile=9 spread=2,"                                                           \
+    "spcbpt guide=on emission=0.2 tile=9 spread=2 lightpoints=2, cbdpt race=on lightpoints=2,"                         \
     "restir guide=on emission=0.2 tile=9 spread=2"
 static const struct agreement QUICK[] = {
     {"scenes/cornell-box", 16, 16, 4, "bdpt",

@@ -24,6 +24,7 @@
  *   guide         s = 1 chooses lights by what they are worth to a region
  *   emission      light sub-paths start in directions that the camera can use (emission.h)
  *   race          fewer light sub-paths, or none, if a race before the render finds them enough (race.h)
+ *   lightpoints   points on lights that a first hit is joined to
  *   tile, spread  number of pixels that share light sub-paths, and how far apart they are (tile_pass.h)
  */
 struct parameters {
@@ -49,12 +50,16 @@ struct parameters {
 #define PARAMETER_RACE(DEFAULT) \
     PARAMETER("race", FIELD_WORD, race, DEFAULT, 0, 0, \
               "find out before the render whether fewer light sub-paths and connections are enough, or none", OFF_ON)
+#define PARAMETER_POINTS(DEFAULT) \
+    PARAMETER("lightpoints", FIELD_INTEGER, numbers.light_points, DEFAULT, 1, 64, \
+              "points on lights that an eye vertex that the camera sees is joined to", NULL)
 #define PARAMETER_TILES(TILE, SPREAD) \
     PARAMETER("tile", FIELD_INTEGER, tile, TILE, 1, MAX_TILE_SIZE, \
               "pixels along a side of those that share light sub-paths", NULL), \
     PARAMETER("spread", FIELD_INTEGER, spread, SPREAD, 1, 64, "tiles that are interleaved along each axis", NULL)
-#define PARAMETERS_SHARED(RACE, GUIDE, EMISSION, TILE, SPREAD) \
-    PARAMETER_RACE(RACE), PARAMETER_GUIDE(GUIDE), PARAMETER_EMISSION(EMISSION), PARAMETER_TILES(TILE, SPREAD)
+#define PARAMETERS_SHARED(RACE, POINTS, GUIDE, EMISSION, TILE, SPREAD) \
+    PARAMETER_RACE(RACE), PARAMETER_POINTS(POINTS), PARAMETER_GUIDE(GUIDE), PARAMETER_EMISSION(EMISSION), \
+    PARAMETER_TILES(TILE, SPREAD)
 extern const char *const OFF_ON[];
 
 /* A way to render that competes in a race (race.h), and what the race predicts of it. */

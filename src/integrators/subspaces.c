@@ -132,11 +132,11 @@ static const struct field PARAMETERS[] = {
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path; 0: trace none", NULL),
     PARAMETER_DELTA(0.1),
-    PARAMETERS_SHARED(true, true, 0.2, MAX_TILE_SIZE, POOL_SPREAD),
+    PARAMETERS_SHARED(true, 2, true, 0.2, MAX_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_subspaces = {
     .name = "asbdpt", .select = "subspaces", .help = "light vertices by what they are worth where the eye vertex is",
-    .parameters = PARAMETERS, .numbers = {.light_points = 2}, .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .parameters = PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD,
     .direct_credit = 4, .pair_credit = 2, .single = true, .learns_use = true, .learns_pairs = true,
     .render = loop_render, .build = build, .draw = draw};

@@ -63,7 +63,7 @@ static const struct field PARAMETERS[] = {
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 2, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path", NULL),
     PARAMETER_DELTA(0.1),
-    PARAMETERS_SHARED(false, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
+    PARAMETERS_SHARED(false, 1, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_vertices = {

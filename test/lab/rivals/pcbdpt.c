@@ -25,7 +25,7 @@ static void prepare(const struct render_job *job, struct prepared *p)
 static const struct field PARAMETERS[] = {
     PARAMETER("connections", FIELD_INTEGER, numbers.draws[FIRST_HIT], 4, 1, 1024,
               "light vertices drawn for each eye vertex", NULL),
-    PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(RECORDS_TILE, 1),
+    PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(RECORDS_TILE, 1),
     {.name = NULL}};
 static const struct field OWN[] = {
     RIS_SUBPATHS_FIELD(200), RIS_RECORDS_FIELD,
