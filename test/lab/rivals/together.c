@@ -44,15 +44,23 @@ static bool alike(const struct vertex *a, const struct vertex *b)
     return dot(a[1].ng, b[1].ng) > 0.9063 && fabs(da - db) < 0.1 * fmax(da, db);
 }
 
+/* A number from `from - NEAR` to `from + NEAR`, of those in [0, n). */
+static int near_to(struct sampler *sampler, int from, int n)
+{
+    int low = from > NEAR ? from - NEAR : 0, high = from + NEAR < n ? from + NEAR : n - 1;
+    return low + (int)(sampler_number(sampler, DRAW_LIGHT_END) * (high - low + 1));
+}
+
 int reuse_neighbours(struct pixel *pixel, int n, int i, int tries, int *near)
 {
-    int found = 0;
+    int found = 0, columns = pixels_columns(pixel[i].sample.pass->tile->pixels), rows = (n + columns - 1) / columns;
     if (!reuse_first(&pixel[i]))
         return 0;
     near[found++] = i;
     for (int k = 0; k < tries; k++) {
-        int j = (int)(sampler_number(&pixel[i].sample.choice, DRAW_LIGHT_END) * n);
-        if (j != i && reuse_first(&pixel[j]) && alike(pixel[i].eye, pixel[j].eye))
+        struct sampler *choice = &pixel[i].sample.choice;
+        int x = near_to(choice, i % columns, columns), j = x + columns * near_to(choice, i / columns, rows);
+        if (j != i && j < n && reuse_first(&pixel[j]) && alike(pixel[i].eye, pixel[j].eye))
             near[found++] = j;
     }
     return found;

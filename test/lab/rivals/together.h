@@ -33,14 +33,14 @@ static inline bool lit_draw(const struct sample *sample, const struct vertex *z,
            connect_light(scene, z, at, pdf, out);
 }
 
-enum { MOST_NEIGHBOURS = 32 };
+enum { MOST_NEIGHBOURS = 32, NEAR = 4 };
 
 /* reuse_first: is the pixel's first vertex one to connect to? */
 static inline bool reuse_first(const struct pixel *p) { return p->n >= 2 && vertex_connectible(&p->eye[1]); }
 
-/* reuse_neighbours: pixel i, and of `tries` others of the tile's n those whose first vertex is like its own in depth
- * and normal, into near [tries + 1]; of a pixel without such a vertex none. Returns how many. They are chosen by first
- * vertices alone. */
+/* reuse_neighbours: pixel i, and of `tries` others of the tile's n, at most NEAR columns and rows away, those whose first
+ * vertex is like its own in depth and normal, into near [tries + 1]; of a pixel without such a vertex none. Returns how
+ * many. They are chosen by first vertices alone. */
 int reuse_neighbours(struct pixel *pixel, int n, int i, int tries, int *near);
 
 /* reuse_step: the factor by which an eye walk's throughput has changed from one vertex to the next, in channels, too,
