@@ -186,6 +186,9 @@ tsan: ## run the threaded tests under the thread sanitizer
 	build-tsan/test threads
 
 # ---- about the tree ----
+release: all ## what a release consists of, into out/release: sources, the page that renders, man pages, checksums
+	sh test/release.sh out/release
+
 doc: ## all documents as static HTML in out/html; begin with index.html
 	sh doc/html.sh out/html
 
@@ -205,5 +208,5 @@ help: ## list the targets
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt asbdpt-lab
 
-.PHONY: FORCE all install uninstall demo gallery experiments web bench ref test check-long check-ref portability hashes faults mutants \
+.PHONY: FORCE all install uninstall demo gallery experiments web release bench ref test check-long check-ref portability hashes faults mutants \
 	layers standard references links evidence measured doc figures san tsan stats tidy help clean

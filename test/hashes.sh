@@ -46,6 +46,7 @@ grep -v '^new ' "$list" >"$dir/old"
 changed=$(diff "$dir/old" "$dir/new" | grep '^<')
 if [ "$mode" = renew ]; then
     if grep '^none' "$dir/new"; then exit 1; fi
+    grep -q "^| $estimator |" CHANGELOG.md || fail "CHANGELOG.md does not say what estimator $estimator changes"
     [ -z "$changed" ] || [ "$estimator" != "$listed" ] ||
         fail "these pictures are others; if they are meant to be, raise ESTIMATOR in src/base/version.h:
 $changed"

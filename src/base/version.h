@@ -6,7 +6,7 @@
 #ifndef ASBDPT_VERSION_H
 #define ASBDPT_VERSION_H
 
-#define VERSION "asbdpt 0.1"
-#define ESTIMATOR 13
+#define VERSION "asbdpt 0.9"
+#define ESTIMATOR 14
 
 #endif
