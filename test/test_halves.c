@@ -34,7 +34,7 @@ static void test_known(struct test *t)
         for (int p = 0; p < SIDE * SIDE; p++)
             tile_add(&tile, p % SIDE, p / SIDE, rgb_make(rng_uniform(&r), rng_uniform(&r), rng_uniform(&r)));
         for (int k = 0; k < SPLATS; k++)
-            tile_add_splat(&tile, SIDE * rng_uniform(&r), SIDE * rng_uniform(&r), rgb_make(1, 0, 0), 0);
+            tile_add_splat(&tile, SIDE * rng_uniform(&r), SIDE * rng_uniform(&r), rgb_make(1, 0, 0));
         film_merge_tile(&film, &tile);
         film.iterations++;
     }

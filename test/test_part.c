@@ -80,7 +80,7 @@ static bool accepted(const struct fixture *f, const uint8_t *data, size_t n, int
 /* Digits 0, -1, 63, 64, -65 and 2^62, of which the last has nine bytes. */
 static void test_bytes(struct test *t)
 {
-    static const char TEXT[] = "asbdpt part 8\nsamples 2 7\ndone 3 1\nleft-out 4\nhalves 0\nsize 1 1, planes 0 0\n"
+    static const char TEXT[] = "asbdpt part 9\nsamples 2 7\ndone 3 1\nleft-out 4\nhalves 0\nsize 1 1\n"
                                "film 1 1, window 0 0\n"
                                "scale 1\nspp 8\nversion 0\ncheck ";
     static const uint8_t SUMS[] = {255, 7,   0,   1,   126, 12,  128, 1,   129, 1,

@@ -112,8 +112,9 @@ static void bridge(void *context, const struct sample *sample, const struct join
             b->made[j->s + j->t][j->s][i] += brought * w[j->s] * w[i];
 }
 
-static struct observer look_on(void *context, int slot)
+static struct observer look_on(void *context, int slot, const struct tile *tile)
 {
+    (void)tile;
     struct observer o = {.context = context, .joined = bridge};
     (void)slot;
     return o;

@@ -192,7 +192,6 @@ static bool begin(struct watch *w, const struct method *integrator, const char *
     w->tiling = tiling_of(rect, &w->prepared.size);
     w->work = workspaces_new(1, w->job.max_depth);
     film_init(&w->film, rect, w->scene.width, w->scene.height);
-    w->tile.planes = w->film.planes;
     w->pixels = mem_alloc(3 * n, sizeof *w->pixels);
     w->rgba = mem_alloc(4 * n, sizeof *w->rgba);
     w->seconds = os_wall_seconds() - start;

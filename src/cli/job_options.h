@@ -44,10 +44,6 @@ struct job_options {
     bool strict, quiet;
     struct texts output; /* of render and worth */
     /* Of render alone: */
-    const char *lights; /* directory or NULL */
-    bool alpha;
-    const char *aov;        /* list or NULL */
-    bool layers, seen;      /* they go into the picture's own file; see render/aov.h */
     const char *stats;      /* file or NULL */
     struct tone_options tone;
     struct keep_options keep;

@@ -32,12 +32,9 @@ bool keep_check(const struct keep_options *o, struct error *err);
  *   film    initialised, empty
  *   pictures  their film and part set before the render
  * keep_end: remove the progress bar, say on stderr if and why the render has stopped early, save the last checkpoint if
- * `ok`. False with a message where it cannot be written; err may be NULL. The caller releases k->part.
- * keep_after: the render's progress from now on is that of what is made when it is done, --aov; it, too, ends at a
- * signal and in time. progress_end(&k->bar) must follow. */
+ * `ok`. False with a message where it cannot be written; err may be NULL. The caller releases k->part. */
 bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const struct scene *scene,
                 struct render_options *render, struct film *film, const struct outputs *pictures, struct error *err);
 bool keep_end(struct keep *k, bool ok, struct error *err);
-void keep_after(struct keep *k, struct render_options *render);
 
 #endif

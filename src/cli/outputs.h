@@ -15,11 +15,7 @@
 struct output {
     struct file_output file;
     bool is_part;
-    int plane;           /* of the film, which they are where it is not 0 */
-    const float *pixels; /* where they are others than the picture's, else NULL; borrowed */
 };
-
-enum { OUTPUTS_LAYERS = 16 };
 
 struct outputs {
     struct output *item; /* [n], owned */
@@ -27,9 +23,6 @@ struct outputs {
     struct tone tone; /* of 8-bit pictures */
     /* Set before outputs_write: */
     struct placement place;  /* where the pictures lie in their whole */
-    const float *alpha;      /* [height*width*3], grey, by which pixels are multiplied already; NULL: none; borrowed */
-    struct channel layer[OUTPUTS_LAYERS]; /* [n_layers], more channels of OpenEXR; values borrowed */
-    int n_layers;
     const struct part *part; /* what is written into parts; borrowed */
     const struct film *film;
 };

@@ -14,19 +14,15 @@
 #include "base/os.h"
 #include "image/zlib.h"
 
-static const char MAGIC[] = "asbdpt part 8\n";
+static const char MAGIC[] = "asbdpt part 9\n";
 enum { MOST_TEXT = 1 << 20, BUFFER = 1 << 16, EMPTY = 255, LONGEST_SUM = 1 + 10 * EXACT_DIGITS };
 
-/* Of one plane; of all; with half the picture's samples; and, of a block under way, with its splats and then, of each
- * pixel, its samples. */
-static size_t plane_of(const struct part *p) { return (size_t)p->width * (size_t)p->height * 3; }
-static size_t planes_of(const struct part *p) { return plane_of(p) * (size_t)plane_count(p->planes); }
-static size_t samples_of(const struct part *p) { return planes_of(p) + (p->halves ? plane_of(p) : 0); }
-static size_t splats_of(const struct part *p)
-{
-    return samples_of(p) + (p->passes > 0 ? plane_of(p) * (size_t)(1 + p->planes.lights) : 0);
-}
-static size_t sums_of(const struct part *p) { return splats_of(p) + (p->passes > 0 ? plane_of(p) / 3 : 0); }
+/* Of the picture; with half its samples; and, of a block under way, with its splats and then, of each pixel, its
+ * samples. */
+static size_t picture_of(const struct part *p) { return (size_t)p->width * (size_t)p->height * 3; }
+static size_t samples_of(const struct part *p) { return picture_of(p) * (p->halves ? 2 : 1); }
+static size_t splats_of(const struct part *p) { return samples_of(p) + (p->passes > 0 ? picture_of(p) : 0); }
+static size_t sums_of(const struct part *p) { return splats_of(p) + (p->passes > 0 ? picture_of(p) / 3 : 0); }
 
 struct part part_describe(const struct scene *scene, const struct render_options *o)
 {
@@ -135,9 +131,8 @@ static char *picture_text(const struct part *p)
 {
     size_t room = strlen(p->identity) + 256;
     char *text = mem_alloc(room, 1);
-    snprintf(text, room, "size %d %d, planes %d %d\nfilm %d %d, window %d %d\nscale %.17g\nspp %ld\n%s", p->width,
-             p->height, p->planes.lights, p->planes.alpha, p->place.width, p->place.height, p->place.x, p->place.y,
-             p->scale, p->planned, p->identity);
+    snprintf(text, room, "size %d %d\nfilm %d %d, window %d %d\nscale %.17g\nspp %ld\n%s", p->width, p->height,
+             p->place.width, p->place.height, p->place.x, p->place.y, p->scale, p->planned, p->identity);
     return text;
 }
 
@@ -167,7 +162,7 @@ void part_write(struct file_output *file, const struct part *p, const struct fil
     s->file = file->stream;
     fwrite(text, 1, strlen(text), s->file);
     const struct film_block *block = &film->block;
-    for (size_t i = 0, n = planes_of(p), m = samples_of(&now), k = splats_of(&now); i < sums_of(&now); i++) {
+    for (size_t i = 0, n = picture_of(p), m = samples_of(&now), k = splats_of(&now); i < sums_of(&now); i++) {
         struct exact_sum of_block = {{0}, 0};
         if (i >= m && i < k)
             exact_add(&of_block, (double)block->splat[i - m]);
@@ -210,7 +205,6 @@ static bool possible(const struct part *p)
     const struct placement *at = &p->place;
     struct error ignored;
     return p->width > 0 && p->height > 0 && picture_size_ok((uint64_t)p->width, (uint64_t)p->height, &ignored) &&
-           p->planes.lights >= 0 && p->planes.lights <= LIGHT_MAX_GROUPS &&
            at->x >= 0 && at->y >= 0 && at->width > 0 && at->height > 0 && p->width <= at->width - at->x &&
            p->height <= at->height - at->y && p->scale >= 0 && p->scale <= NUMBER_MAX && p->first >= 0 &&
            p->end > p->first && p->end <= p->planned && p->done >= 0 && p->done <= p->end - p->first &&
@@ -221,12 +215,11 @@ static bool possible(const struct part *p)
  * twice, missing, elsewhere, or read otherwise than it is compared. */
 static bool read_numbers(const char *text, struct part *p)
 {
-    int begin = 0, alpha = 0, halves = 0;
-    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld halves %d size %d %d, planes "
-           "%d %d film %d %d, window %d %d scale %lf spp %ld %n", &p->first, &p->end, &p->done, &p->passes,
-           &p->left_out, &halves, &p->width, &p->height, &p->planes.lights, &alpha, &p->place.width, &p->place.height,
-           &p->place.x, &p->place.y, &p->scale, &p->planned, &begin);
-    p->planes.alpha = alpha != 0;
+    int begin = 0, halves = 0;
+    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld halves %d size %d %d film %d "
+           "%d, window %d %d scale %lf spp %ld %n", &p->first, &p->end, &p->done, &p->passes, &p->left_out, &halves,
+           &p->width, &p->height, &p->place.width, &p->place.height, &p->place.x, &p->place.y, &p->scale, &p->planned,
+           &begin);
     p->halves = halves != 0;
     const char *identity = text + sizeof MAGIC - 1 + begin, *check = identity;
     while (strncmp(check, "check ", 6) != 0)
@@ -286,7 +279,7 @@ static bool get_samples(const struct part *p, size_t pixel, double samples, stru
 /* Every sum, the right check behind them, and nothing more. */
 static bool add_sums(struct stream *s, const struct part *p, struct film *film)
 {
-    for (size_t i = 0, n = planes_of(p), m = samples_of(p), k = splats_of(p); i < sums_of(p); i++) {
+    for (size_t i = 0, n = picture_of(p), m = samples_of(p), k = splats_of(p); i < sums_of(p); i++) {
         struct exact_sum sum, *to = i < n ? &film->sum[i] : i < m && film->half != NULL ? &film->half[i - n] : NULL;
         if (!get_sum(s, &sum) || (to != NULL && !exact_join(to, &sum)))
             return false;
@@ -308,8 +301,7 @@ static bool add_sums(struct stream *s, const struct part *p, struct film *film)
 
 bool part_add(FILE *file, const char *path, const struct part *p, struct film *film, struct error *err)
 {
-    if (p->width != rect_width(film->rect) || p->height != rect_height(film->rect) ||
-        plane_count(p->planes) != plane_count(film->planes)) {
+    if (p->width != rect_width(film->rect) || p->height != rect_height(film->rect)) {
         fclose(file);
         return error_set(err, "%s: the part has another size than the film", path);
     }

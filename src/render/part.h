@@ -2,12 +2,12 @@
  *
  * A file begins with lines of text, each ended by a line feed:
  *
- *     asbdpt part 8                    the format and its version
+ *     asbdpt part 9                    the format and its version
  *     samples A B                      samples A .. B-1 of each pixel are to be in the file when it is complete,
  *     done N P                         the first N of them are, and P tile passes of the next block
  *     left-out K                       contributions that were not finite or too large
  *     halves N                         1: behind the sums are those of half the samples (render/halves.h); 0: not
- *     size W H, planes L A             pixels of the film's rectangle; planes of light groups and of alpha
+ *     size W H                         pixels of the film's rectangle
  *     film W H, window X Y             the whole frame, and where in it the rectangle begins
  *     scale X                          by which pixels are multiplied when they are written
  *     spp N                            samples per pixel of the whole picture
@@ -16,11 +16,10 @@
  *     check XXXXXXXX                   CRC-32 of all lines before, hexadecimal
  *
  * The lines from `size` on must agree between parts of one picture. A file's lines must be those that the program
- * would write for what they say, to the byte. The file goes on with the sums of all planes (scene/film.h), of each
- * pixel by pixel, row by row from the top, red, green and blue: 255 for an empty sum, else a byte `top` and three
- * digits (exact_sum.h), the highest first. Those of half the samples follow, and if P is not 0, of the next block:
- * what light sub-paths have sent to the lens, of the picture and of each group of lights, and the samples of each
- * pixel. A digit d is written as the whole number 2d, or -2d - 1 if it is negative, seven bits to the byte from the
+ * would write for what they say, to the byte. The file goes on with the sums (scene/film.h), pixel by pixel, row by
+ * row from the top, red, green and blue: 255 for an empty sum, else a byte `top` and three digits (exact_sum.h), the
+ * highest first. Those of half the samples follow, and if P is not 0, of the next block: what light sub-paths have sent
+ * to the lens, and the samples of each pixel. A digit d is written as the whole number 2d, or -2d - 1 if it is negative, seven bits to the byte from the
  * lowest on, 128 being added to all bytes but the last. The CRC-32 of these bytes follows, four bytes, the lowest
  * first. Nothing depends on the machine's byte order.
  *
@@ -42,7 +41,6 @@
 struct part {
     char *identity; /* the lines from "version" on; owned */
     int width, height;
-    struct planes planes; /* of the film: part_describe does not know it */
     struct placement place; /* of these in the film */
     double scale;
     long planned;          /* samples per pixel of the whole picture */

@@ -106,24 +106,20 @@ static void run_pass(void *context, int64_t number, int slot, int thread)
     struct run *r = context;
     struct render_job job = r->job;
     const struct observers *others = r->options->observers;
-    const struct observer planes = planes_observer(r->film->planes);
     struct tile_pass pass = {.job = &job, .tile = &r->tile[slot], .work = &r->work[thread]};
-    struct observer other;
+    struct observer observer;
     r->pass[slot] = (struct under_way){r, number, false};
     job.enough = enough;
     job.enough_context = &r->pass[slot];
-    if (planes.walked != NULL || planes.joined != NULL)
-        pass.observer = &planes;
-    if (others != NULL) {
-        other = others->begin(others->context, slot);
-        other.next = pass.observer;
-        pass.observer = &other;
-    }
     block_range(r, (r->begun + number) / tiles_per_block(r), &pass.first, &pass.end);
     tile_start(pass.tile, tiling_pixels(&r->tiling, (r->begun + number) % tiles_per_block(r)), r->job.film_rect,
                &r->job.scene->filter);
     if (r->film->half != NULL)
         pass.tile->first_half = pass.first / r->film->run % 2 == 0;
+    if (others != NULL) {
+        observer = others->begin(others->context, slot, pass.tile);
+        pass.observer = &observer;
+    }
     pass.tile->full = take_splats;
     pass.tile->context = &r->pass[slot];
     r->prepared.method->render(&r->prepared, &pass);
@@ -161,8 +157,6 @@ static void run_all(struct run *r)
                                          .n_slots = n_slots, .context = r, .work = run_pass, .commit = merge_pass};
     r->tile = mem_alloc((size_t)n_slots, sizeof *r->tile);
     r->pass = mem_alloc((size_t)n_slots, sizeof *r->pass);
-    for (int i = 0; i < n_slots; i++)
-        r->tile[i].planes = r->film->planes;
     r->work = workspaces_new(r->job.n_threads, r->job.max_depth);
     parallel_run(&r->parallel);
     workspaces_free(r->work, r->job.n_threads);
@@ -243,7 +237,7 @@ bool render_scene(const struct scene *scene, const struct render_options *option
     bool ok = check_range(&r, err) && cut(&r, err);
     /* Learning that was cut short has learnt other things than what the film's samples go by: no more are added. */
     bool in_haste = r.wish != RENDER_GO_ON && holds_samples(film);
-    if (ok && scene->lights.n == 0 && !film->planes.alpha) { /* all samples are black */
+    if (ok && scene->lights.n == 0 && options->observers == NULL) { /* all samples are black */
         film->block.iterations = options->end - options->first;
         film_end_block(film);
     } else if (ok && options->end > options->first && !in_haste && !good_enough(&r)) /* what is resumed may be */

@@ -22,9 +22,10 @@
 enum { OBSERVED_SLOTS = 2 };
 struct observers {
     void *context;
-    /* The observer of a pass, whose result will wait in this slot; called by any thread. */
-    struct observer (*begin)(void *context, int slot);
-    /* Its tile has gone into the film: in the order of passes, one call at a time. */
+    /* The observer of a pass, whose result will wait in this slot; called by any thread.
+     *   tile  empty, of the pass */
+    struct observer (*begin)(void *context, int slot, const struct tile *tile);
+    /* The tile has gone into the film: in the order of passes, one call at a time. */
     void (*end)(void *context, int slot);
 };
 
@@ -73,10 +74,7 @@ bool render_scene(const struct scene *scene, const struct render_options *option
 bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
                     struct render_job *job, struct prepared *out, struct error *err);
 
-/* --- planes.c, tiling.c, identity.c ------------------------------------------------------------------ */
-
-/* planes_observer: what adds to the tile of a sample the planes that it has; all NULL if there are none. */
-struct observer planes_observer(struct planes planes);
+/* --- tiling.c, identity.c ---------------------------------------------------------------------------- */
 
 /* tiling_of: a film in tiles as a method wants them. tiling_count: how many; tiling_pixels: number 0 <= i < count. The
  * first few lie all over the film: they show what it is of, and how long the others will take. */

@@ -1,9 +1,7 @@
-/* film.h: where estimates of pixels are summed, and pictures are made of the sums.
+/* film.h: where estimates of pixels are summed, and the picture is made of the sums.
  *
  * Tile passes fill tiles (tile.h), and the film takes them in. The sums are exact (exact_sum.h): they depend on which
- * values came in, not on their order, and not on how the iterations were cut into blocks or parts. What else is kept on
- * request is summed in a fixed order. Standard errors are bounds: those of independent iterations, whose splats are
- * rare events. Iterations of a pixel are points of nets (sampler.h), and their mean errs less.
+ * values came in, not on their order, and not on how the iterations were cut into blocks or parts.
  *
  * Tests: test_film.c.
  */
@@ -19,7 +17,7 @@ struct film_block {
     long iterations;
     size_t n_in;  /* pixels whose samples are in the film */
     bool *in;     /* [pixels]: which these are; owned */
-    float *splat; /* [1 + planes.lights][pixels*3], what its splats have brought; owned */
+    float *splat; /* [pixels*3], what its splats have brought; owned */
 };
 
 /* How far the picture is from what it converges to, as halves.h finds it. */
@@ -43,28 +41,22 @@ struct film {
     struct film_block block;     /* that block */
     long *more;                  /* [pixels] samples of each beyond `iterations`, of blocks that film_settle has left
                                   * incomplete; NULL: there are none; owned */
-    struct planes planes;
-    struct exact_sum *sum;       /* [planes][pixels*3] of eye values and splats; owned */
+    struct exact_sum *sum;       /* [pixels*3] of eye values and splats; owned */
     struct exact_sum *half;      /* [pixels*3], the picture's of every other `run` iterations, or NULL; owned */
     int run;                     /* set when the render begins */
     struct noise_estimate noise[N_NOISE_SCALES]; /* when the halves were of one size the last time */
-    double *eye, *square;        /* for standard errors, [pixels*3] sums of eye values, and of squares of these and of
-                                  * splats; NULL unless asked for; owned */
     long nonfinite;
     struct film_number number[FILM_NUMBERS]; /* ended by a NULL name */
     bool learnt_short;   /* its samples use what was learnt in less than the full time */
 };
 
-/* film_bytes: what a film of these pixels and planes takes, and the pictures that are made of it.
+/* film_bytes: what a film of these pixels takes, and the pictures that are made of it.
  * film_init: black, for the pixels of `rect` out of a frame of full_width x full_height. Release with film_free. */
-double film_bytes(struct pixel_rect rect, struct planes planes);
+double film_bytes(struct pixel_rect rect);
 void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_height);
 void film_free(struct film *f);
 
-/* film_keep_planes: of a film that has nothing in it yet. From now on keep, film_keep_errors: what film_standard_error
- * needs; film_keep_halves: the sums of every other run of iterations, too. */
-void film_keep_planes(struct film *f, struct planes planes);
-void film_keep_errors(struct film *f);
+/* film_keep_halves: from now on keep the sums of every other run of iterations, too. */
 void film_keep_halves(struct film *f);
 
 /* film_take_splats: add a tile's splats, and empty its list. */
@@ -76,28 +68,17 @@ void film_merge_tile(struct film *f, struct tile *t);
 void film_end_block(struct film *f);
 void film_settle(struct film *f);
 
-/* film_value: the sum so far in place i of [planes][pixels*3]. */
+/* film_value: the sum so far in place i of [pixels*3]. */
 static inline double film_value(const struct film *f, size_t i) { return exact_value(&f->sum[i]); }
 
 /* film_samples: per pixel, in the mean. */
 double film_samples(const struct film *f);
 
-/* --- pictures ---------------------------------------------------------------------------------------- */
-
 /* film_develop: the image so far: [height*width*3] linear floats, top row first, each pixel times `scale`, the mean of
- * all samples that it has; black if that is none. Values that no float holds are cut to FLT_MAX; returns how many.
- * film_develop_plane: the same of another plane than the picture. */
+ * all samples that it has; black if that is none. Values that no float holds are cut to FLT_MAX; returns how many. */
 long film_develop(const struct film *f, double scale, float *out);
-long film_develop_plane(const struct film *f, int plane, double scale, float *out);
-
-/* film_alpha: the plane of alpha, grey, [height*width*3], to be given to free(); NULL if there is none. */
-float *film_alpha(const struct film *f);
 
 /* film_warn: say on stderr how many contributions were left out and how many values film_develop cut, if any. */
 void film_warn(const struct film *f, long cut);
-
-/* film_standard_error: of each value of film_develop a bound from above; infinite with fewer than two iterations. The
- * film must have been asked to keep errors. */
-void film_standard_error(const struct film *f, double scale, float *out);
 
 #endif

@@ -31,11 +31,8 @@ void tile_start(struct tile *t, struct tile_pixels pixels, struct pixel_rect fil
     t->pixels = pixels;
     t->film_rect = film_rect;
     t->filter = filter;
-    size_t sums = n * (size_t)plane_count(t->planes);
-    t->sum = mem_grow(t->sum, &t->capacity, sums, sizeof *t->sum);
-    t->square = mem_grow(t->square, &t->square_capacity, n, sizeof *t->square);
-    memset(t->sum, 0, sums * sizeof *t->sum);
-    memset(t->square, 0, n * sizeof *t->square);
+    t->sum = mem_grow(t->sum, &t->capacity, n, sizeof *t->sum);
+    memset(t->sum, 0, n * sizeof *t->sum);
     t->n_splats = 0;
     t->first_half = false;
     t->nonfinite = 0;
@@ -44,7 +41,6 @@ void tile_start(struct tile *t, struct tile_pixels pixels, struct pixel_rect fil
 void tile_free(struct tile *t)
 {
     free(t->sum);
-    free(t->square);
     free(t->splat);
     memset(t, 0, sizeof *t);
 }
@@ -55,54 +51,23 @@ static void make_room(struct tile *t)
         t->full(t->context, t);
 }
 
-/* NaN, infinities and values beyond FLT_MAX are left out of every sum alike. */
-static rgb term(rgb c) { return rgb_fits_float(c) ? c : rgb_black(); }
-
-/* Add the difference to three sums, as two terms each. */
-static void add_difference(struct exact_sum *sum, rgb a, rgb b)
-{
-    const double plus[3] = {a.r, a.g, a.b}, minus[3] = {b.r, b.g, b.b};
-    for (size_t c = 0; c < 3; c++) {
-        exact_add(&sum[c], plus[c]);
-        exact_add(&sum[c], -minus[c]);
-    }
-}
-
 void tile_add(struct tile *t, int x, int y, rgb value)
 {
+    const double part[3] = {value.r, value.g, value.b};
+    bool fits = rgb_fits_float(value);
     make_room(t);
-    t->nonfinite += !rgb_fits_float(value);
-    value = term(value);
-    size_t i = 3 * (size_t)pixels_cell(t->pixels, x, y);
-    add_difference(&t->sum[i], value, rgb_black());
-    t->square[i] += sqr(value.r);
-    t->square[i + 1] += sqr(value.g);
-    t->square[i + 2] += sqr(value.b);
+    t->nonfinite += !fits;
+    for (size_t c = 0, i = 3 * (size_t)pixels_cell(t->pixels, x, y); fits && c < 3; c++)
+        exact_add(&t->sum[i + c], part[c]);
 }
 
-/* Where a pixel has its place in a plane. */
-static struct exact_sum *in_plane(struct tile *t, int plane, int x, int y)
-{
-    return &t->sum[3 * (size_t)(plane * pixels_count(t->pixels) + pixels_cell(t->pixels, x, y))];
-}
-
-void tile_add_light(struct tile *t, int x, int y, int lights, rgb after, rgb before)
-{
-    add_difference(in_plane(t, 1 + lights, x, y), term(after), term(before));
-}
-
-void tile_add_alpha(struct tile *t, int x, int y, double alpha)
-{
-    add_difference(in_plane(t, 1 + t->planes.lights, x, y), rgb_grey(alpha), rgb_black());
-}
-
-bool tile_add_splat(struct tile *t, double px, double py, rgb value, int lights)
+bool tile_add_splat(struct tile *t, double px, double py, rgb value)
 {
     if (!rgb_fits_float(value)) {
         t->nonfinite++;
         return false;
     }
-    struct splat s = {px, py, value, lights};
+    struct splat s = {px, py, value};
     t->splat = mem_grow(t->splat, &t->splat_capacity, t->n_splats + 1, sizeof *t->splat);
     t->splat[t->n_splats++] = s;
     return true;

@@ -3,12 +3,7 @@
  * A pixel's estimate has two parts. `eye`: per iteration, what its own eye sub-path brought (all strategies with
  * t >= 2). `splat`: what light sub-paths of any pixel sent straight to the lens (t = 1), spread by the pixel filter.
  *
- * On request there are planes for the light of each group of lights (light.h), and for alpha. A sample's value grows
- * from 0 by what its paths add, one after the other; to the plane of its light every step adds two terms, the value
- * after it less the value before it. Added up, all but the last value cancel: so the planes of all lights together are
- * the picture, to the bit.
- *
- * Tests: test_film.c, test_lights.c.
+ * Tests: test_film.c.
  */
 #ifndef ASBDPT_TILE_H
 #define ASBDPT_TILE_H
@@ -48,7 +43,6 @@ bool pixels_get(struct tile_pixels p, int i, int *x, int *y);
 struct splat {
     double px, py;
     rgb value;
-    int lights; /* the group of lights it comes from */
 };
 
 /* rgb_fits_float: NaN, infinities and values beyond FLT_MAX have no place in a picture; squares of all others stay far
@@ -60,13 +54,6 @@ static inline bool rgb_fits_float(rgb c) { return fits_float(c.r) && fits_float(
 struct pixel_rect splat_pixels(const struct splat *s, const struct filter *filter, struct pixel_rect within);
 bool splat_part(const struct splat *s, const struct filter *filter, int x, int y, float out[3]);
 
-/* What a film, or a tile, has besides the image. Planes are numbered: the picture, groups of lights, alpha. */
-struct planes {
-    int lights; /* groups of lights; 0: none is told apart */
-    bool alpha;
-};
-static inline int plane_count(struct planes p) { return 1 + p.lights + p.alpha; }
-
 /* So many splats do not wait for the end of a pass: paths may have a thousand bounces, a pass any number of
  * iterations. */
 enum { TILE_FULL = 1 << 18 };
@@ -76,10 +63,8 @@ struct tile {
     struct tile_pixels pixels;
     struct pixel_rect film_rect; /* of the film: splats land anywhere in it */
     const struct filter *filter;
-    struct planes planes;  /* set before tile_start */
-    struct exact_sum *sum; /* [planes][pixels * 3], sum over the iterations of the pass; owned */
-    double *square;        /* [pixels * 3], sum of squares of the per-iteration values; owned */
-    size_t capacity, square_capacity;
+    struct exact_sum *sum; /* [pixels * 3], sum over the iterations of the pass; owned */
+    size_t capacity;
     struct splat *splat; /* [n_splats], owned */
     size_t n_splats, splat_capacity;
     bool first_half; /* its iterations belong to the first of two halves; tile_start: no */
@@ -95,13 +80,8 @@ void tile_free(struct tile *t);
 /* tile_add: the whole value of pixel (x,y) of the tile for one iteration. Call once per pixel and iteration. */
 void tile_add(struct tile *t, int x, int y, rgb value);
 
-/* tile_add_light: a sample's value has come from `before` to `after` by what a group of lights has brought.
- * tile_add_alpha: the sample's alpha. For tiles that have such planes. */
-void tile_add_light(struct tile *t, int x, int y, int lights, rgb after, rgb before);
-void tile_add_alpha(struct tile *t, int x, int y, double alpha);
-
 /* tile_add_splat: a value arriving at raster point (px,py), to be spread over pixels by the filter. False if it was
  * left out. */
-bool tile_add_splat(struct tile *t, double px, double py, rgb value, int lights);
+bool tile_add_splat(struct tile *t, double px, double py, rgb value);
 
 #endif

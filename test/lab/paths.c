@@ -34,8 +34,9 @@ static void joined(void *context, const struct sample *sample, const struct join
     list->item[list->n++] = told;
 }
 
-static struct observer begin(void *context, int slot)
+static struct observer begin(void *context, int slot, const struct tile *tile)
 {
+    (void)tile;
     struct lists *l = context;
     l->of[slot].n = 0;
     const struct observer o = {.context = &l->of[slot], .joined = joined};
