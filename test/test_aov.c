@@ -354,7 +354,7 @@ static double told_variance(struct test *t, const char *path, const char *integr
     if (!scene_from_file(t, path, W, H, &scene))
         return NAN;
     for (int seed = 0; seed < SEEDS; seed++) {
-        struct render_options o = {.integrator = integrator, .end = 16, .n_threads = 2, .max_depth = 5,
+        struct render_options o = {.integrator = method_of(&scene, integrator), .end = 16, .n_threads = 2, .max_depth = 5,
                                    .seed = test_seed(t) + (uint64_t)seed};
         struct film film;
         struct planes planes;
@@ -362,7 +362,7 @@ static double told_variance(struct test *t, const char *path, const char *integr
         planes_init(&planes, &scene, &film, false, false, true, o.n_threads);
         struct observers observers = planes_observers(&planes);
         o.observers = &observers;
-        CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
+        CHECK(t, render_by(&scene, &o, &film, &err), "%s", err.text);
         planes_end(&planes);
         film_develop(&film, 1, value);
         planes_variance(&planes, 1, variance);

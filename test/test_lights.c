@@ -30,7 +30,7 @@ static void render_planes(struct test *t, const struct scene *scene, const struc
     planes_init(&out->planes, scene, &out->film, lights, alpha, false, o.n_threads);
     struct observers observers = planes_observers(&out->planes);
     o.observers = &observers;
-    CHECK(t, render_scene(scene, &o, &out->film, &err), "%s", err.text);
+    CHECK(t, render_by(scene, &o, &out->film, &err), "%s", err.text);
     planes_end(&out->planes);
 }
 
@@ -112,7 +112,7 @@ static void check_sum_by(struct test *t, struct scene *scene, const char *way)
     char what[64];
     struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
     snprintf(what, sizeof what, "%s", way);
-    o.integrator = set_method(scene, what);
+    o.integrator = set_row(scene, what);
     check_sum(t, scene, &o, what);
 }
 
@@ -172,7 +172,7 @@ static void make_batches(struct test *t, const struct scene *scene, const char *
     for (int g = 0; g < n; g++)
         pixels[g] = batches_new(BATCHES, SUMS, false);
     for (int k = 0; k < BATCHES; k++) {
-        struct render_options o = {.integrator = integrator, .n_threads = os_cores(), .max_depth = 4,
+        struct render_options o = {.integrator = method_of(scene, integrator), .n_threads = os_cores(), .max_depth = 4,
                                    .seed = (test_seed(t) * 64 + seed) * BATCHES + (uint64_t)k,
                                    .end = spp * test_effort(t)};
         struct rendered r;
@@ -222,7 +222,7 @@ static void test_alone(struct test *t, const char *way)
 static bool render_text(struct test *t, const char *text, const char *filter, int spp, struct rendered *out)
 {
     struct scene scene;
-    struct render_options o = {.integrator = "pt", .n_threads = 1, .end = spp, .max_depth = 2};
+    struct render_options o = {.integrator = method_named("pt"), .n_threads = 1, .end = spp, .max_depth = 2};
     if (!scene_from_format(t, &scene, text, filter))
         return false;
     render_planes(t, &scene, &o, false, true, out);

@@ -11,7 +11,7 @@
 #include "cli/cmd_render.h"
 #include "cli/command.h"
 #include "image/image.h"
-#include "render/parameters.h"
+#include "render/render.h"
 
 #define AT(member) offsetof(struct job_options, member)
 const struct option RENDER_OPTIONS[] = {
@@ -107,10 +107,10 @@ static bool make_film(struct render_run *r, struct error *err)
 {
     const struct scene *scene = &r->scene;
     struct error why;
-    if (!budget_has(&scene->memory, film_bytes(render_crop(scene)), &why))
+    if (!budget_has(&scene->memory, film_bytes(r->job.state.film_rect), &why))
         return error_set(err, "%s: its film of %dx%d pixels: %s; --res makes it smaller", r->asked->scene_path,
                          scene->width, scene->height, why.text);
-    film_init(&r->film, render_crop(scene), scene->width, scene->height);
+    film_init(&r->film, r->job.state.film_rect, scene->width, scene->height);
     return true;
 }
 
@@ -130,13 +130,12 @@ int render_open(struct render_run *r, struct job_options *o)
     r->asked = o;
     if (!open_named(o, r, &err))
         return render_close(r, false, &err);
-    int status = job_load(o, &r->scene, &r->method);
+    int status = job_load(o, &r->scene, &r->job);
     if (status != EXIT_OK) {
         abandon(r);
         return status;
     }
     r->load = os_wall_seconds() - start;
-    r->render = job_render(o, &r->scene, r->method);
     return open_others(r, &err) ? EXIT_OK : render_close(r, false, &err);
 }
 
@@ -145,13 +144,13 @@ static void report(const struct render_run *r)
 {
     const struct film *film = &r->film;
     long n = r->scene.n_warnings;
-    bool other = r->asked->integrator == NULL && strcmp(r->render.integrator, "asbdpt") != 0;
+    bool other = r->asked->integrator == NULL && strcmp(r->job.options.integrator->name, "asbdpt") != 0;
     char warnings[48] = "";
     if (n > 0)
         snprintf(warnings, sizeof warnings, "; %ld warning%s about the scene", n, n > 1 ? "s" : "");
     if (!r->asked->quiet)
         say_line("%s: %dx%d, %ld spp, %s%s; %.2f s, %.2f s of CPU, %.2f us per sample path%s", r->asked->scene_path,
-                 rect_width(film->rect), rect_height(film->rect), film->iterations, r->render.integrator,
+                 rect_width(film->rect), rect_height(film->rect), film->iterations, r->job.options.integrator->name,
                  other ? " (for asbdpt: --integrator asbdpt)" : "", r->wall, r->cpu, stats_us_per_path(r), warnings);
 }
 
@@ -197,7 +196,7 @@ static bool write_pictures(struct render_run *r, bool ok, struct error *err)
     const struct film *film = &r->film;
     float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels);
     film_warn(film, film_develop(film, r->scene.film_scale, pixels));
-    warn_of_black(&r->scene, film, r->render.integrator, pixels);
+    warn_of_black(&r->scene, film, r->job.options.integrator->name, pixels);
     ok = outputs_write(&r->pictures, rect_width(film->rect), rect_height(film->rect), pixels, r->asked->quiet,
                        ok ? err : NULL) && ok;
     free(pixels);
@@ -207,16 +206,14 @@ static bool write_pictures(struct render_run *r, bool ok, struct error *err)
 /* From a film with nothing or something in it to all files. */
 bool render_work(struct render_run *r, struct error *err)
 {
-    const struct job_options *o = r->asked;
-    if (!parameters_max_depth(&r->scene, o->max_depth, &r->render.max_depth, err) ||
-        !keep_begin(&r->keep, &o->keep, o->quiet, &r->scene, &r->render, &r->film, &r->pictures, err))
+    if (!keep_begin(&r->keep, &r->asked->keep, r->asked->quiet, &r->job, &r->film, &r->pictures, err))
         return false;
     r->pictures.place = r->keep.part.place;
     r->pictures.part = &r->keep.part;
     r->pictures.film = &r->film;
     r->samples = film_samples(&r->film);
     r->cpu = os_cpu_seconds();
-    bool ok = render_scene(&r->scene, &r->render, &r->film, err);
+    bool ok = render_scene(&r->job, &r->film, err);
     r->cpu = os_cpu_seconds() - r->cpu;
     r->wall = os_wall_seconds() - r->keep.begun;
     r->samples = film_samples(&r->film) - r->samples;
@@ -237,6 +234,7 @@ int render_close(struct render_run *r, bool ok, struct error *err)
     abandon(r);
     part_free(&r->keep.part);
     film_free(&r->film);
+    job_free(&r->job);
     scene_free(&r->scene);
     return !ok ? fail(err) : interrupt_caught() != 0 ? 128 + interrupt_caught() : EXIT_OK;
 }

@@ -13,8 +13,7 @@
 struct render_run {
     struct job_options *asked;
     struct scene scene;
-    const struct method *method;
-    struct render_options render;
+    struct job job;
     struct film film;
     struct keep keep;
     struct outputs pictures;

@@ -7,7 +7,7 @@
 
 #include "cli/options.h"
 #include "cli/outputs.h"
-#include "render/render.h"
+#include "render/job.h"
 #include "scene/scene.h"
 
 /* How a render is stopped, saved and resumed. */
@@ -51,29 +51,22 @@ struct job_options {
 /* Of render; RUN_OPTIONS, for what takes samples; JOB_OPTIONS, for all: each leads on to the next. */
 extern const struct option RENDER_OPTIONS[], RUN_OPTIONS[], JOB_OPTIONS[];
 
-/* job_load: parse the scene, apply the options, prepare it, and find the method. Returns EXIT_OK, or EXIT_JOB or
- * EXIT_USAGE after printing why (then nothing needs release). */
-int job_load(const struct job_options *o, struct scene *scene, const struct method **method);
+/* job_load: parse the scene, apply the options, settle the job, whose samples are those of --spp, --quick or the scene,
+ * else 16, in whole cycles of the filter (filter.h), and prepare the scene. Returns EXIT_OK, after which job_free and
+ * scene_free must follow, or EXIT_JOB or EXIT_USAGE after printing why. */
+int job_load(const struct job_options *o, struct scene *scene, struct job *job);
 
 /* The same in two steps: job_open parses the scene, applies the options and finds the method; job_ready, with
- * all methods that will read the parameters, ended by NULL, does the rest, and releases the scene if it fails. */
+ * all methods that will read the settings, ended by NULL, the job being the first one's, does the rest, and releases the
+ * scene if it fails. */
 struct job_loading {
     const struct job_options *options;
     long n_warnings; /* so far */
 };
-int job_open(struct job_loading *job, struct scene *scene, const struct method **method);
-int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene);
-
-/* job_render: what a render is to be by these options, all its samples at once.
- * job_spp: samples per pixel in force: option, 1 if quick, scene, else 16; rounded up to whole cycles of the prepared
- * scene's filter (filter.h). */
-struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m);
-long job_spp(const struct job_options *o, const struct scene *scene);
+int job_open(struct job_loading *l, struct scene *scene, const struct method **method);
+int job_ready(struct job_loading *l, const struct method *const *readers, struct scene *scene, struct job *job);
 
 /* job_spares: is none of these outputs a file that the scene was read from? False with a message. */
 bool job_spares(const struct scene *scene, const struct texts *outputs, struct error *err);
-
-/* integrator_unknown: the message about an integrator that does not exist. Returns false. */
-bool integrator_unknown(const char *wanted, struct error *err);
 
 #endif

@@ -143,11 +143,11 @@ static enum render_wish watch(void *context, double done)
     return late(k, 0) ? RENDER_END_BLOCK : RENDER_GO_ON;
 }
 
-bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const struct scene *scene,
-                struct render_options *render, struct film *film, const struct outputs *pictures, struct error *err)
+bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, struct job *job, struct film *film,
+                const struct outputs *pictures, struct error *err)
 {
+    struct render_options *render = &job->options;
     memset(k, 0, sizeof *k);
-    render->planned = render->end;
     if (o->samples[1] > 0) {
         if (o->samples[1] > render->planned)
             return error_usage(err, "--samples %d:%d: there are %ld per pixel, see --spp", o->samples[0], o->samples[1],
@@ -163,7 +163,7 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
     k->film = film;
     k->pictures = pictures;
     k->preview_due = fmin(1, o->preview);
-    k->part = part_describe(scene, render);
+    k->part = part_describe(job);
     if (!resume(k, err)) {
         part_free(&k->part);
         return false;

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <limits.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,6 +13,7 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/os.h"
+#include "base/version.h"
 #include "image/zlib.h"
 
 static const char MAGIC[] = "asbdpt part 9\n";
@@ -24,10 +26,73 @@ static size_t samples_of(const struct part *p) { return picture_of(p) * (p->halv
 static size_t splats_of(const struct part *p) { return samples_of(p) + (p->passes > 0 ? picture_of(p) : 0); }
 static size_t sums_of(const struct part *p) { return splats_of(p) + (p->passes > 0 ? picture_of(p) / 3 : 0); }
 
-struct part part_describe(const struct scene *scene, const struct render_options *o)
+/* --- what a render is of ------------------------------------------------------------------------------ */
+
+struct lines {
+    char *text; /* owned */
+    size_t used, capacity;
+};
+
+/* One line more; whatever could break a line is replaced. */
+static void add_line(struct lines *l, const char *format, ...)
 {
-    struct pixel_rect r = render_crop(scene);
-    return (struct part){.identity = identity_text(scene, o), .width = rect_width(r), .height = rect_height(r),
+    struct error line;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(line.text, sizeof line.text, format, args);
+    va_end(args);
+    error_clean(line.text);
+    size_t n = strlen(line.text);
+    l->text = mem_grow(l->text, &l->capacity, l->used + n + 2, 1);
+    memcpy(l->text + l->used, line.text, n);
+    l->used += n;
+    memcpy(l->text + l->used++, "\n", 2);
+}
+
+static int by_name(const void *a, const void *b)
+{
+    const struct setting *const *x = a, *const *y = b;
+    return strcmp((*x)->name, (*y)->name);
+}
+
+/* In order of their names: -P may give them in any. Long values are told apart by a hash. */
+static void add_settings(struct lines *l, const struct settings *s)
+{
+    const struct setting **item = mem_alloc((size_t)s->n, sizeof *item);
+    for (int i = 0; i < s->n; i++)
+        item[i] = &s->item[i];
+    qsort(item, (size_t)s->n, sizeof *item, by_name);
+    for (int i = 0; i < s->n; i++)
+        if (strcmp(item[i]->name, "maxdepth") != 0)
+            add_line(l, "parameter %.100s %.200s %016" PRIx64, item[i]->name, item[i]->value,
+                hash_content(item[i]->value, strlen(item[i]->value)));
+    free(item);
+}
+
+/* The lines from "version" on: all that changes a byte of a sample. To be given to free(). */
+static char *identity_text(const struct job *job)
+{
+    const struct scene *scene = job->state.scene;
+    const struct render_options *o = &job->options;
+    const struct filter *f = &scene->filter;
+    struct lines l = {0};
+    add_line(&l, "version %s, estimator %d", VERSION, ESTIMATOR);
+    add_line(&l, "scene %016" PRIx64, scene->content);
+    add_line(&l, "integrator %s", o->integrator->name);
+    add_line(&l, "maxdepth %d", o->max_depth);
+    add_settings(&l, &scene->settings);
+    add_line(&l, "seed %" PRIu64, o->seed);
+    add_line(&l, "filter %d %.17g %.17g %.17g %.17g %.17g %.17g", (int)f->kind, f->radius[0], f->radius[1], f->alpha,
+             f->B, f->C, f->tau);
+    return l.text;
+}
+
+struct part part_describe(const struct job *job)
+{
+    const struct scene *scene = job->state.scene;
+    const struct render_options *o = &job->options;
+    struct pixel_rect r = job->state.film_rect;
+    return (struct part){.identity = identity_text(job), .width = rect_width(r), .height = rect_height(r),
                          .scale = scene->film_scale, .place = {r.x0, r.y0, scene->width, scene->height},
                          .planned = o->planned, .first = o->first, .end = o->end};
 }

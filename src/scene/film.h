@@ -26,13 +26,6 @@ struct noise_estimate {
     double value, error; /* its standard error; both infinite where nothing is known */
 };
 
-/* What the method has chosen for itself. */
-enum { FILM_NUMBERS = 16 };
-struct film_number {
-    const char *name; /* static */
-    double value;
-};
-
 struct film {
     struct pixel_rect rect;      /* the rendered part (crop) of the full frame */
     int full_width, full_height;
@@ -46,7 +39,6 @@ struct film {
     int run;                     /* set when the render begins */
     struct noise_estimate noise[N_NOISE_SCALES]; /* when the halves were of one size the last time */
     long nonfinite;
-    struct film_number number[FILM_NUMBERS]; /* ended by a NULL name */
     bool learnt_short;   /* its samples use what was learnt in less than the full time */
 };
 

@@ -68,7 +68,7 @@ static int run(void *options)
     int status = render_open(&r, &o->job);
     if (status != EXIT_OK)
         return status;
-    bool ok = can_show(o, r.method, &err) && looks_open(&looks, &o->look, &r, &err);
+    bool ok = can_show(o, r.job.options.integrator, &err) && looks_open(&looks, &o->look, &r, &err);
     if (ok) {
         ok = render_work(&r, &err);
         ok = looks_write(&looks, ok, &err);

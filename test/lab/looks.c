@@ -152,13 +152,13 @@ static bool begin_planes(struct looks *l, struct error *err)
     const struct look_options *o = l->options;
     struct error why;
     planes_init(&l->planes, &r->scene, &r->film, o->lights != NULL, o->alpha, l->wanted[AOV_VARIANCE],
-                r->render.n_threads);
+                r->job.options.n_threads);
     if (!budget_has(&r->scene.memory, (1 + l->planes.n) * film_bytes(r->film.rect), &why))
         return error_set(err, "%s: its film and %d more of %dx%d pixels: %s; --res makes them smaller",
                          r->asked->scene_path, l->planes.n, r->scene.width, r->scene.height, why.text);
     l->observers = planes_observers(&l->planes);
     if (l->planes.n > 0 && (r->scene.lights.n > 0 || o->alpha)) /* else all samples are black */
-        r->render.observers = &l->observers;
+        r->job.options.observers = &l->observers;
     return true;
 }
 
@@ -189,7 +189,7 @@ static enum render_wish watch(void *context, double done)
 static bool make_first_hit(const struct looks *l, float *const picture[N_AOVS])
 {
     struct keep *k = &l->run->keep;
-    struct render_options o = l->run->render;
+    struct render_options o = l->run->job.options;
     o.end = l->run->film.iterations > 0 ? l->run->film.iterations : 1;
     o.progress = watch;
     o.progress_context = k;

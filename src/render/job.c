@@ -1,5 +1,5 @@
-/* parameters.c: see parameters.h. */
-#include "render/parameters.h"
+/* job.c: see job.h. */
+#include "render/job.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,6 +7,53 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/os.h"
+
+/* --- methods ------------------------------------------------------------------------------------------ */
+
+/* The rows of a name, which are neighbours: the first, and how many. */
+static const struct method *const *rows_of(const char *name, int *n)
+{
+    const struct method *const *first = method_rows;
+    name = strcmp(name, "path") == 0 ? "pt" : name;
+    while (*first != NULL && strcmp((*first)->name, name) != 0)
+        first++;
+    for (*n = 0; first[*n] != NULL && strcmp(first[*n]->name, name) == 0;)
+        ++*n;
+    return first;
+}
+
+bool method_exists(const char *name)
+{
+    int n;
+    rows_of(name, &n);
+    return n > 0;
+}
+
+static void say_unknown(const char *wanted, struct error *err)
+{
+    char known[256] = "";
+    const char *before = "";
+    for (const struct method *const *m = method_rows; *m != NULL; before = (*m++)->name)
+        if (strcmp((*m)->name, before) != 0)
+            snprintf(known + strlen(known), sizeof known - strlen(known), " %s", (*m)->name);
+    error_usage(err, "there is no integrator %s; known are:%s", wanted, known);
+}
+
+const struct method *method_find(const char *name, const struct settings *s, struct error *err)
+{
+    enum { MOST = 16 };
+    const char *words[MOST + 1] = {NULL};
+    int n, which = 0;
+    const struct method *const *row = rows_of(name, &n);
+    if (n == 0)
+        say_unknown(name, err);
+    for (int i = 0; n > 1 && i < n && i < MOST; i++)
+        words[i] = row[i]->select;
+    return n == 1 || (n > 0 && settings_choice(s, "select", 0, words, &which, err)) ? row[which] : NULL;
+}
+
+/* --- settings ----------------------------------------------------------------------------------------- */
 
 /* What all integrators have. */
 struct common {
@@ -28,7 +75,7 @@ static const struct field COMMON[] = {
      "asbdpt chooses the light of s = 1 by what is seen, or by power", STRATEGIES},
     {.name = NULL}};
 
-const struct field *parameters_common(void) { return COMMON; }
+const struct field *job_common(void) { return COMMON; }
 
 /* The first of these methods that has such a parameter, or NULL. */
 static const struct method *owner(const struct method *const *m, const char *name)
@@ -38,8 +85,6 @@ static const struct method *owner(const struct method *const *m, const char *nam
         m++;
     return *m;
 }
-
-/* --- adapting ---------------------------------------------------------------------------------------- */
 
 static void warn(const struct message_sink *sink, const struct setting *item, const char *text)
 {
@@ -99,7 +144,7 @@ static bool passed_over(const struct scene *scene, const struct setting *item, c
     return true;
 }
 
-void parameters_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink)
+void job_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink)
 {
     struct settings *all = &scene->settings;
     for (int i = 0; i < all->n;)
@@ -109,17 +154,6 @@ void parameters_adapt(struct scene *scene, const struct method *const *readers, 
             adapt(all, &all->item[i++], sink);
 }
 
-/* --- reading ----------------------------------------------------------------------------------------- */
-
-bool parameters_max_depth(const struct scene *scene, int wanted, int *out, struct error *err)
-{
-    struct common c = {.max_depth = wanted};
-    const struct field table[] = {COMMON[0], {.name = NULL}};
-    bool ok = wanted > 0 || settings_fields(&scene->settings, table, &c, err);
-    *out = c.max_depth;
-    return ok;
-}
-
 /* "asbdpt", or "asbdpt with select=bins" where a name has several rows, which `select` itself belongs to alike. */
 static void name_method(const struct method *m, const char *parameter, char *out, size_t size)
 {
@@ -127,7 +161,7 @@ static void name_method(const struct method *m, const char *parameter, char *out
     snprintf(out, size, row ? "%s with select=%s" : "%s", m->name, m->select);
 }
 
-bool parameters_belong(const struct scene *scene, const struct method *const *readers, struct error *err)
+bool job_belongs(const struct scene *scene, const struct method *const *readers, struct error *err)
 {
     for (int i = 0; i < scene->settings.n; i++) {
         const struct setting *item = &scene->settings.item[i];
@@ -146,16 +180,36 @@ bool parameters_belong(const struct scene *scene, const struct method *const *re
     return true;
 }
 
-bool parameters_read(const struct scene *scene, const struct method *m, int max_depth, struct render_job *job,
-                     struct error *err)
+/* --- jobs --------------------------------------------------------------------------------------------- */
+
+/* Fractions lie within [0,1]: readers of scenes and options see to it. */
+struct pixel_rect render_crop(const struct scene *scene)
 {
+    const double *c = scene->crop;
+    return (struct pixel_rect){(int)ceil(scene->width * c[0]), (int)ceil(scene->height * c[2]),
+                               (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3])};
+}
+
+bool job_settle(const struct scene *scene, const struct render_options *options, struct job *out, struct error *err)
+{
+    const struct method *m = options->integrator;
     const struct settings *s = &scene->settings;
     struct common c;
-    if (!settings_fields(s, COMMON, &c, err) || !method_check(m, scene, err))
+    *out = (struct job){.options = *options};
+    struct render_options *o = &out->options;
+    if (!settings_fields(s, COMMON, &c, err) || !method_read(m, scene, &out->prepared, err))
         return false;
-    job->max_depth = max_depth > 0 ? max_depth : c.max_depth;
-    job->rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold;
-    job->power_heuristic = c.heuristic == 1;
-    job->spatial_lights = c.strategy == 0;
+    o->planned = o->planned > 0 ? o->planned : o->end;
+    o->n_threads = o->n_threads > 0 ? o->n_threads : os_cores();
+    o->max_depth = o->max_depth > 0 ? o->max_depth : c.max_depth;
+    out->state = (struct render_job){
+        .scene = scene, .film_rect = render_crop(scene), .seed = o->seed, .eye_seed = o->seed,
+        .n_threads = o->n_threads, .max_depth = o->max_depth, .power_heuristic = c.heuristic == 1,
+        .spatial_lights = c.strategy == 0,
+        .rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold};
     return true;
 }
+
+void job_prepare(struct job *job) { method_prepare(&job->state, &job->prepared); }
+
+void job_free(struct job *job) { method_release(&job->prepared); }
