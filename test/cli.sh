@@ -265,6 +265,11 @@ says '"draws_first_hit": 0,' '"draws_after": 0,'
 prints '"spp": 3,' "$program" render "$box" --integrator pt --quick --quiet --spp 3 --cropwindow 0 0.5 0 1 \
     --samples 1:3 --stats - -o a.part
 says '"first_sample": 1,' '"spp_done": 2,' '"width": 60,'
+odd=$(printf 'odd"\\\377\303\251.pbrt') # letters that JSON has otherwise, where a file's name can have them
+if cp "$box" "$odd" 2>/dev/null; then
+    check "$program" render "$odd" --quick --quiet --stats odd.json -o a.pfm
+    check env LC_ALL=C grep -qF "$(printf '"scene": "odd\\"\\\\\\ufffd\303\251.pbrt",')" odd.json
+fi
 if command -v python3 >/dev/null; then check python3 -c 'import json; json.load(open("stats.json"))'; fi
 rm stats.json # it is there when all other files are
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt --stats stats.json -o a.png
