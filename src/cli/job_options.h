@@ -39,7 +39,7 @@ struct job_options {
     double crop[4];         /* x0, x1, y0, y1; x1 = 0: the scene's */
     int n_threads;
     uint64_t seed;
-    double max_memory;      /* GB; 0: what is usual (budget.h) */
+    double max_memory;      /* GB; 0: what is usual (budget_new) */
     bool quick;             /* a quarter of the width and height, one sample, unless options say otherwise */
     bool strict, quiet;
     struct texts output; /* of render and worth */

@@ -8,14 +8,13 @@
 
 #include <stdbool.h>
 
-#include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "image/picture.h"
 
 /* image_read: read a picture; the format is recognised by content where it has a signature, else by the
  * name's extension (upper or lower case).
- *   memory  that may be used for it; nothing is taken; NULL: what is usual (budget.h)
+ *   memory  that may be used for it; nothing is taken; NULL: what is usual (budget_new)
  *   out     filled on success, to be released with image_free (picture.h); empty on failure
  * Returns false with a message "PATH: what is wrong" on a missing, truncated, too large or unknown file. */
 bool image_read(const char *path, const struct budget *memory, struct image *out, struct error *err);

@@ -16,7 +16,7 @@
 
 #include <stdbool.h>
 
-#include "base/budget.h"
+#include "base/file.h"
 #include "geometry/kdtree.h"
 #include "geometry/shape.h"
 #include "material/material.h"
