@@ -145,7 +145,7 @@ check [ ! -s stdout.txt ]
 rm -f ./-.png
 # A file that is replaced keeps its rights.
 touch target.pfm && chmod 640 target.pfm
-expect 0 'wrote target.pfm, x.ppm$' "$program" render "$box" --res 8x8 --spp 1 -o target.pfm -o x.ppm
+expect 0 'wrote x.ppm$' "$program" render "$box" --res 8x8 --spp 1 -o target.pfm -o x.ppm
 check [ -n "$(find target.pfm -perm 640)" ]
 # Standard input and output: -.
 "$program" render - --res 8x8 --spp 1 --quiet -o - <"$box" >piped.pfm

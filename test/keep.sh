@@ -123,7 +123,7 @@ part b.part --samples 3:8
 part c.part --samples 5:8
 part other.part --samples 3:8 --seed 1
 sed 's/^# /#  /' "$box" >changed.pbrt
-expect 0 'wrote x.pfm, x.part$' "$program" merge -o x.pfm -o x.part b.part a.part
+expect 0 'wrote x.part$' "$program" merge -o x.pfm -o x.part b.part a.part
 makes x.pfm "$program" merge x.part -o z.pfm
 rm -f x.pfm
 expect 1 'missing are the samples 3:5' "$program" merge -o x.pfm a.part c.part

@@ -168,8 +168,7 @@ int job_ready(struct job_loading *l, const struct method *const *readers, struct
                                            .max_depth = o->max_depth};
     struct error err;
     struct message_sink sink = {print_message, l};
-    job_adapt(scene, readers, &sink);
-    if (!job_belongs(scene, readers, &err) || !job_settle(scene, &options, job, &err)) {
+    if (!job_adapt(scene, readers, &sink, &err) || !job_settle(scene, &options, job, &err)) {
         scene_free(scene);
         return fail(&err);
     }

@@ -86,23 +86,14 @@ static const struct method *owner(const struct method *const *m, const char *nam
     return *m;
 }
 
-static void warn(const struct message_sink *sink, const struct setting *item, const char *text)
+/* Returns true. */
+static bool warn(const struct message_sink *sink, const struct setting *item, const char *text)
 {
     struct error line;
     error_set(&line, "%s: \"%s\" %s", item->origin, item->name, text);
     if (sink != NULL)
         sink->hear(sink->context, false, line.text);
-}
-
-/* Say that another value counts, and let it. */
-static void replace(struct settings *s, const struct setting *item, const char *value, const struct message_sink *sink,
-                    const char *text)
-{
-    char *name = mem_copy_text(item->name), *origin = mem_copy_text(item->origin);
-    warn(sink, item, text);
-    settings_set(s, name, value, origin);
-    free(name);
-    free(origin);
+    return true;
 }
 
 /* Lights chosen uniformly give the same image with more noise, so "uniform" becomes "power". pbrt-v3 has no longest
@@ -110,14 +101,16 @@ static void replace(struct settings *s, const struct setting *item, const char *
 static void adapt(struct settings *s, const struct setting *item, const struct message_sink *sink)
 {
     char text[96], most[32];
-    if (strcmp(item->name, "lightsamplestrategy") == 0 && strcmp(item->value, "uniform") == 0)
-        replace(s, item, "power", sink, "is \"power\" instead of \"uniform\", which only has more noise");
-    bool depth = strcmp(item->name, "maxdepth") == 0 && setting_is_of_file(item);
-    if (!depth || !(strtod(item->value, NULL) > PATH_MAX_DEPTH))
-        return;
     snprintf(most, sizeof most, "%d", PATH_MAX_DEPTH);
     snprintf(text, sizeof text, "is %.20s, which counts as %s", item->value, most);
-    replace(s, item, most, sink, text);
+    bool deep = strcmp(item->name, "maxdepth") == 0 && setting_is_of_file(item) &&
+                strtod(item->value, NULL) > PATH_MAX_DEPTH;
+    if (strcmp(item->name, "lightsamplestrategy") == 0 && strcmp(item->value, "uniform") == 0) {
+        warn(sink, item, "is \"power\" instead of \"uniform\", which only has more noise");
+        settings_set(s, item->name, "power", item->origin);
+    } else if (deep && warn(sink, item, text)) {
+        settings_set(s, item->name, most, item->origin);
+    }
 }
 
 /* Is it one of the integrator that the file names? There it is right: --integrator may have replaced that, or -P its
@@ -130,30 +123,6 @@ static bool belongs_to_file(const struct scene *scene, const struct setting *ite
     return false;
 }
 
-/* Is it a parameter in a file that none of the readers has? Then a warning says so. */
-static bool passed_over(const struct scene *scene, const struct setting *item, const struct method *const *readers,
-                        const struct message_sink *sink)
-{
-    const struct method *has = owner(method_rows, item->name);
-    char text[128] = "is not used: no integrator here has such a parameter";
-    if (!setting_is_of_file(item) || owner(readers, item->name) != NULL || belongs_to_file(scene, item))
-        return false;
-    if (has != NULL)
-        snprintf(text, sizeof text, "is not used: it is a parameter of %s", has->name);
-    warn(sink, item, text);
-    return true;
-}
-
-void job_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink)
-{
-    struct settings *all = &scene->settings;
-    for (int i = 0; i < all->n;)
-        if (passed_over(scene, &all->item[i], readers, sink))
-            settings_remove(all, i);
-        else
-            adapt(all, &all->item[i++], sink);
-}
-
 /* "asbdpt", or "asbdpt with select=bins" where a name has several rows, which `select` itself belongs to alike. */
 static void name_method(const struct method *m, const char *parameter, char *out, size_t size)
 {
@@ -161,21 +130,34 @@ static void name_method(const struct method *m, const char *parameter, char *out
     snprintf(out, size, row ? "%s with select=%s" : "%s", m->name, m->select);
 }
 
-bool job_belongs(const struct scene *scene, const struct method *const *readers, struct error *err)
+/* Of -P, a parameter of `has`, or, if that is NULL, of nobody. Returns false. */
+static bool refuse(const struct setting *item, const struct method *has, const struct method *reader, struct error *err)
 {
-    for (int i = 0; i < scene->settings.n; i++) {
-        const struct setting *item = &scene->settings.item[i];
+    char whose[64], here[64];
+    if (has == NULL)
+        return error_usage(err, "%s: no integrator has a parameter \"%s\"; asbdpt help integrators lists them",
+                           item->origin, item->name);
+    name_method(has, item->name, whose, sizeof whose);
+    name_method(reader, item->name, here, sizeof here);
+    return error_usage(err, "-P: \"%s\" is a parameter of %s, not of %s; see --integrator", item->name, whose, here);
+}
+
+bool job_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink,
+               struct error *err)
+{
+    struct settings *all = &scene->settings;
+    for (int i = 0; i < all->n;) {
+        const struct setting *item = &all->item[i];
         const struct method *has = owner(method_rows, item->name);
-        char whose[64], here[64];
-        if (setting_is_of_file(item) || owner(readers, item->name) != NULL)
-            continue;
-        if (has == NULL)
-            return error_usage(err, "%s: no integrator has a parameter \"%s\"; asbdpt help integrators lists them",
-                               item->origin, item->name);
-        name_method(has, item->name, whose, sizeof whose);
-        name_method(readers[0], item->name, here, sizeof here);
-        return error_usage(err, "-P: \"%s\" is a parameter of %s, not of %s; see --integrator", item->name, whose,
-                           here);
+        char text[128] = "is not used: no integrator here has such a parameter";
+        if (has != NULL)
+            snprintf(text, sizeof text, "is not used: it is a parameter of %s", has->name);
+        if (owner(readers, item->name) != NULL || (setting_is_of_file(item) && belongs_to_file(scene, item)))
+            adapt(all, &all->item[i++], sink);
+        else if (!setting_is_of_file(item))
+            return refuse(item, has, readers[0], err);
+        else if (warn(sink, item, text))
+            settings_remove(all, i);
     }
     return true;
 }

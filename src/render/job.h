@@ -1,7 +1,7 @@
 /* job.h: what is to be rendered, settled once. The options of a render and the text of a scene's settings become a job
  * before the scene is prepared; nobody looks them up again.
  *
- *     parse -> job_adapt, job_belongs -> job_settle -> scene_prepare -> render_scene (job_prepare: what is learnt)
+ *     parse -> job_adapt -> job_settle -> scene_prepare -> render_scene (job_prepare: what is learnt)
  *
  * Settings of a scene file are for pbrt-v3, whose integrators have others than ours: what has no effect here is said and
  * taken out. Those of -P must be right.
@@ -31,12 +31,12 @@ bool method_exists(const char *name);
 /* job_common: the parameters that all integrators have, ended by a NULL name. */
 const struct field *job_common(void);
 
-/* job_adapt: take out and replace what pbrt-v3 knows and this program does not, or pbrt-v3 would pass over.
+/* job_adapt: take out and replace what pbrt-v3 knows and this program does not, or pbrt-v3 would pass over. False with a
+ * message if -P sets what none of the readers has.
  *   readers  the methods that will read the settings, ended by NULL
- *   sink     hears of each; may be NULL
- * job_belongs: does one of the readers have what -P sets? False with a message if not. */
-void job_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink);
-bool job_belongs(const struct scene *scene, const struct method *const *readers, struct error *err);
+ *   sink     hears of each; may be NULL */
+bool job_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink,
+               struct error *err);
 
 /* --- jobs --------------------------------------------------------------------------------------------- */
 

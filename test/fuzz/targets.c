@@ -260,7 +260,7 @@ static void render_all(struct scene *scene)
     scene->width = WIDTH;
     scene->height = HEIGHT;
     memcpy(scene->crop, WHOLE, sizeof scene->crop);
-    job_adapt(scene, method_rows, NULL);
+    job_adapt(scene, method_rows, NULL, NULL);
     scene_prepare(scene);
     for (const struct method *const *m = method_rows; *m != NULL; m++) {
         render(scene, (*m)->name);

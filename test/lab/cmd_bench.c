@@ -163,7 +163,7 @@ static bool measure_scene(const char *path, const struct bench_options *o, doubl
     double start = os_cpu_seconds();
     if (!parse_scene(path, NULL, &scene, NULL, err))
         return false;
-    job_adapt(&scene, method_rows, NULL);
+    job_adapt(&scene, method_rows, NULL, NULL);
     value[LOAD] = os_cpu_seconds() - start;
     shrink_film(&scene);
     start = os_cpu_seconds();

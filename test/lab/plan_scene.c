@@ -29,7 +29,7 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
     static const double whole[4] = {0, 1, 0, 1};
     if (!parse_scene(path, NULL, scene, NULL, err))
         return false;
-    job_adapt(scene, method_rows, NULL);
+    job_adapt(scene, method_rows, NULL, NULL);
     if (width == 0)
         width = scene->width < WIDTH_WITHOUT_REFERENCE ? scene->width : WIDTH_WITHOUT_REFERENCE;
     memcpy(scene->crop, whole, sizeof whole);
