@@ -339,8 +339,8 @@ struct batches render_gated(struct test *t, const struct scene *scene, const cha
     struct pixel_rect crop = render_crop(scene);
     struct batches pixels = batches_new(n_batches, 3L * rect_width(crop) * rect_height(crop), false);
     struct batch_run r = {.gate = gate, .spp = spp * test_effort(t), .pixels = &pixels};
-    struct render_options o = {.integrator = method_of(scene, integrator), .max_depth = max_depth, .n_threads = os_cores(),
-                               .seed = test_seed(t) * 1000003 + seed};
+    struct render_options o = {.integrator = method_of(scene, integrator), .max_depth = max_depth,
+                               .n_threads = os_cores(), .seed = test_seed(t) * 1000003 + seed};
     struct parallel_jobs jobs = {.n_jobs = n_batches, .n_threads = o.n_threads, .n_slots = o.n_threads, .context = &r,
                                  .work = work_batch, .commit = commit_batch};
     struct error err;

@@ -1,4 +1,5 @@
-/* test_aov.c: images of what the camera sees first: planes, mirrors and empty space, whose images are known. */
+/* test_aov.c: images of what the camera sees first: planes, mirrors and empty space, whose images are known;
+ * the variance that a render tells. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

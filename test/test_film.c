@@ -1,4 +1,4 @@
-/* test_film.c: filters (normalisation, sampling against density), film sums and standard errors. */
+/* test_film.c: filters (normalisation, sampling against density), film sums. */
 #include <float.h>
 #include <math.h>
 #include <string.h>

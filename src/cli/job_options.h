@@ -56,9 +56,9 @@ extern const struct option RENDER_OPTIONS[], RUN_OPTIONS[], JOB_OPTIONS[];
  * scene_free must follow, or EXIT_JOB or EXIT_USAGE after printing why. */
 int job_load(const struct job_options *o, struct scene *scene, struct job *job);
 
-/* The same in two steps: job_open parses the scene, applies the options and finds the method; job_ready, with
- * all methods that will read the settings, ended by NULL, the job being the first one's, does the rest, and releases the
- * scene if it fails. */
+/* The same in two steps: job_open parses the scene, applies the options and finds the method; job_ready does the rest,
+ * and releases the scene if it fails.
+ *   readers  all methods that will read the settings, ended by NULL; the job is the first one's */
 struct job_loading {
     const struct job_options *options;
     long n_warnings; /* so far */

@@ -39,7 +39,7 @@ void image_mend(struct image *img, bool negative_too);
 bool image_create(const char *path, struct file_output *out, struct error *err);
 bool image_finish(struct file_output *f, const struct raster *r, struct error *err);
 
-/* image_writable: does it end in an extension that image_create knows? image_is_8_bit: in one of 8-bit sRGB pictures? */
+/* image_writable: does it end in an extension that image_create knows? image_is_8_bit: in one of 8-bit pictures? */
 bool image_writable(const char *path);
 bool image_is_8_bit(const char *path);
 

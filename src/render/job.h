@@ -3,8 +3,8 @@
  *
  *     parse -> job_adapt -> job_settle -> scene_prepare -> render_scene (job_prepare: what is learnt)
  *
- * Settings of a scene file are for pbrt-v3, whose integrators have others than ours: what has no effect here is said and
- * taken out. Those of -P must be right.
+ * Settings of a scene file are for pbrt-v3, whose integrators have others than ours: what has no effect here is taken
+ * out, with a warning. Those of -P must be right.
  *
  * Tests: test_render.c, test_options.c, test/cli.sh, test/add_method.sh.
  */
@@ -31,8 +31,8 @@ bool method_exists(const char *name);
 /* job_common: the parameters that all integrators have, ended by a NULL name. */
 const struct field *job_common(void);
 
-/* job_adapt: take out and replace what pbrt-v3 knows and this program does not, or pbrt-v3 would pass over. False with a
- * message if -P sets what none of the readers has.
+/* job_adapt: take out and replace what pbrt-v3 knows and this program does not, or pbrt-v3 would pass over. Returns false
+ * with a message if -P sets what none of the readers has.
  *   readers  the methods that will read the settings, ended by NULL
  *   sink     hears of each; may be NULL */
 bool job_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink,

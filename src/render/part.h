@@ -16,12 +16,12 @@
  *     check XXXXXXXX                   CRC-32 of all lines before, hexadecimal
  *
  * The lines from `size` on must agree between parts of one picture. A file's lines must be those that the program
- * would write for what they say, to the byte. The file goes on with the sums (scene/film.h), pixel by pixel, row by
- * row from the top, red, green and blue: 255 for an empty sum, else a byte `top` and three digits (exact_sum.h), the
+ * would write for what they say, to the byte. The file goes on with the sums (scene/film.h), pixel by pixel, row by row
+ * from the top, red, green and blue: 255 for an empty sum, else a byte `top` and three digits (exact_sum.h), the
  * highest first. Those of half the samples follow, and if P is not 0, of the next block: what light sub-paths have sent
- * to the lens, and the samples of each pixel. A digit d is written as the whole number 2d, or -2d - 1 if it is negative, seven bits to the byte from the
- * lowest on, 128 being added to all bytes but the last. The CRC-32 of these bytes follows, four bytes, the lowest
- * first. Nothing depends on the machine's byte order.
+ * to the lens, and the samples of each pixel. A digit d is written as the whole number 2d, or -2d - 1 if it is
+ * negative, seven bits to the byte from the lowest on, 128 being added to all bytes but the last. The CRC-32 of these
+ * bytes follows, four bytes, the lowest first. Nothing depends on the machine's byte order.
  *
  * The same film gives the same bytes, and sums are exact, so parts added up in any order give the bytes of the whole.
  * Parts are read as a stream: adding them needs the memory of one film. Files appear whole or not at all.

@@ -172,7 +172,8 @@ static bool merge_pass(void *context, int64_t number, int slot)
 static void run_all(struct run *r)
 {
     const struct render_options *o = &r->job->options;
-    int64_t block = r->job->prepared.size.block, first_block = o->first / block, end_block = (o->end + block - 1) / block;
+    int64_t block = r->job->prepared.size.block;
+    int64_t first_block = o->first / block, end_block = (o->end + block - 1) / block;
     int n_slots = (o->observers != NULL ? OBSERVED_SLOTS : SLOTS_PER_THREAD) * r->job->state.n_threads;
     r->n_passes = tiles_per_block(r) * (end_block - first_block);
     r->parallel = (struct parallel_jobs){.n_jobs = r->n_passes - r->begun, .n_threads = r->job->state.n_threads,

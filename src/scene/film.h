@@ -1,8 +1,8 @@
 /* film.h: where estimates of pixels are summed, and the picture is made of the sums.
  *
- * A tile pass (one tile of pixels, a block of iterations) adds up in a tile, and the film takes it in. A pixel's estimate
- * has two parts. `eye`: per iteration, what its own eye sub-path brought (all strategies with t >= 2). `splat`: what
- * light sub-paths of any pixel sent straight to the lens (t = 1), spread by the pixel filter.
+ * A tile pass (one tile of pixels, a block of iterations) adds up in a tile, and the film takes it in. A pixel's
+ * estimate has two parts. `eye`: per iteration, what its own eye sub-path brought (all strategies with t >= 2).
+ * `splat`: what light sub-paths of any pixel sent straight to the lens (t = 1), spread by the pixel filter.
  *
  * The sums are exact (exact_sum.h): they depend on which values came in, not on their order, and not on how the
  * iterations were cut into blocks or parts.

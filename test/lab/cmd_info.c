@@ -121,7 +121,8 @@ struct info_options {
 static bool print_race(struct job *job, struct error *err)
 {
     if (method_has(job->options.integrator, "race") == NULL)
-        return error_usage(err, "--race: %s has no race; select=subspaces of asbdpt has", job->options.integrator->name);
+        return error_usage(err, "--race: %s has no race; select=subspaces of asbdpt has",
+                           job->options.integrator->name);
     job_prepare(job);
     const struct race_result result = race_result(&job->prepared);
     race_print_table(stdout, &result);

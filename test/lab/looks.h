@@ -1,9 +1,9 @@
-/* looks.h: images of the paths of a render that asbdpt-lab render writes besides its picture: what the camera sees first
- * (aov.h); lights apart, alpha and variance (planes.h).
+/* looks.h: images of the paths of a render that asbdpt-lab render writes besides its picture: what the camera sees
+ * first (aov.h); lights apart, alpha and variance (planes.h).
  *
  * Next to NAME.png are NAME.albedo.pfm, NAME.normal.pfm, ..., or NAME.exr has them as layers, with the channels
- * albedo.R, .G, .B, normal.X, .Y, .Z, depth.Z and so on, as compositors name them. Layers and alpha are in the picture's
- * own files, which are written again when these are made.
+ * albedo.R, .G, .B, normal.X, .Y, .Z, depth.Z and so on, as compositors name them. Layers and alpha are in the
+ * picture's own files, which are written again when these are made.
  *
  * Tests: test/cli.sh, test/outputs.sh. */
 #ifndef ASBDPT_LAB_LOOKS_H
