@@ -355,7 +355,8 @@ static double told_variance(struct test *t, const char *path, const char *integr
     if (!scene_from_file(t, path, W, H, &scene))
         return NAN;
     for (int seed = 0; seed < SEEDS; seed++) {
-        struct render_options o = {.integrator = method_of(&scene, integrator), .end = 16, .n_threads = 2, .max_depth = 5,
+        struct render_options o = {.integrator = method_of(&scene, integrator), .end = 16, .n_threads = 2,
+                                   .max_depth = 5,
                                    .seed = test_seed(t) + (uint64_t)seed};
         struct film film;
         struct planes planes;

@@ -89,7 +89,8 @@ static void test_told(struct test *t, const struct scene *scene, const struct si
     size_t n = 3 * (size_t)ref->width * (size_t)ref->height;
     float *picture = mem_alloc(n, sizeof *picture), *mean = mem_alloc(n, sizeof *mean);
     for (int seed = 0; seed < SEEDS; seed++) {
-        struct render_options o = {.integrator = method_of(scene, integrator), .seed = test_seed(t) + (uint64_t)seed, .end = SPP,
+        struct render_options o = {.integrator = method_of(scene, integrator), .seed = test_seed(t) + (uint64_t)seed,
+                                   .end = SPP,
                                    .n_threads = os_cores()};
         struct film film;
         struct error err = {.text = ""};

@@ -156,7 +156,8 @@ static void blocks(struct test *t, const char *integrator, int size, int spp, in
         return;
     for (int i = 0; i < 2; i++) {
         struct ends ends = {&film[i], 0};
-        struct render_options o = {.integrator = method_of(&scene, integrator), .end = spp, .block = i == 1 ? 1 : longest,
+        struct render_options o = {.integrator = method_of(&scene, integrator), .end = spp,
+                                   .block = i == 1 ? 1 : longest,
                                    .n_threads = 2, .progress = count_end, .progress_context = &ends};
         render_film(t, &scene, &o, &film[i]);
         CHECK(t, ends.n == (i == 1 ? spp : 1), "block %d: %ld ends", o.block, ends.n);
@@ -222,7 +223,8 @@ static void test_stop_late(struct test *t)
     struct stopper s = {&film, 0, 0};
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
         return;
-    struct render_options o = {.integrator = method_named("lt"), .end = 600, .block = 600, .n_threads = 1, .max_depth = 5,
+    struct render_options o = {.integrator = method_named("lt"), .end = 600, .block = 600, .n_threads = 1,
+                               .max_depth = 5,
                                .stop = stop_at_splats, .progress_context = &s};
     render_film(t, &scene, &o, &film);
     CHECK(t, s.asked < 16 * 16 * 600 && film.iterations == 600, "%ld questions, %ld samples", s.asked,

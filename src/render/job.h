@@ -31,8 +31,8 @@ bool method_exists(const char *name);
 /* job_common: the parameters that all integrators have, ended by a NULL name. */
 const struct field *job_common(void);
 
-/* job_adapt: take out and replace what pbrt-v3 knows and this program does not, or pbrt-v3 would pass over. Returns false
- * with a message if -P sets what none of the readers has.
+/* job_adapt: take out and replace what pbrt-v3 knows and this program does not, or pbrt-v3 would pass over. Returns
+ * false with a message if -P sets what none of the readers has.
  *   readers  the methods that will read the settings, ended by NULL
  *   sink     hears of each; may be NULL */
 bool job_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink,
