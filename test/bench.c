@@ -30,8 +30,8 @@ bool chain_room(struct test *t, int width, int height, const char *lens, const c
 bool bench_new(struct test *t, const struct scene *scene, const char *integrator, int max_depth, uint64_t seed,
                struct bench *out)
 {
-    struct render_options o = {.integrator = integrator, .seed = test_seed(t) + seed, .max_depth = max_depth,
-                               .n_threads = 1};
+    struct render_options o = {.integrator = method_of(scene, integrator), .seed = test_seed(t) + seed,
+                               .max_depth = max_depth, .n_threads = 1};
     struct error err = {.text = ""};
     memset(out, 0, sizeof *out);
     out->scene = scene;

@@ -205,6 +205,11 @@ const char *set_method(struct scene *scene, const char *way)
     return integrator;
 }
 
+const struct method *set_row(struct scene *scene, const char *way)
+{
+    return method_of(scene, set_method(scene, way));
+}
+
 const char *method_name(const struct method *m)
 {
     static char text[64];
@@ -217,7 +222,7 @@ void render_film(struct test *t, const struct scene *scene, const struct render_
 {
     struct error err;
     film_init(film, render_crop(scene), scene->width, scene->height);
-    CHECK(t, render_scene(scene, o, film, &err), "%s", err.text);
+    CHECK(t, render_by(scene, o, film, &err), "%s", err.text);
 }
 
 void render_pixels(struct test *t, const struct scene *scene, const struct render_options *o, float *out)
@@ -241,7 +246,7 @@ bool same_picture(struct test *t, struct scene *scene, const char *one, const ch
 {
     struct film film[2];
     for (int i = 0; i < 2; i++) {
-        o.integrator = set_method(scene, i == 0 ? one : other);
+        o.integrator = set_row(scene, i == 0 ? one : other);
         render_film(t, scene, &o, &film[i]);
     }
     bool same = films_equal(&film[0], &film[1]);
@@ -270,7 +275,7 @@ static void gate_joined(void *context, const struct sample *sample, const struct
     if (rgb_is_black(path->added) || !(length >= g->gate.begin && length < g->gate.end))
         return;
     if (path->t == 1)
-        tile_add_splat(&g->tile, path->c->px, path->c->py, path->added, 0);
+        tile_add_splat(&g->tile, path->c->px, path->c->py, path->added);
     else
         tile_add(&g->tile, sample->x, sample->y, path->added);
 }
@@ -334,8 +339,8 @@ struct batches render_gated(struct test *t, const struct scene *scene, const cha
     struct pixel_rect crop = render_crop(scene);
     struct batches pixels = batches_new(n_batches, 3L * rect_width(crop) * rect_height(crop), false);
     struct batch_run r = {.gate = gate, .spp = spp * test_effort(t), .pixels = &pixels};
-    struct render_options o = {.integrator = integrator, .max_depth = max_depth, .n_threads = os_cores(),
-                               .seed = test_seed(t) * 1000003 + seed};
+    struct render_options o = {.integrator = method_of(scene, integrator), .max_depth = max_depth,
+                               .n_threads = os_cores(), .seed = test_seed(t) * 1000003 + seed};
     struct parallel_jobs jobs = {.n_jobs = n_batches, .n_threads = o.n_threads, .n_slots = o.n_threads, .context = &r,
                                  .work = work_batch, .commit = commit_batch};
     struct error err;
@@ -359,7 +364,7 @@ struct batches independent_batches(struct test *t, const struct scene *scene, co
 {
     struct side side = {.name = ""};
     struct error err = {.text = ""};
-    struct render_options o = {.integrator = integrator, .seed = seed, .max_depth = max_depth,
+    struct render_options o = {.integrator = method_of(scene, integrator), .seed = seed, .max_depth = max_depth,
                                .end = spp * test_effort(t), .n_threads = 2};
     CHECK(t, side_render(scene, &o, 0, n_batches, true, &side, &err), "%s: %s", integrator, err.text);
     struct batches tiles = batches_tiles(&side.pixels, side.width, side.height, tile);

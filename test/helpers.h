@@ -7,6 +7,7 @@
 #include "geometry/mesh.h"
 #include "image/image.h"
 #include "integrators/method.h"
+#include "lab/methods.h"
 #include "lab/sides.h"
 #include "lab/verify.h"
 #include "render/render.h"
@@ -75,6 +76,7 @@ struct filter filter_of(const char *name);
 /* set_method: choose by "asbdpt select=bins restart=16", say, whose parameters replace all settings of the scene.
  * Returns the integrator's name, which the next call overwrites. */
 const char *set_method(struct scene *scene, const char *way);
+const struct method *set_row(struct scene *scene, const char *way);
 
 /* method_name: such words for a method with all its defaults, which the next call overwrites. */
 const char *method_name(const struct method *m);

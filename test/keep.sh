@@ -69,16 +69,20 @@ done <<'END'
 END
 check [ "$(work_in whole.part)" = 70000 ]
 
-# ---- lights that are kept apart, and alpha, are in parts and checkpoints ----
-hidden=$top/test/fixtures/parts/hidden.pbrt lit="$size --integrator bdpt --lights lit --alpha"
-check "$program" render "$hidden" $lit -o whole.png
-cp lit/light01_key.pfm whole.pfm
+# ---- lights that are kept apart, alpha and variance are no part of a part, but means of those of parts ----
+hidden=$top/test/fixtures/parts/hidden.pbrt lit="$size --integrator bdpt --lights lit"
+check "$lab" render "$hidden" $lit -o whole.pfm
+cp lit/light01_key.pfm whole.light.pfm
 for range in 0:32 32:70; do
-    check "$program" render "$hidden" $lit --samples $range -o $range.part
+    check "$lab" render "$hidden" $lit --samples $range -o $range.part
+    cp lit/light01_key.pfm $range.pfm
 done
-makes whole.png "$program" merge 32:70.part 0:32.part --quiet -o sum.part -o sum.png
-makes whole.png "$program" render "$hidden" $lit --resume sum.part -o sum.png
-same whole.pfm lit/light01_key.pfm "a light in parts"
+makes whole.pfm "$program" merge 32:70.part 0:32.part --quiet -o sum.pfm
+check "$program" convert 0:32.pfm 32:70.pfm --weights 0.457142857,0.542857143 -o sum.pfm --quiet
+check "$lab" compare sum.pfm whole.light.pfm --max-rmse 1e-6
+for option in '--lights lit' --alpha '--aov variance'; do
+    expect 1 'are not saved and cannot be resumed' "$lab" render "$hidden" $size $option --resume 0:32.part -o x.png
+done
 
 # ---- the same command again: what is done is done, also if bins do not end with a block ----
 for samples in "--samples 64:70" ""; do
@@ -119,7 +123,7 @@ part b.part --samples 3:8
 part c.part --samples 5:8
 part other.part --samples 3:8 --seed 1
 sed 's/^# /#  /' "$box" >changed.pbrt
-expect 0 'wrote x.pfm, x.part$' "$program" merge -o x.pfm -o x.part b.part a.part
+expect 0 'wrote x.part$' "$program" merge -o x.pfm -o x.part b.part a.part
 makes x.pfm "$program" merge x.part -o z.pfm
 rm -f x.pfm
 expect 1 'missing are the samples 3:5' "$program" merge -o x.pfm a.part c.part

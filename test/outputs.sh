@@ -19,9 +19,15 @@ check render --samples 0:1 -o c.part
 # ---- one name, two files ----
 same='an output needs a name of its own'
 mkdir sub
-for outputs in '-o new.pfm --stats c --checkpoint c' '--stats - -o -' '--aov albedo -o x.pfm -o x.albedo.pfm' \
-    '--lights sub -o sub/light00_area.pfm'; do # some names are known only when the scene is
+for outputs in '-o new.pfm --stats c --checkpoint c' '--stats - -o -'; do
     refused 2 "${outputs##* }: $same" render $outputs
+done
+for outputs in '--aov albedo -o x.pfm -o x.albedo.pfm' \
+    '--lights sub -o sub/light00_area.pfm'; do # some names are known only when the scene is
+    refused 2 "${outputs##* }: $same" "$lab" render scene.pbrt $tiny $outputs
+done
+for option in '--aov albedo' --layers --seen '--lights sub' --alpha; do # which were here once
+    refused 2 "${option%% *}: asbdpt-lab render has this option" render $option -o new.pfm
 done
 # Nor does one take the place of a file that the scene was read from, under whatever name.
 mkdir things && cat >reads.pbrt <<END
@@ -75,20 +81,20 @@ fi
 # What comes into one is said, all of it is written in spite of one failure, with the reason; and where nothing comes
 # into it, it is not left.
 printf 'WorldBegin LightSource "point" LightSource "distant" LightSource "infinite" WorldEnd\n' >three.pbrt
-expect 0 'wrote x.pfm, lit/light00_point.pfm, lit/light01_distant.pfm, lit/light02_infinite.pfm$' \
-    "$program" render three.pbrt ${tiny% --quiet} -o x.pfm --lights lit
+expect 0 'wrote lit/light00_point.pfm$' "$lab" render three.pbrt ${tiny% --quiet} -o x.pfm --lights lit
+for name in x lit/light01_distant lit/light02_infinite; do check grep -q "^wrote $name.pfm\$" stderr.txt; done
 if [ -e /dev/full ]; then
     rm lit/*
     ln -s /dev/full lit/light00_point.pfm
     expect 1 'lit/light00_point.pfm: cannot be written: (No space left|write error)' \
-        "$program" render three.pbrt --res 256x256 --spp 1 -o x.pfm --lights lit
-    check grep -q 'wrote x.pfm, lit/light01_distant.pfm, lit/light02_infinite.pfm$' stderr.txt
+        "$lab" render three.pbrt --res 256x256 --spp 1 -o x.pfm --lights lit
+    check grep -q '^wrote lit/light01_distant.pfm$' stderr.txt
     check [ -s lit/light02_infinite.pfm ]
 fi
 mkdir -p bad/light01_distant.pfm
 refused 1 'bad/light01_distant.pfm: cannot be created: Is a directory' \
-    "$program" render three.pbrt $tiny --lights bad -o new.pfm
-expect 1 'nothing.pbrt' "$program" render nothing.pbrt --lights none
+    "$lab" render three.pbrt $tiny --lights bad -o new.pfm
+expect 1 'nothing.pbrt' "$lab" render nothing.pbrt --lights none
 check [ ! -e none ]
 
 # ---- text of a scene ----

@@ -1,11 +1,15 @@
-/* test_aov.c: images of what the camera sees first: planes, mirrors and empty space, whose images are known. */
+/* test_aov.c: images of what the camera sees first: planes, mirrors and empty space, whose images are known;
+ * the variance that a render tells. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "base/number.h"
-#include "render/aov.h"
+#include "lab/aov.h"
+#include "lab/planes.h"
+#include "lab/stats.h"
+#include "transport/sample.h"
 #include "helpers.h"
 #include "tests.h"
 
@@ -247,21 +251,97 @@ static void test_path(struct test *t)
     scene_free(&scene);
 }
 
+/* Samples of a picture of 8x8 pixels, told to an observer of its variance as a render tells them. */
+struct told {
+    struct film film;
+    struct tile tile;
+    struct planes planes;
+    struct observers all;
+    struct observer of_pass;
+};
+enum { SIDE = 8, PIXELS = SIDE * SIDE };
+
+static void told_begin(struct told *p, const struct filter *filter, struct scene *scene)
+{
+    struct pixel_rect all = {0, 0, SIDE, SIDE};
+    memset(p, 0, sizeof *p);
+    film_init(&p->film, all, SIDE, SIDE);
+    planes_init(&p->planes, scene, &p->film, false, false, true, 1);
+    p->all = planes_observers(&p->planes);
+    tile_start(&p->tile, pixels_all(all), all, filter);
+    p->of_pass = p->all.begin(p->all.context, 0, &p->tile);
+}
+
+/* A path to pixel (x,y), whose sample has a value so far; t = 1: a splat. */
+static void tell(struct told *p, int x, int y, int t, rgb before, rgb value)
+{
+    const struct sample sample = {.x = x, .y = y, .value = before};
+    const struct connection c = {.value = rgb_grey(1), .px = x + 0.5, .py = y + 0.5};
+    const struct joined path = {.s = 1, .t = t, .c = &c, .added = value};
+    p->of_pass.joined(p->of_pass.context, &sample, &path);
+}
+
+static void told_end(struct told *p, long iterations, double scale, float variance[3 * PIXELS])
+{
+    p->film.block.iterations = iterations;
+    p->all.end(p->all.context, 0);
+    p->film.iterations = iterations;
+    planes_end(&p->planes);
+    planes_variance(&p->planes, scale, variance);
+    tile_free(&p->tile);
+    planes_free(&p->planes);
+    film_free(&p->film);
+}
+
+/* Two samples, the second of two paths. */
 static void test_variance(struct test *t)
 {
-    struct film film;
-    struct pixel_rect one = {0, 0, 1, 1};
-    const double sum[3] = {6, 0, 4}, square[3] = {20, 0, 16}; /* of 2 and 4; 0 and 0; 0 and 4 */
-    float variance[3];
-    film_init(&film, one, 1, 1);
-    film_keep_errors(&film);
-    memcpy(film.eye, sum, sizeof sum);
-    memcpy(film.square, square, sizeof square);
-    film.iterations = 2;
-    aov_variance(&film, 3, variance);
-    CHECK(t, fabs((double)variance[0] - 9) < 1e-5 && variance[1] == 0 && fabs((double)variance[2] - 36) < 1e-4,
-          "variances %g %g %g of the means", (double)variance[0], (double)variance[1], (double)variance[2]);
-    film_free(&film);
+    struct scene none = {.width = SIDE};
+    struct filter box = filter_of("box");
+    struct told p;
+    float v[3 * PIXELS];
+    told_begin(&p, &box, &none);
+    tell(&p, 0, 0, 2, rgb_black(), rgb_make(2, 0, 0));
+    tell(&p, 0, 0, 2, rgb_black(), rgb_make(1, 0, 5));
+    tell(&p, 0, 0, 3, rgb_make(1, 0, 5), rgb_make(3, 0, -1)); /* 4 0 4 */
+    told_end(&p, 2, 3, v);
+    CHECK(t, fabs((double)v[0] - 9) < 1e-5 && v[1] == 0 && fabs((double)v[2] - 36) < 1e-4,
+          "variances %g %g %g of the means", (double)v[0], (double)v[1], (double)v[2]);
+}
+
+/* Known noise: own values uniform in [0,1) plus rare splats. */
+static void test_known_noise(struct test *t)
+{
+    enum { ITERATIONS = 500, SPLATS = 20 };
+    struct scene none = {.width = SIDE};
+    struct filter box = filter_of("box");
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 4, 0);
+    struct told p;
+    float v[3 * PIXELS];
+    double sum[PIXELS] = {0}, chi2 = 0, mean = 0;
+    told_begin(&p, &box, &none);
+    for (int i = 0; i < ITERATIONS; i++) {
+        for (int k = 0; k < PIXELS; k++) {
+            double value = rng_uniform(&r);
+            sum[k] += value;
+            tell(&p, k % SIDE, k / SIDE, 2, rgb_black(), rgb_grey(value));
+        }
+        for (int k = 0; k < SPLATS; k++) {
+            int x = (int)(SIDE * rng_uniform(&r)), y = (int)(SIDE * rng_uniform(&r));
+            sum[y * SIDE + x]++;
+            tell(&p, x, y, 1, rgb_black(), rgb_grey(1));
+        }
+    }
+    told_end(&p, ITERATIONS, 2, v);
+    /* Variance of one iteration: 1/12 of the uniform number, SPLATS/64 of the splats' count; scale 2. */
+    double expected = 4 * (1.0 / 12 + SPLATS / 64.0) / ITERATIONS;
+    for (int i = 0; i < PIXELS; i++) {
+        mean += (double)v[3 * i] / PIXELS;
+        chi2 += sqr(2 * sum[i] / ITERATIONS - 2 * (0.5 + SPLATS / 64.0)) / (double)v[3 * i];
+    }
+    CHECK(t, fabs(mean / expected - 1) < 0.1, "variance %g, expected %g", mean, expected);
+    TEST_ACCEPT(t, stats_chi2_p(chi2, PIXELS), "pixel means in units of their standard errors");
+    TEST_REJECT(t, stats_chi2_p(chi2 * 4, PIXELS), "the same with errors half as large");
 }
 
 /* The sum over all pixels of the variance that renders tell, over that of their scatter over seeds. */
@@ -275,14 +355,20 @@ static double told_variance(struct test *t, const char *path, const char *integr
     if (!scene_from_file(t, path, W, H, &scene))
         return NAN;
     for (int seed = 0; seed < SEEDS; seed++) {
-        struct render_options o = {.integrator = integrator, .end = 16, .n_threads = 2, .max_depth = 5,
+        struct render_options o = {.integrator = method_of(&scene, integrator), .end = 16, .n_threads = 2,
+                                   .max_depth = 5,
                                    .seed = test_seed(t) + (uint64_t)seed};
         struct film film;
+        struct planes planes;
         film_init(&film, render_crop(&scene), W, H);
-        film_keep_errors(&film);
-        CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
+        planes_init(&planes, &scene, &film, false, false, true, o.n_threads);
+        struct observers observers = planes_observers(&planes);
+        o.observers = &observers;
+        CHECK(t, render_by(&scene, &o, &film, &err), "%s", err.text);
+        planes_end(&planes);
         film_develop(&film, 1, value);
-        aov_variance(&film, 1, variance);
+        planes_variance(&planes, 1, variance);
+        planes_free(&planes);
         film_free(&film);
         for (int i = 0; i < VALUES; i++) {
             told += (double)variance[i] / SEEDS;
@@ -373,6 +459,7 @@ void test_aov(struct test *t)
     test_same(t);
     test_path(t);
     test_variance(t);
+    test_known_noise(t);
     test_variance_bound(t);
     test_ends(t);
 }

@@ -134,7 +134,7 @@ static struct film floor_under(struct test *t, const char *things, const char *w
     struct scene scene;
     struct film film = {.sum = NULL};
     if (scene_from_format(t, &scene, FLOOR "%s WorldEnd", things)) {
-        struct render_options o = {.integrator = set_method(&scene, way), .end = spp, .max_depth = 3, .n_threads = 1};
+        struct render_options o = {.integrator = set_row(&scene, way), .end = spp, .max_depth = 3, .n_threads = 1};
         render_film(t, &scene, &o, &film);
         scene_free(&scene);
     }

@@ -157,7 +157,8 @@ static double luminance(struct test *t, const struct scene *scene, const char *i
 {
     struct film film;
     double sum = 0;
-    struct render_options o = {.integrator = integrator, .end = spp, .max_depth = CHAIN_DEPTH, .n_threads = 2,
+    struct render_options o = {.integrator = method_of(scene, integrator), .end = spp, .max_depth = CHAIN_DEPTH,
+                               .n_threads = 2,
                                .seed = test_seed(t)};
     render_film(t, scene, &o, &film);
     for (size_t i = 0; i < (size_t)scene->width * (size_t)scene->height; i++)

@@ -14,7 +14,7 @@
 #include "lab/family.h"
 #include "lab/measure.h"
 #include "lab/store.h"
-#include "render/methods.h"
+#include "render/job.h"
 #include "tests.h"
 
 /* --- planted numbers ----------------------------------------------------------------------------------- */

@@ -10,7 +10,6 @@
 
 #include "base/file.h"
 #include "base/os.h"
-#include "base/json.h"
 #include "base/progress.h"
 #include "image/exr.h"
 #include "image/image.h"
@@ -236,42 +235,6 @@ static void test_left(struct test *t)
     }
 }
 
-/* --- JSON -------------------------------------------------------------------------------------------- */
-
-static void test_json(struct test *t)
-{
-    static const char EXPECTED[] = "{\n  \"a\": \"x\\\"\\\\\\u001b\",\n  "
-                                   "\"b\": [1, 0.10000000000000001, null],\n"
-                                   "  \"c\": {},\n  \"d\": [\n    true,\n    18446744073709551615\n  ],\n"
-                                   "  \"e\": null,\n"
-                                   "  \"f\": \"\303\251\\ufffd\\ufffd\\ufffd(\360\237\230\200\\ufffd\"\n}\n";
-    char path[512], read[256] = "";
-    in_tmp(t, "x.json", path, sizeof path);
-    FILE *f = fopen(path, "wb");
-    if (!CHECK(t, f != NULL, "a file to write to"))
-        return;
-    struct json j = json_start(f);
-    json_open(&j, NULL, '{');
-    json_text(&j, "a", "x\"\\\033");
-    json_numbers(&j, "b", (const double[]){1, 0.1, (double)INFINITY}, 3);
-    json_open(&j, "c", '{');
-    json_close(&j);
-    json_open(&j, "d", '[');
-    json_word(&j, NULL, "true");
-    json_count(&j, NULL, UINT64_MAX);
-    json_close(&j);
-    json_text(&j, "e", NULL);
-    json_text(&j, "f", "\303\251\377\300\257(\360\237\230\200\303"); /* good, never, too long, good, cut */
-    json_close(&j);
-    fclose(f);
-    f = fopen(path, "rb");
-    size_t n = f != NULL ? fread(read, 1, sizeof read - 1, f) : 0;
-    CHECK(t, n == strlen(EXPECTED) && strcmp(read, EXPECTED) == 0, "%s", read);
-    if (f != NULL)
-        fclose(f);
-    remove(path);
-}
-
 static void test_names(struct test *t)
 {
     static const char *const CASE[][3] = {{"a/b/scene.pbrt", "c/d.ply", "a/b/c/d.ply"},
@@ -313,7 +276,6 @@ void test_file(struct test *t)
 {
     test_several(t);
     test_names(t);
-    test_json(t);
     test_duration(t);
     test_left(t);
     test_written(t);

@@ -1,4 +1,4 @@
-/* test_film.c: filters (normalisation, sampling against density), film sums and standard errors. */
+/* test_film.c: filters (normalisation, sampling against density), film sums. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -112,7 +112,7 @@ static void test_memory(struct test *t)
     tile.full = count_full;
     tile.context = &calls;
     for (int i = 0; i < 5 * TILE_FULL / 2; i++) {
-        CHECK(t, tile_add_splat(&tile, 32, 32, rgb_grey(1), 0), "a splat is left out");
+        CHECK(t, tile_add_splat(&tile, 32, 32, rgb_grey(1)), "a splat is left out");
         tile_add(&tile, 0, 0, rgb_black());
     }
     CHECK(t, calls == 2 && tile.n_splats == TILE_FULL / 2, "emptied %d times, %d splats are left", calls,
@@ -133,26 +133,26 @@ static void test_splats(struct test *t)
         int pixels;
         for (int k = 0; k < 2000; k++) {
             tile_start(&tile, pixels_all(all), all, &f);
-            tile_add_splat(&tile, 6 + 8 * rng_uniform(&r), 5 + 2 * rng_uniform(&r), rgb_grey(1), 0);
+            tile_add_splat(&tile, 6 + 8 * rng_uniform(&r), 5 + 2 * rng_uniform(&r), rgb_grey(1));
             total += spread(&tile, &pixels);
             CHECK(t, f.kind != FILTER_BOX || pixels == 1, "a box splat fell on %d pixels", pixels);
         }
         /* Averaged over positions, the sum over pixels is the filter's integral. */
         CHECK(t, fabs(total / 2000 - 1) < 0.02, "%s: a splat of 1 sums to %g", NAMES[i], total / 2000);
         tile_start(&tile, pixels_all(all), all, &f);
-        tile_add_splat(&tile, 20, 5, rgb_grey(1), 0);
-        tile_add_splat(&tile, -1e30, 5, rgb_grey(1), 0);
-        tile_add_splat(&tile, 1e30, 1e30, rgb_grey(1), 0);
+        tile_add_splat(&tile, 20, 5, rgb_grey(1));
+        tile_add_splat(&tile, -1e30, 5, rgb_grey(1));
+        tile_add_splat(&tile, 1e30, 1e30, rgb_grey(1));
         spread(&tile, &pixels);
         CHECK(t, f.kind != FILTER_BOX || pixels == 0, "a splat beyond the film was kept");
-        tile_add_splat(&tile, 5, 5, rgb_grey(NAN), 0);
+        tile_add_splat(&tile, 5, 5, rgb_grey(NAN));
         CHECK(t, tile.nonfinite == 1, "a NaN splat was not counted");
         tile_free(&tile);
     }
 }
 
 /* One of the four tiles of a picture of 8x8 pixels, some iterations. Every iteration brings a pixel 3 by its eye
- * sub-path and the first light, and 2 by splats of the second, a quarter of them from each tile; and it is opaque. */
+ * sub-path, and 2 by splats, a quarter of them from each tile. */
 static void even_tile(struct tile *tile, int number, int iterations, const struct filter *box)
 {
     struct pixel_rect all = {0, 0, 8, 8}, rect = {4 * (number % 2), 4 * (number / 2), 0, 0};
@@ -161,13 +161,10 @@ static void even_tile(struct tile *tile, int number, int iterations, const struc
     tile_start(tile, pixels_all(rect), all, box);
     for (int i = 0; i < iterations; i++) {
         for (int y = rect.y0; y < rect.y1; y++)
-            for (int x = rect.x0; x < rect.x1; x++) {
+            for (int x = rect.x0; x < rect.x1; x++)
                 tile_add(tile, x, y, rgb_grey(3));
-                tile_add_light(tile, x, y, 0, rgb_grey(3), rgb_black());
-                tile_add_alpha(tile, x, y, 1);
-            }
         for (int p = 0; p < 64; p++)
-            tile_add_splat(tile, p % 8 + 0.5, p / 8 + 0.5, rgb_grey(0.5), 1);
+            tile_add_splat(tile, p % 8 + 0.5, p / 8 + 0.5, rgb_grey(0.5));
     }
 }
 
@@ -175,7 +172,7 @@ static void even_tile(struct tile *tile, int number, int iterations, const struc
 static void add_tiles(struct film *film, int tiles)
 {
     struct filter box = filter_of("box");
-    struct tile tile = {.planes = film->planes};
+    struct tile tile = {.sum = NULL};
     for (int i = 0; i < tiles; i++) {
         film->block.iterations = 1 + i / 4 % 2;
         even_tile(&tile, i % 4, (int)film->block.iterations, &box);
@@ -190,67 +187,26 @@ static void add_tiles(struct film *film, int tiles)
  * is of several that ended in the middle of one. */
 static void test_unfinished(struct test *t)
 {
-    static const float MEANS[] = {5, 3, 2, 1};
     struct pixel_rect all = {0, 0, 8, 8};
-    const struct planes planes = {2, true};
     for (int first = 0; first < 12; first++)
         for (int second = 0; second < 12; second++) {
             struct film film;
             float out[8 * 8 * 3];
             int in = (first > second ? first : second);
             film_init(&film, all, 8, 8);
-            film_keep_planes(&film, planes);
             add_tiles(&film, first);
             if (second > 0)
                 film_settle(&film);
             add_tiles(&film, second);
-            for (int plane = 0; plane < 4; plane++) {
-                film_develop_plane(&film, plane, 2, out);
-                for (int i = 0; i < 8 * 8 * 3; i++) {
-                    int column = i / 3 % 8, row = i / 24, number = row / 4 * 2 + column / 4;
-                    float expected = number < in ? 2 * MEANS[plane] : 0;
-                    CHECK(t, fabsf(out[i] - expected) < 1e-5f, "%d and %d tiles, plane %d: %g at %d,%d, not %g", first,
-                          second, plane, (double)out[i], column, row, (double)expected);
-                }
+            film_develop(&film, 2, out);
+            for (int i = 0; i < 8 * 8 * 3; i++) {
+                int column = i / 3 % 8, row = i / 24, number = row / 4 * 2 + column / 4;
+                float expected = number < in ? 2 * 5 : 0;
+                CHECK(t, fabsf(out[i] - expected) < 1e-5f, "%d and %d tiles: %g at %d,%d, not %g", first, second,
+                      (double)out[i], column, row, (double)expected);
             }
             film_free(&film);
         }
-}
-
-/* Standard errors of known noise: own values uniform in [0,1) plus rare splats. */
-static void test_errors(struct test *t)
-{
-    struct pixel_rect all = {0, 0, 8, 8};
-    enum { ITERATIONS = 500, SPLATS = 20, PIXELS = 64 };
-    struct filter box = filter_of("box");
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 4, 0);
-    struct film film;
-    film_init(&film, all, 8, 8);
-    film_keep_errors(&film);
-    struct tile tile = {.sum = NULL};
-    tile_start(&tile, pixels_all(all), all, &box);
-    for (int i = 0; i < ITERATIONS; i++) {
-        for (int p = 0; p < PIXELS; p++)
-            tile_add(&tile, p % 8, p / 8, rgb_grey(rng_uniform(&r)));
-        for (int k = 0; k < SPLATS; k++)
-            tile_add_splat(&tile, 8 * rng_uniform(&r), 8 * rng_uniform(&r), rgb_grey(1), 0);
-    }
-    film_merge_tile(&film, &tile);
-    film.iterations = ITERATIONS;
-    float error[PIXELS * 3], mean[PIXELS * 3];
-    film_develop(&film, 2, mean);
-    film_standard_error(&film, 2, error);
-    /* Variance of one iteration: 1/12 of the uniform number, SPLATS/64 of the splats' count; scale 2. */
-    double expected = 2 * sqrt((1.0 / 12 + SPLATS / 64.0) / ITERATIONS), chi2 = 0, mean_error = 0;
-    for (int i = 0; i < PIXELS; i++) {
-        mean_error += (double)error[3 * i] / PIXELS;
-        chi2 += sqr(((double)mean[3 * i] - 2 * (0.5 + SPLATS / 64.0)) / (double)error[3 * i]);
-    }
-    CHECK(t, fabs(mean_error / expected - 1) < 0.05, "standard error %g, expected %g", mean_error, expected);
-    TEST_ACCEPT(t, stats_chi2_p(chi2, PIXELS), "pixel means in units of their standard errors");
-    TEST_REJECT(t, stats_chi2_p(chi2 * 4, PIXELS), "the same with errors half as large");
-    tile_free(&tile);
-    film_free(&film);
 }
 
 /* What no float holds is left out and counted, or cut and counted; a raster point that is no number covers nothing. */
@@ -262,26 +218,22 @@ static void test_overflow(struct test *t)
     struct film film;
     int pixels_met;
     film_init(&film, all, 4, 4);
-    film_keep_errors(&film);
     tile_start(&tile, pixels_all(all), all, &f);
     tile_add(&tile, 0, 0, rgb_grey(1e39));
     tile_add(&tile, 1, 0, rgb_grey(NAN));
-    tile_add_splat(&tile, 2, 2, rgb_grey(-1e39), 0);
+    tile_add_splat(&tile, 2, 2, rgb_grey(-1e39));
     CHECK(t, tile.nonfinite == 3 && tile.n_splats == 0, "%ld of 3 contributions were left out", tile.nonfinite);
-    tile_add_splat(&tile, NAN, 2, rgb_grey(1), 0);
-    tile_add_splat(&tile, 2, INFINITY, rgb_grey(1), 0);
+    tile_add_splat(&tile, NAN, 2, rgb_grey(1));
+    tile_add_splat(&tile, 2, INFINITY, rgb_grey(1));
     spread(&tile, &pixels_met);
     CHECK(t, pixels_met == 0, "a splat that is nowhere fell on %d pixels", pixels_met);
     tile_add(&tile, 2, 0, rgb_make(3e38, 1, -3e38));
     film_merge_tile(&film, &tile);
     film.iterations = 1;
-    float pixels[4 * 4 * 3], errors[4 * 4 * 3];
+    float pixels[4 * 4 * 3];
     CHECK(t, film_develop(&film, 1, pixels) == 0 && film.nonfinite == 3, "nothing to cut");
     CHECK(t, film_develop(&film, 10, pixels) == 2, "two values to cut");
     CHECK(t, pixels[6] == FLT_MAX && pixels[7] == 10 && pixels[8] == -FLT_MAX, "cut to %g", (double)pixels[6]);
-    film.iterations = 2;
-    film_standard_error(&film, 10, errors);
-    CHECK(t, isfinite(errors[6]) && errors[6] > 1e38f, "the error of a huge value is %g", (double)errors[6]);
     tile_free(&tile);
     film_free(&film);
 }
@@ -380,7 +332,6 @@ void test_film(struct test *t)
     test_splats(t);
     test_memory(t);
     test_unfinished(t);
-    test_errors(t);
     test_overflow(t);
     test_exact_order(t);
     test_exact_range(t);

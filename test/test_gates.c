@@ -102,7 +102,7 @@ static void test_method(struct test *t, const char *text, const char *name)
     if (!scene_from_text(t, text, &scene))
         return;
     snprintf(way, sizeof way, "%s", name);
-    o.integrator = set_method(&scene, way);
+    o.integrator = set_row(&scene, way);
     test_sum(t, &scene, &o, way);
     scene_free(&scene);
 }
@@ -129,7 +129,7 @@ static void test_totals(struct test *t)
     enum { N = 5 };
     const struct gates gates = {5, 1.5, N};
     struct scene scene;
-    struct render_options o = {.integrator = "bdpt", .n_threads = os_cores(), .end = 16, .max_depth = 4};
+    struct render_options o = {.integrator = method_named("bdpt"), .n_threads = os_cores(), .end = 16, .max_depth = 4};
     if (!scene_from_text(t, MIXED, &scene))
         return;
     struct flight f = fly(t, &scene, &o, gates);
@@ -155,7 +155,7 @@ static void test_outside(struct test *t)
         "\"integer yresolution\" 8 WorldBegin LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
         "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"sphere\" \"float radius\" .01 WorldEnd\n";
     struct scene scene;
-    struct render_options o = {.integrator = "pt", .n_threads = 1, .end = 16, .max_depth = 1};
+    struct render_options o = {.integrator = method_named("pt"), .n_threads = 1, .end = 16, .max_depth = 1};
     if (!scene_from_text(t, TEXT, &scene))
         return;
     struct flight early = fly(t, &scene, &o, (struct gates){0, 1e-6, 1});
@@ -175,7 +175,7 @@ static double share(struct test *t, const char *text, const char *way, long spp,
     struct render_options o = {.n_threads = os_cores(), .end = spp, .max_depth = 3};
     if (!scene_from_text(t, text, &scene))
         return NAN;
-    o.integrator = set_method(&scene, way);
+    o.integrator = set_row(&scene, way);
     struct flight f = fly(t, &scene, &o, (struct gates){0, end, 1});
     double out = total(&f, 0) / film_total(&f.film);
     flight_free(&f);

@@ -34,7 +34,7 @@ static void test_known(struct test *t)
         for (int p = 0; p < SIDE * SIDE; p++)
             tile_add(&tile, p % SIDE, p / SIDE, rgb_make(rng_uniform(&r), rng_uniform(&r), rng_uniform(&r)));
         for (int k = 0; k < SPLATS; k++)
-            tile_add_splat(&tile, SIDE * rng_uniform(&r), SIDE * rng_uniform(&r), rgb_make(1, 0, 0), 0);
+            tile_add_splat(&tile, SIDE * rng_uniform(&r), SIDE * rng_uniform(&r), rgb_make(1, 0, 0));
         film_merge_tile(&film, &tile);
         film.iterations++;
     }
@@ -89,13 +89,14 @@ static void test_told(struct test *t, const struct scene *scene, const struct si
     size_t n = 3 * (size_t)ref->width * (size_t)ref->height;
     float *picture = mem_alloc(n, sizeof *picture), *mean = mem_alloc(n, sizeof *mean);
     for (int seed = 0; seed < SEEDS; seed++) {
-        struct render_options o = {.integrator = integrator, .seed = test_seed(t) + (uint64_t)seed, .end = SPP,
+        struct render_options o = {.integrator = method_of(scene, integrator), .seed = test_seed(t) + (uint64_t)seed,
+                                   .end = SPP,
                                    .n_threads = os_cores()};
         struct film film;
         struct error err = {.text = ""};
         film_init(&film, render_crop(scene), scene->width, scene->height);
         film_keep_halves(&film);
-        CHECK(t, render_scene(scene, &o, &film, &err) && film.iterations == SPP, "%s", err.text);
+        CHECK(t, render_by(scene, &o, &film, &err) && film.iterations == SPP, "%s", err.text);
         film_develop(&film, scene->film_scale, picture);
         for (size_t i = 0; i < n; i++)
             mean[i] += picture[i] / SEEDS;
@@ -139,7 +140,7 @@ static void test_end(struct test *t, const char *way, long runs)
     struct error err = {.text = ""};
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 24, 20, &scene))
         return;
-    struct render_options o = {.integrator = set_method(&scene, way), .seed = 3, .end = 1024};
+    struct render_options o = {.integrator = set_row(&scene, way), .seed = 3, .end = 1024};
     for (int i = 0; i < 3; i++) {
         film_init(&film[i], render_crop(&scene), scene.width, scene.height);
         if (i < 2)
@@ -147,7 +148,7 @@ static void test_end(struct test *t, const char *way, long runs)
         o.n_threads = 1 + 2 * i;
         o.noise[NOISE_8_BIT] = i < 2 ? 5 : 0;
         o.end = i < 2 ? 1024 : film[0].iterations;
-        CHECK(t, render_scene(&scene, &o, &film[i], &err), "%s", err.text);
+        CHECK(t, render_by(&scene, &o, &film[i], &err), "%s", err.text);
     }
     CHECK(t, film[0].noise[NOISE_8_BIT].value < 5 && film[0].iterations < 1024 && film[0].iterations % runs == 0,
           "%s: noise %g at %ld samples", way, film[0].noise[NOISE_8_BIT].value, film[0].iterations);
@@ -167,12 +168,12 @@ static void test_blocks(struct test *t)
     struct error err = {.text = ""};
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 75, 75, &scene))
         return;
-    struct render_options o = {.integrator = "pt", .end = 64, .max_depth = 1, .n_threads = 2};
+    struct render_options o = {.integrator = method_named("pt"), .end = 64, .max_depth = 1, .n_threads = 2};
     for (int i = 0; i < 2; i++) {
         film_init(&film[i], render_crop(&scene), scene.width, scene.height);
         film_keep_halves(&film[i]);
         o.block = i;
-        CHECK(t, render_scene(&scene, &o, &film[i], &err), "%s", err.text);
+        CHECK(t, render_by(&scene, &o, &film[i], &err), "%s", err.text);
     }
     size_t differ = 0, n = 3 * rect_pixels(film[0].rect);
     for (size_t i = 0; i < n; i++)

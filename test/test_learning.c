@@ -11,7 +11,7 @@
 #include "integrators/prepare.h"
 #include "learning/learn.h"
 #include "integrators/race.h"
-#include "render/methods.h"
+#include "render/job.h"
 #include "render/render.h"
 #include "tests.h"
 
@@ -133,7 +133,8 @@ static void test_dear_paths(struct test *t)
     drop(learn_scene(&scene, &w[0], 1));
     CHECK(t, w[0].traced == 0, "filling tables asks every %g paths", w[0].traced / (w[0].asked - 1));
     settings_set(&scene.settings, "race", "off", "test");
-    if (CHECK(t, method_prepare(method_find("asbdpt", &scene.settings, &err), &job, &p, &err), "%s", err.text)) {
+    if (CHECK(t, method_read(method_find("asbdpt", &scene.settings, &err), &scene, &p, &err), "%s", err.text)) {
+        method_prepare(&job, &p);
         job.watch = watch;
         job.watch_context = &w[1];
         race(&job, &p);
@@ -160,10 +161,10 @@ static void test_early_end(struct test *t)
     double asked_first = -1; /* at what share of all work */
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 48, 32, &scene)) /* two tiles */
         return;
-    struct render_options o = {.integrator = "asbdpt", .end = 1000000, .n_threads = 2, .max_depth = 4,
+    struct render_options o = {.integrator = method_named("asbdpt"), .end = 1000000, .n_threads = 2, .max_depth = 4,
                                .progress = impatient, .progress_context = &asked_first};
     film_init(&film, render_crop(&scene), 48, 32);
-    CHECK(t, render_scene(&scene, &o, &film, &err), "%s", err.text);
+    CHECK(t, render_by(&scene, &o, &film, &err), "%s", err.text);
     CHECK(t, film.iterations > 0 && film.iterations <= LONGEST_BLOCK && film_value(&film, 3 * (16 * 48 + 24)) > 0,
           "%ld samples of a render that was stopped at once", film.iterations);
     CHECK(t, asked_first >= 0 && asked_first * 1e6 * 48 * 32 < 1000, "asked first after %g of the work", asked_first);
@@ -240,7 +241,7 @@ static void test_unevenness(struct test *t)
     static const struct {
         const char *path;
         double unevenness;
-    } cases[] = {{"scenes/veach-ajar.pbrt", 11.39}, {"scenes/corridor.pbrt", 4.271}};
+    } cases[] = {{"scenes/veach-ajar.pbrt", 8.394}, {"scenes/corridor.pbrt", 5.7}};
     for (int i = 0; i < 2; i++) {
         struct scene scene;
         struct watcher w = {.patience = INFINITY};

@@ -9,26 +9,48 @@
 #include "base/os.h"
 #include "foggy.h"
 #include "lab/methods.h"
+#include "lab/planes.h"
 #include "helpers.h"
 #include "tests.h"
 
 enum { SIDE = 16, PIXELS = SIDE * SIDE, SUMS = 3 * PIXELS };
 
-static void render_planes(struct test *t, const struct scene *scene, const struct render_options *o, int lights,
-                          bool alpha, struct film *film)
+/* A picture and its planes. */
+struct rendered {
+    struct film film;
+    struct planes planes;
+};
+
+static void render_planes(struct test *t, const struct scene *scene, const struct render_options *options, bool lights,
+                          bool alpha, struct rendered *out)
 {
-    const struct planes planes = {lights, alpha};
+    struct render_options o = *options;
     struct error err;
-    film_init(film, render_crop(scene), scene->width, scene->height);
-    film_keep_planes(film, planes);
-    CHECK(t, render_scene(scene, o, film, &err), "%s", err.text);
+    film_init(&out->film, render_crop(scene), scene->width, scene->height);
+    planes_init(&out->planes, scene, &out->film, lights, alpha, false, o.n_threads);
+    struct observers observers = planes_observers(&out->planes);
+    o.observers = &observers;
+    CHECK(t, render_by(scene, &o, &out->film, &err), "%s", err.text);
+    planes_end(&out->planes);
 }
 
-static double plane_total(const struct film *film, int plane)
+static void rendered_free(struct rendered *r)
+{
+    planes_free(&r->planes);
+    film_free(&r->film);
+}
+
+/* The picture, 0, or one of its planes. */
+static const struct film *plane(const struct rendered *r, int number)
+{
+    return number == 0 ? &r->film : &r->planes.film[number - 1];
+}
+
+static double plane_total(const struct film *film)
 {
     double sum = 0;
     for (size_t i = 0; i < SUMS; i++)
-        sum += film_value(film, (size_t)plane * SUMS + i);
+        sum += film_value(film, i);
     return sum;
 }
 
@@ -64,22 +86,24 @@ static bool load(struct test *t, const char *filter, bool sky, bool warm, bool l
 /* Planes of light add up to the picture, and this is what it is without them. */
 static void check_sum(struct test *t, const struct scene *scene, const struct render_options *o, const char *what)
 {
-    struct film film, plain;
+    struct rendered r;
+    struct film plain;
     int wrong = 0;
-    render_planes(t, scene, o, GROUPS, true, &film);
+    render_planes(t, scene, o, true, true, &r);
     render_film(t, scene, o, &plain);
     for (size_t i = 0; i < SUMS; i++) {
         struct exact_sum sum = {{0, 0, 0}, 0};
-        for (size_t g = 1; g <= GROUPS; g++)
-            exact_join(&sum, &film.sum[g * SUMS + i]);
-        wrong += exact_value(&sum) != film_value(&film, i);
+        for (int g = 1; g <= GROUPS; g++)
+            exact_join(&sum, &plane(&r, g)->sum[i]);
+        wrong += exact_value(&sum) != film_value(&r.film, i);
     }
     CHECK(t, wrong == 0, "%s: lights do not add up to %d values of the picture", what, wrong);
-    CHECK(t, films_equal(&film, &plain), "%s: keeping lights apart changes the picture", what);
+    CHECK(t, films_equal(&r.film, &plain), "%s: keeping lights apart changes the picture", what);
     for (int g = 1; g <= GROUPS; g++)
-        CHECK(t, plane_total(&film, g) > 1e-3 * plane_total(&film, 0), "%s: light %d has %g of %g", what, g - 1,
-              plane_total(&film, g), plane_total(&film, 0));
-    film_free(&film);
+        CHECK(t, plane_total(plane(&r, g)) > 1e-3 * plane_total(&r.film) &&
+                     plane(&r, g)->iterations == r.film.iterations, "%s: light %d has %g of %g", what, g - 1,
+              plane_total(plane(&r, g)), plane_total(&r.film));
+    rendered_free(&r);
     film_free(&plain);
 }
 
@@ -88,7 +112,7 @@ static void check_sum_by(struct test *t, struct scene *scene, const char *way)
     char what[64];
     struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
     snprintf(what, sizeof what, "%s", way);
-    o.integrator = set_method(scene, what);
+    o.integrator = set_row(scene, what);
     check_sum(t, scene, &o, what);
 }
 
@@ -114,13 +138,28 @@ static void test_left_out(struct test *t)
     static const double STEP[] = {0, 1, 1e39, NAN, 2};
     struct pixel_rect one = {0, 0, 1, 1};
     struct filter box = filter_of("box");
-    struct tile tile = {.planes = {2, false}};
+    struct light lights[2] = {{.group = 0}, {.group = 1}};
+    struct scene scene = {.lights = {.light = lights, .n = 2, .n_groups = 2}};
+    struct film film;
+    struct planes p;
+    struct tile tile = {.sum = NULL};
+    film_init(&film, one, 1, 1);
+    planes_init(&p, &scene, &film, true, false, false, 1);
+    struct observers o = planes_observers(&p);
     tile_start(&tile, pixels_all(one), one, &box);
-    for (int i = 0; i < 4; i++)
-        tile_add_light(&tile, 0, 0, i % 2, rgb_grey(STEP[i + 1]), rgb_grey(STEP[i]));
-    CHECK(t, exact_value(&tile.sum[3]) == 1 && exact_value(&tile.sum[6]) == 1, "lights of %g and %g",
-          exact_value(&tile.sum[3]), exact_value(&tile.sum[6]));
+    struct observer of_pass = o.begin(o.context, 0, &tile);
+    for (int i = 0; i < 4; i++) {
+        const struct sample sample = {.value = rgb_grey(STEP[i])};
+        const struct connection c = {.light = i % 2, .value = rgb_grey(1)};
+        const struct joined step = {.s = 1, .t = 2, .c = &c, .added = rgb_grey(STEP[i + 1] - STEP[i])};
+        of_pass.joined(of_pass.context, &sample, &step);
+    }
+    o.end(o.context, 0);
+    CHECK(t, film_value(&p.film[0], 0) == 1 && film_value(&p.film[1], 0) == -1, "lights of %g and %g",
+          film_value(&p.film[0], 0), film_value(&p.film[1], 0));
     tile_free(&tile);
+    planes_free(&p);
+    film_free(&film);
 }
 
 /* Batches of some planes of the same renders, averaged over quarters of the picture. */
@@ -133,15 +172,15 @@ static void make_batches(struct test *t, const struct scene *scene, const char *
     for (int g = 0; g < n; g++)
         pixels[g] = batches_new(BATCHES, SUMS, false);
     for (int k = 0; k < BATCHES; k++) {
-        struct render_options o = {.integrator = integrator, .n_threads = os_cores(), .max_depth = 4,
+        struct render_options o = {.integrator = method_of(scene, integrator), .n_threads = os_cores(), .max_depth = 4,
                                    .seed = (test_seed(t) * 64 + seed) * BATCHES + (uint64_t)k,
                                    .end = spp * test_effort(t)};
-        struct film film;
-        render_planes(t, scene, &o, GROUPS, false, &film);
+        struct rendered r;
+        render_planes(t, scene, &o, true, false, &r);
         for (int i = 0; i < n * SUMS; i++)
             pixels[i / SUMS].value[SUMS * k + i % SUMS] =
-                film_value(&film, (size_t)(first * SUMS + i)) / (double)film.iterations;
-        film_free(&film);
+                film_value(plane(&r, first + i / SUMS), (size_t)(i % SUMS)) / (double)r.film.iterations;
+        rendered_free(&r);
     }
     for (int g = 0; g < n; g++) {
         out[g] = batches_tiles(&pixels[g], SIDE, SIDE, SIDE / 2);
@@ -180,13 +219,13 @@ static void test_alone(struct test *t, const char *way)
     "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16 PixelFilter \"%s\" WorldBegin\n"
 #define HALF QUAD("-9 0 0  9 0 0  9 9 0  -9 9 0")
 
-static bool render_text(struct test *t, const char *text, const char *filter, int spp, struct film *film)
+static bool render_text(struct test *t, const char *text, const char *filter, int spp, struct rendered *out)
 {
     struct scene scene;
-    struct render_options o = {.integrator = "pt", .n_threads = 1, .end = spp, .max_depth = 2};
+    struct render_options o = {.integrator = method_named("pt"), .n_threads = 1, .end = spp, .max_depth = 2};
     if (!scene_from_format(t, &scene, text, filter))
         return false;
-    render_planes(t, &scene, &o, 0, true, film);
+    render_planes(t, &scene, &o, false, true, out);
     scene_free(&scene);
     return true;
 }
@@ -197,11 +236,12 @@ static void check_alpha(struct test *t, const char *what, const char *text, int 
     static const char *const FILTERS[] = {"box", "triangle", "gaussian"};
     static const double OFF[] = {0, 0.01, 0.01}; /* the weights of the last two are 1 but for tables' steps */
     for (int k = 0; k < 3; k++) {
-        struct film film;
+        struct rendered r;
+        float alpha[SUMS];
         int wrong = 0;
-        if (!render_text(t, text, FILTERS[k], 64, &film))
+        if (!render_text(t, text, FILTERS[k], 64, &r))
             return;
-        float *alpha = film_alpha(&film);
+        film_develop(planes_alpha(&r.planes), 1, alpha);
         for (int i = 0; i < SUMS; i++) {
             int row = i / 3 / SIDE;
             bool edge = k > 0 && (row - rows) * (row - rows + 1) <= 2; /* the filters reach two pixels */
@@ -209,8 +249,7 @@ static void check_alpha(struct test *t, const char *what, const char *text, int 
         }
         CHECK(t, wrong == 0, "%s, %s: %d values of alpha are wrong, the first %g, the last %g", what, FILTERS[k], wrong,
               (double)alpha[0], (double)alpha[SUMS - 1]);
-        free(alpha);
-        film_free(&film);
+        rendered_free(&r);
     }
 }
 
@@ -236,7 +275,7 @@ static void test_alpha(struct test *t)
  * of a sky; of a lamp L where it is. All other light stays. */
 static void test_hidden(struct test *t, const char *what, const char *text, double (*missing)(double alpha))
 {
-    struct film seen, hidden;
+    struct rendered seen, hidden;
     char without[2048], *visible;
     snprintf(without, sizeof without, "%s", text);
     if ((visible = strstr(without, "\"bool visible\" \"false\"")) == NULL)
@@ -245,16 +284,16 @@ static void test_hidden(struct test *t, const char *what, const char *text, doub
     if (!render_text(t, without, "gaussian", 16, &seen))
         return;
     if (render_text(t, text, "gaussian", 16, &hidden)) {
-        double worst = 0, light = plane_total(&hidden, 0);
+        double worst = 0, light = plane_total(&hidden.film);
         for (size_t i = 0; i < SUMS; i++) {
-            double alpha = film_value(&hidden, SUMS + i) / 16, full = film_value(&seen, SUMS + i) / 16;
-            double difference = (film_value(&seen, i) - film_value(&hidden, i)) / 16;
+            double alpha = film_value(plane(&hidden, 1), i) / 16, full = film_value(plane(&seen, 1), i) / 16;
+            double difference = (film_value(&seen.film, i) - film_value(&hidden.film, i)) / 16;
             worst = fmax(worst, fabs(difference - missing(full - alpha)));
         }
         CHECK(t, worst < 1e-9 && light > 1, "%s: off by %g, light of %g is left", what, worst, light);
-        film_free(&hidden);
+        rendered_free(&hidden);
     }
-    film_free(&seen);
+    rendered_free(&seen);
 }
 
 static double once(double share) { return share; }

@@ -80,7 +80,7 @@ static bool accepted(const struct fixture *f, const uint8_t *data, size_t n, int
 /* Digits 0, -1, 63, 64, -65 and 2^62, of which the last has nine bytes. */
 static void test_bytes(struct test *t)
 {
-    static const char TEXT[] = "asbdpt part 8\nsamples 2 7\ndone 3 1\nleft-out 4\nhalves 0\nsize 1 1, planes 0 0\n"
+    static const char TEXT[] = "asbdpt part 9\nsamples 2 7\ndone 3 1\nleft-out 4\nhalves 0\nsize 1 1\n"
                                "film 1 1, window 0 0\n"
                                "scale 1\nspp 8\nversion 0\ncheck ";
     static const uint8_t SUMS[] = {255, 7,   0,   1,   126, 12,  128, 1,   129, 1,
@@ -184,8 +184,10 @@ static void test_estimator(struct test *t)
     char line[64];
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 4, 4, &scene))
         return;
-    struct render_options o = {.integrator = "bdpt", .end = 4, .planned = 4, .max_depth = 5};
-    struct part ours = part_describe(&scene, &o), other = part_describe(&scene, &o);
+    struct render_options o = {.integrator = method_named("bdpt"), .end = 4, .planned = 4, .max_depth = 5};
+    struct job job;
+    CHECK(t, job_settle(&scene, &o, &job, &err), "%s", err.text);
+    struct part ours = part_describe(&job), other = part_describe(&job);
     snprintf(line, sizeof line, "version %s, estimator %d\n", VERSION, ESTIMATOR);
     bool named = strncmp(ours.identity, line, strlen(line)) == 0;
     if (CHECK(t, named, "the lines begin with: %.40s", ours.identity)) {

@@ -110,7 +110,7 @@ static void test_worth(struct test *t)
     static float worth[SIZE * SIZE], draws[SIZE * SIZE];
     struct scene scene;
     struct error err = {.text = ""};
-    struct render_options options = {.integrator = "asbdpt", .end = 256, .n_threads = 2};
+    struct render_options options = {.integrator = method_named("asbdpt"), .end = 256, .n_threads = 2};
     if (!CHECK(t, parse_scene("scenes/cornell-box.pbrt", NULL, &scene, NULL, &err), "%s", err.text))
         return;
     scene.width = scene.height = SIZE;
@@ -132,7 +132,7 @@ static void test_worth(struct test *t)
               "a crop window changes the picture of the whole film");
         sheet_free(&whole);
         sheet_free(&cropped);
-        options.integrator = "bdpt";
+        options.integrator = method_named("bdpt");
         CHECK(t, !worth_values(&scene, &options, 0, 0, worth, draws, &err), "bdpt learns nothing");
     }
     scene_free(&scene);

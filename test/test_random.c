@@ -23,7 +23,7 @@
 #include "lab/stats.h"
 #include "helpers.h"
 #include "random_scene.h"
-#include "render/methods.h"
+#include "render/job.h"
 #include "render/render.h"
 #include "tests.h"
 

@@ -73,7 +73,7 @@ static void test_tiles(struct test *t)
                 continue;
             scene.width = sizes[i][0];
             scene.height = sizes[i][1];
-            o.integrator = set_method(&scene, method_name(*m));
+            o.integrator = set_row(&scene, method_name(*m));
             render_film(t, &scene, &o, &film);
             for (size_t k = 0; k < rect_pixels(film.rect) * 3; k += 3)
                 wrong += !(fabs(film_value(&film, k) - 2 * .25) < 1e-6);
@@ -156,7 +156,8 @@ static void blocks(struct test *t, const char *integrator, int size, int spp, in
         return;
     for (int i = 0; i < 2; i++) {
         struct ends ends = {&film[i], 0};
-        struct render_options o = {.integrator = integrator, .end = spp, .block = i == 1 ? 1 : longest,
+        struct render_options o = {.integrator = method_of(&scene, integrator), .end = spp,
+                                   .block = i == 1 ? 1 : longest,
                                    .n_threads = 2, .progress = count_end, .progress_context = &ends};
         render_film(t, &scene, &o, &film[i]);
         CHECK(t, ends.n == (i == 1 ? spp : 1), "block %d: %ld ends", o.block, ends.n);
@@ -204,7 +205,7 @@ static void test_stop(struct test *t)
     for (const struct method *const *m = method_rows; *m != NULL; m++) {
         struct stopper s = {&film, 0, 100};
         const char *way = method_name(*m);
-        struct render_options o = {.integrator = set_method(&scene, way), .end = 32, .block = 32, .n_threads = 1,
+        struct render_options o = {.integrator = set_row(&scene, way), .end = 32, .block = 32, .n_threads = 1,
                                    .max_depth = 3, .stop = stop_at, .progress_context = &s};
         render_film(t, &scene, &o, &film);
         CHECK(t, s.asked >= s.most && s.asked < s.most + 4 * LONGEST_BLOCK && film.passes == 0 && film.iterations == 0,
@@ -222,7 +223,8 @@ static void test_stop_late(struct test *t)
     struct stopper s = {&film, 0, 0};
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
         return;
-    struct render_options o = {.integrator = "lt", .end = 600, .block = 600, .n_threads = 1, .max_depth = 5,
+    struct render_options o = {.integrator = method_named("lt"), .end = 600, .block = 600, .n_threads = 1,
+                               .max_depth = 5,
                                .stop = stop_at_splats, .progress_context = &s};
     render_film(t, &scene, &o, &film);
     CHECK(t, s.asked < 16 * 16 * 600 && film.iterations == 600, "%ld questions, %ld samples", s.asked,
@@ -243,7 +245,7 @@ static double sky_error(struct test *t, const char *filter, struct render_option
     if (!scene_from_format(t, &scene, "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 9\n"
                            "PixelFilter \"%s\" WorldBegin LightSource \"infinite\" WorldEnd\n", filter))
         return INFINITY;
-    o.integrator = "pt";
+    o.integrator = method_named("pt");
     render_film(t, &scene, &o, &film);
     film_develop(&film, 1, pixels);
     for (int i = 0; i < 12 * 9 * 3; i++)

@@ -112,8 +112,9 @@ static void bridge(void *context, const struct sample *sample, const struct join
             b->made[j->s + j->t][j->s][i] += brought * w[j->s] * w[i];
 }
 
-static struct observer look_on(void *context, int slot)
+static struct observer look_on(void *context, int slot, const struct tile *tile)
 {
+    (void)tile;
     struct observer o = {.context = context, .joined = bridge};
     (void)slot;
     return o;
@@ -172,7 +173,8 @@ static void test_bridges(struct test *t, const char *name, const char *text, uin
     for (int k = 0; k < BRIDGE_BATCHES; k++) {
         struct film film;
         const struct observers look = {&made[k], look_on, look_away};
-        struct render_options o = {.integrator = "bdpt", .end = BRIDGE_SPP * test_effort(t), .max_depth = DEPTH,
+        struct render_options o = {.integrator = method_named("bdpt"), .end = BRIDGE_SPP * test_effort(t),
+                                   .max_depth = DEPTH,
                                    .n_threads = 1, .observers = &look};
         o.seed = hash_combine(test_seed(t) * 7927 + number, (uint64_t)k);
         made[k].scene = &scene;

@@ -29,13 +29,14 @@ static void test_method(struct test *t, const struct scene *scene, const char *i
     struct film film[3];
     for (int i = 0; i < 3; i++) {
         int times = 0;
-        struct render_options o = {.integrator = integrator, .n_threads = i == 0 ? 1 : 4, .max_depth = 4,
+        struct render_options o = {.integrator = method_of(scene, integrator), .n_threads = i == 0 ? 1 : 4,
+                                   .max_depth = 4,
                                    .seed = test_seed(t) + (i == 2), .end = i == 1 ? middle : end, .planned = end,
                                    .block = 2, .progress = i == 1 ? share : NULL, .progress_context = &times};
         struct error err;
         bool ok;
         film_init(&film[i], render_crop(scene), scene->width, scene->height);
-        while ((ok = render_scene(scene, &o, &film[i], &err)) && o.end < end) {
+        while ((ok = render_by(scene, &o, &film[i], &err)) && o.end < end) {
             o.first = o.end;
             o.end = end;
         }

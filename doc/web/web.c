@@ -75,9 +75,7 @@ int web_command(int n)
 static struct watch {
     struct job_options asked;
     struct scene scene;
-    struct render_options options;
-    struct render_job job;
-    struct prepared prepared;
+    struct job job;
     struct tiling tiling;
     struct tile tile;
     struct workspace *work;
@@ -175,24 +173,23 @@ static bool read_reference(struct watch *w, const char *path, struct error *err)
            error_set(err, "%s: the picture is no whole number of times as large", path);
 }
 
-static bool begin(struct watch *w, const struct method *integrator, const char *reference, struct error *err)
+static bool begin(struct watch *w, const char *reference, struct error *err)
 {
     double start = os_wall_seconds();
     size_t n = (size_t)w->scene.width * (size_t)w->scene.height;
-    struct pixel_rect rect = render_crop(&w->scene);
-    w->options = job_render(&w->asked, &w->scene, integrator);
-    w->options.n_threads = 1;
-    w->job.watch = learns;
-    w->job.watch_context = w;
-    if (!read_reference(w, reference, err) ||
-        !render_prepare(&w->scene, &w->options, rect, &w->job, &w->prepared, err))
+    struct pixel_rect rect = w->job.state.film_rect;
+    struct pass_size *size = &w->job.prepared.size;
+    w->job.state.n_threads = 1;
+    w->job.state.watch = learns;
+    w->job.state.watch_context = w;
+    if (!read_reference(w, reference, err))
         return false;
-    if (w->prepared.size.block == 0)
-        w->prepared.size.block = 1;
-    w->tiling = tiling_of(rect, &w->prepared.size);
-    w->work = workspaces_new(1, w->job.max_depth);
+    job_prepare(&w->job);
+    if (size->block == 0)
+        size->block = 1;
+    w->tiling = tiling_of(rect, size);
+    w->work = workspaces_new(1, w->job.state.max_depth);
     film_init(&w->film, rect, w->scene.width, w->scene.height);
-    w->tile.planes = w->film.planes;
     w->pixels = mem_alloc(3 * n, sizeof *w->pixels);
     w->rgba = mem_alloc(4 * n, sizeof *w->rgba);
     w->seconds = os_wall_seconds() - start;
@@ -210,15 +207,15 @@ int web_step(void)
 {
     struct watch *w = &watched;
     double start = os_wall_seconds();
-    struct tile_pass pass = {.job = &w->job, .tile = &w->tile, .work = w->work, .first = w->film.iterations};
-    long left = w->options.end - pass.first, block = w->prepared.size.block;
+    struct tile_pass pass = {.job = &w->job.state, .tile = &w->tile, .work = w->work, .first = w->film.iterations};
+    long left = w->job.options.end - pass.first, block = w->job.prepared.size.block;
     pass.end = pass.first + (left < block ? left : block);
     w->film.block.iterations = pass.end - pass.first;
     for (int64_t i = 0; i < tiling_count(&w->tiling); i++) {
-        tile_start(&w->tile, tiling_pixels(&w->tiling, i), w->job.film_rect, &w->scene.filter);
+        tile_start(&w->tile, tiling_pixels(&w->tiling, i), w->job.state.film_rect, &w->scene.filter);
         w->tile.full = take_splats;
         w->tile.context = &w->film;
-        w->prepared.method->render(&w->prepared, &pass);
+        w->job.prepared.method->render(&w->job.prepared, &pass);
         film_merge_tile(&w->film, &w->tile);
         w->seconds += os_wall_seconds() - start;
         start = os_wall_seconds();
@@ -229,7 +226,7 @@ int web_step(void)
     }
     film_end_block(&w->film);
     show(w);
-    return w->film.iterations < w->options.end;
+    return w->film.iterations < w->job.options.end;
 }
 
 static const struct option OPTIONS[] = {
@@ -243,11 +240,10 @@ int web_begin(int n)
 {
     char **argv = arguments(n);
     struct watch *w = &watched;
-    const struct method *integrator;
     struct error err;
     bool ok = options_read(OPTIONS, n - 1, argv + 1, &w->asked, &err);
-    int status = !ok ? usage_error(NULL, "%s", err.text) : job_load(&w->asked, &w->scene, &integrator);
-    if (status == EXIT_OK && !begin(w, integrator, argv[0], &err))
+    int status = !ok ? usage_error(NULL, "%s", err.text) : job_load(&w->asked, &w->scene, &w->job);
+    if (status == EXIT_OK && !begin(w, argv[0], &err))
         status = fail(&err);
     free(argv);
     return status;

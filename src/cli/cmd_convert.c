@@ -1,5 +1,5 @@
 /* cmd_convert.c: asbdpt convert IN... -o OUT: a picture in other formats, or several added up, each times a weight: of
- * those that render --lights writes the picture under other lights. */
+ * those that asbdpt-lab render --lights writes the picture under other lights. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -111,15 +111,12 @@ static bool write_film(const struct merge_options *o, struct merge *m, long end,
 {
     struct part whole = m->part[0].part; /* its identity is borrowed */
     float *pixels = mem_alloc((size_t)whole.width * (size_t)whole.height * 3, sizeof *pixels);
-    float *alpha = film_alpha(film);
     whole.end = end;
     film_warn(film, film_develop(film, whole.scale, pixels));
     out->place = whole.place;
-    out->alpha = alpha;
     out->part = &whole;
     out->film = film;
     bool ok = outputs_write(out, whole.width, whole.height, pixels, o->quiet, err);
-    free(alpha);
     free(pixels);
     return ok;
 }
@@ -136,7 +133,6 @@ static bool merge(const struct merge_options *o, struct merge *m, bool picture, 
     if (!check_ranges(m, picture ? 0 : first->first, picture ? first->planned : 0, o->partial, &end))
         return error_set(err, "nothing was written");
     film_init(&film, rect, rect.x1, rect.y1);
-    film_keep_planes(&film, first->planes);
     bool ok = add_parts(m, &film, err) && write_film(o, m, end, &film, out, err);
     film_free(&film);
     return ok;

@@ -1,4 +1,4 @@
-/* cmd_render.c: asbdpt render: a scene to pictures. */
+/* cmd_render.c: asbdpt render: a scene to pictures; see cmd_render.h. */
 
 #include <math.h>
 #include <stdio.h>
@@ -8,13 +8,10 @@
 #include "base/interrupt.h"
 #include "base/mem.h"
 #include "base/os.h"
-#include "base/progress.h"
+#include "cli/cmd_render.h"
 #include "cli/command.h"
-#include "cli/job_options.h"
-#include "cli/keep.h"
-#include "cli/render_files.h"
 #include "image/image.h"
-#include "render/parameters.h"
+#include "render/render.h"
 
 #define AT(member) offsetof(struct job_options, member)
 const struct option RENDER_OPTIONS[] = {
@@ -23,16 +20,6 @@ const struct option RENDER_OPTIONS[] = {
      .help = "image to write: linear .pfm or .exr, sRGB .png or .ppm; repeatable (default: the scene's Film name)"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
-    {"--aov", "LIST", OPTION_TEXT, AT(aov),
-     .help = "also write NAME.albedo.pfm and so on: some of albedo,normal,depth,position,variance"},
-    {"--layers", NULL, OPTION_ON, AT(layers),
-     .help = "write the images of --aov as layers of the .exr"},
-    {"--seen", NULL, OPTION_ON, AT(seen),
-     .help = "albedo and normal show what is seen in mirrors and through glass, for denoisers"},
-    {"--lights", "DIR", OPTION_TEXT, AT(lights),
-     .help = "write into DIR an image for each light, or each \"string group\" of lights; convert --weights adds them"},
-    {"--alpha", NULL, OPTION_ON, AT(alpha),
-     .help = "write alpha into .exr and .png: 0 where the lens sees nothing, or a light of \"bool visible\" \"false\""},
     {"--time", "TIME", OPTION_TIME, AT(keep.time), 1e-9, 1e9,
      .help = "render for at most TIME, in seconds or as 90s, 5m, 1h, and write the image so far (default: no limit)"},
     {"--noise", "X", OPTION_NUMBER, AT(keep.noise[NOISE_RELATIVE]), 1e-9, 1e9,
@@ -50,6 +37,11 @@ const struct option RENDER_OPTIONS[] = {
      .help = "render only the samples FIRST to END-1 of each pixel, for merge: -o NAME.part"},
     {"--stats", "FILE", OPTION_TEXT, AT(stats), .written = true,
      .help = "write parameters, times and memory as JSON"},
+    {"--aov", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab render has this option"},
+    {"--layers", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab render has this option"},
+    {"--seen", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab render has this option"},
+    {"--lights", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab render has this option"},
+    {"--alpha", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab render has this option"},
     {.others = RUN_OPTIONS},
 };
 
@@ -70,40 +62,21 @@ static char *default_output(const struct scene *scene)
     return out;
 }
 
-/* All files that a render writes, opened before the work begins. */
-struct files {
-    struct outputs pictures;
-    struct aov_files aov;
-    struct file_output stats; /* its stream NULL: none; it is complete when all others are */
-};
-
-static void abandon(struct files *f)
+static void abandon(struct render_run *r)
 {
-    outputs_abandon(&f->pictures);
-    outputs_abandon(&f->aov.out);
-    if (f->stats.stream != NULL)
-        file_abandon(&f->stats);
-}
-
-/* What can be said before the scene is loaded. What has no place in a part (render/part.h) is not there after
- * --resume. */
-static bool check_options(const struct job_options *o, struct files *f, struct error *err)
-{
-    memset(f, 0, sizeof *f);
-    if (o->keep.samples[1] > 0 && o->output.n == 0)
-        return error_usage(err, "--samples needs -o NAME.part");
-    if (!aov_read(o->aov, &f->aov, err))
-        return false;
-    if (o->keep.resume != NULL && f->aov.wanted[AOV_VARIANCE])
-        return error_set(err, "%s: variance is not saved and cannot be resumed", o->keep.resume);
-    return keep_check(&o->keep, err);
+    outputs_abandon(&r->pictures);
+    if (r->stats.stream != NULL)
+        file_abandon(&r->stats);
 }
 
 /* What needs no scene to be opened. */
-static bool open_named(const struct job_options *o, struct files *f, struct error *err)
+static bool open_named(const struct job_options *o, struct render_run *r, struct error *err)
 {
-    return (o->output.n == 0 || outputs_open(&o->output, &o->tone, true, &f->pictures, err)) &&
-           (o->stats == NULL || file_create(o->stats, &f->stats, err));
+    if (o->keep.samples[1] > 0 && o->output.n == 0)
+        return error_usage(err, "--samples needs -o NAME.part");
+    return keep_check(&o->keep, err) &&
+           (o->output.n == 0 || outputs_open(&o->output, &o->tone, true, &r->pictures, err)) &&
+           (o->stats == NULL || file_create(o->stats, &r->stats, err));
 }
 
 static bool open_default_output(const struct job_options *o, const struct scene *scene, struct outputs *out,
@@ -118,42 +91,67 @@ static bool open_default_output(const struct job_options *o, const struct scene 
     return ok;
 }
 
-/* Does every file have a name of its own? Layers are in a file that is written first without them. */
-static bool names_differ(struct job_options *o, const struct scene *scene, const struct files *f, struct error *err)
+/* Does every file have a name of its own? */
+static bool names_differ(struct render_run *r, struct error *err)
 {
     struct texts names = {0};
-    options_written(RENDER_OPTIONS, o, &names);
-    for (int i = o->output.n; i < f->pictures.n; i++)
-        texts_add(&names, f->pictures.item[i].file.path);
-    for (int i = 0; i < f->aov.out.n && !o->layers; i++)
-        texts_add(&names, f->aov.out.item[i].file.path);
-    bool ok = texts_differ(&names, err) && job_spares(scene, &names, err);
+    options_written(RENDER_OPTIONS, r->asked, &names);
+    if (r->asked->output.n == 0)
+        texts_add(&names, r->pictures.item[0].file.path);
+    bool ok = texts_differ(&names, err) && job_spares(&r->scene, &names, err);
     free(names.item);
     return ok;
 }
 
-/* What the scene names, or what is written next to that, once the scene is loaded. */
-static bool open_others(struct job_options *o, const struct scene *scene, struct files *f, struct error *err)
+static bool make_film(struct render_run *r, struct error *err)
 {
-    return (f->pictures.n > 0 || open_default_output(o, scene, &f->pictures, err)) &&
-           (o->keep.preview == 0 || outputs_previews(&f->pictures, err)) &&
-           aov_open(&f->aov, o->layers, &f->pictures, err) && lights_open(o->lights, scene, &f->pictures, err) &&
-           names_differ(o, scene, f, err);
+    const struct scene *scene = &r->scene;
+    struct error why;
+    if (!budget_has(&scene->memory, film_bytes(r->job.state.film_rect), &why))
+        return error_set(err, "%s: its film of %dx%d pixels: %s; --res makes it smaller", r->asked->scene_path,
+                         scene->width, scene->height, why.text);
+    film_init(&r->film, r->job.state.film_rect, scene->width, scene->height);
+    return true;
+}
+
+/* What the scene names, once it is loaded. */
+static bool open_others(struct render_run *r, struct error *err)
+{
+    const struct job_options *o = r->asked;
+    return (r->pictures.n > 0 || open_default_output(o, &r->scene, &r->pictures, err)) &&
+           (o->keep.preview == 0 || outputs_previews(&r->pictures, err)) && names_differ(r, err) && make_film(r, err);
+}
+
+int render_open(struct render_run *r, struct job_options *o)
+{
+    struct error err;
+    double start = os_wall_seconds();
+    memset(r, 0, sizeof *r);
+    r->asked = o;
+    if (!open_named(o, r, &err))
+        return render_close(r, false, &err);
+    int status = job_load(o, &r->scene, &r->job);
+    if (status != EXIT_OK) {
+        abandon(r);
+        return status;
+    }
+    r->load = os_wall_seconds() - start;
+    return open_others(r, &err) ? EXIT_OK : render_close(r, false, &err);
 }
 
 /* The last line. Who has not chosen a method may not know which the scene has. */
-static void report(const struct job_options *o, const char *integrator, long n_warnings, const struct film *film,
-                   const struct render_times *times)
+static void report(const struct render_run *r)
 {
-    bool other = o->integrator == NULL && strcmp(integrator, "asbdpt") != 0;
+    const struct film *film = &r->film;
+    long n = r->scene.n_warnings;
+    bool other = r->asked->integrator == NULL && strcmp(r->job.options.integrator->name, "asbdpt") != 0;
     char warnings[48] = "";
-    if (n_warnings > 0)
-        snprintf(warnings, sizeof warnings, "; %ld warning%s about the scene", n_warnings, n_warnings > 1 ? "s" : "");
-    if (!o->quiet)
-        say_line("%s: %dx%d, %ld spp, %s%s; %.2f s, %.2f s of CPU, %.2f us per sample path%s", o->scene_path,
-                 rect_width(film->rect), rect_height(film->rect), film->iterations, integrator,
-                 other ? " (for asbdpt: --integrator asbdpt)" : "", times->wall, times->cpu,
-                 render_us_per_path(film, times), warnings);
+    if (n > 0)
+        snprintf(warnings, sizeof warnings, "; %ld warning%s about the scene", n, n > 1 ? "s" : "");
+    if (!r->asked->quiet)
+        say_line("%s: %dx%d, %ld spp, %s%s; %.2f s, %.2f s of CPU, %.2f us per sample path%s", r->asked->scene_path,
+                 rect_width(film->rect), rect_height(film->rect), film->iterations, r->job.options.integrator->name,
+                 other ? " (for asbdpt: --integrator asbdpt)" : "", r->wall, r->cpu, stats_us_per_path(r), warnings);
 }
 
 /* What the camera sees in front of all else, as far as a few rays tell. */
@@ -193,94 +191,60 @@ static void warn_of_black(const struct scene *scene, const struct film *film, co
     say_line("asbdpt: warning: the image is black: %s", why);
 }
 
-/* Pictures, then what can only be made now, and when all are complete the statistics. `ok`: nothing has failed yet. */
-static bool write_files(const struct job_options *o, const struct scene *scene, struct render_options *options,
-                        const struct film *film, struct keep *keep, struct files *f, bool ok, struct error *err)
+static bool write_pictures(struct render_run *r, bool ok, struct error *err)
 {
-    float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels), *alpha = film_alpha(film);
-    film_warn(film, film_develop(film, scene->film_scale, pixels));
-    warn_of_black(scene, film, options->integrator, pixels);
-    f->pictures.alpha = f->aov.out.alpha = alpha;
-    ok = outputs_write(&f->pictures, rect_width(film->rect), rect_height(film->rect), pixels, o->quiet,
+    const struct film *film = &r->film;
+    float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels);
+    film_warn(film, film_develop(film, r->scene.film_scale, pixels));
+    warn_of_black(&r->scene, film, r->job.options.integrator->name, pixels);
+    ok = outputs_write(&r->pictures, rect_width(film->rect), rect_height(film->rect), pixels, r->asked->quiet,
                        ok ? err : NULL) && ok;
-    keep_after(keep, options);
-    ok = aov_write(&f->aov, scene, options, film, o->seen, pixels, o->quiet, ok ? err : NULL) && ok;
-    progress_end(&keep->bar);
-    free(alpha);
     free(pixels);
-    if (ok && f->stats.stream != NULL)
-        return file_commit(&f->stats, err);
-    abandon(f);
     return ok;
 }
 
 /* From a film with nothing or something in it to all files. */
-static bool run_and_write(const struct job_options *o, const struct scene *scene, struct render_options *options,
-                          double load_seconds, struct film *film, struct keep *keep, struct files *files,
-                          struct error *err)
+bool render_work(struct render_run *r, struct error *err)
 {
-    struct render_times times = {.load = load_seconds, .cpu = os_cpu_seconds(), .samples = film_samples(film)};
-    bool ok = render_scene(scene, options, film, err);
-    times.cpu = os_cpu_seconds() - times.cpu;
-    times.wall = os_wall_seconds() - keep->bar.start;
-    times.samples = film_samples(film) - times.samples;
-    bool kept = keep_end(keep, ok, err);
+    if (!keep_begin(&r->keep, &r->asked->keep, r->asked->quiet, &r->job, &r->film, &r->pictures, err))
+        return false;
+    r->pictures.place = r->keep.part.place;
+    r->pictures.part = &r->keep.part;
+    r->pictures.film = &r->film;
+    r->samples = film_samples(&r->film);
+    r->cpu = os_cpu_seconds();
+    bool ok = render_scene(&r->job, &r->film, err);
+    r->cpu = os_cpu_seconds() - r->cpu;
+    r->wall = os_wall_seconds() - r->keep.begun;
+    r->samples = film_samples(&r->film) - r->samples;
+    bool kept = keep_end(&r->keep, ok, err);
     if (!ok)
         return false;
-    if (files->stats.stream != NULL)
-        stats_write(files->stats.stream, o, scene, options, film, &files->pictures, &files->aov.out, &times);
-    ok = write_files(o, scene, options, film, keep, files, kept, err);
-    report(o, options->integrator, scene->n_warnings, film, &times);
+    if (r->stats.stream != NULL)
+        stats_write(r->stats.stream, r);
+    ok = write_pictures(r, kept, err);
+    report(r);
     return ok;
 }
 
-static bool render(const struct job_options *o, const struct scene *scene, const struct method *m, double load_seconds,
-                   struct files *files, struct error *err)
+int render_close(struct render_run *r, bool ok, struct error *err)
 {
-    struct render_options options = job_render(o, scene, m);
-    struct film film;
-    struct keep keep;
-    const struct planes planes = {o->lights != NULL ? scene->lights.n_groups : 0, o->alpha};
-    struct error why;
-    if (!budget_has(&scene->memory, film_bytes(render_crop(scene), planes), &why))
-        return error_set(err, "%s: its film of %dx%d pixels: %s; --res makes it smaller", o->scene_path, scene->width,
-                         scene->height, why.text);
-    film_init(&film, render_crop(scene), scene->width, scene->height);
-    film_keep_planes(&film, planes);
-    bool ok = parameters_max_depth(scene, o->max_depth, &options.max_depth, err) &&
-              keep_begin(&keep, &o->keep, o->quiet, scene, &options, &film, &files->pictures, err);
-    if (ok) {
-        if (files->aov.wanted[AOV_VARIANCE])
-            film_keep_errors(&film);
-        files->pictures.place = files->aov.out.place = keep.part.place;
-        files->pictures.part = &keep.part;
-        files->pictures.film = &film;
-        ok = run_and_write(o, scene, &options, load_seconds, &film, &keep, files, err);
-        part_free(&keep.part);
-    }
-    film_free(&film);
-    return ok;
+    if (ok && r->stats.stream != NULL)
+        ok = file_commit(&r->stats, err);
+    abandon(r);
+    part_free(&r->keep.part);
+    film_free(&r->film);
+    job_free(&r->job);
+    scene_free(&r->scene);
+    return !ok ? fail(err) : interrupt_caught() != 0 ? 128 + interrupt_caught() : EXIT_OK;
 }
 
 static int run(void *options)
 {
-    struct job_options *o = options;
+    struct render_run r;
     struct error err;
-    struct scene scene;
-    const struct method *integrator;
-    struct files files;
-    double start = os_wall_seconds();
-    bool ok = check_options(o, &files, &err) && open_named(o, &files, &err);
-    int status = ok ? job_load(o, &scene, &integrator) : fail(&err);
-    if (status == EXIT_OK) {
-        double load_seconds = os_wall_seconds() - start;
-        ok = open_others(o, &scene, &files, &err) &&
-             render(o, &scene, integrator, load_seconds, &files, &err);
-        scene_free(&scene);
-        status = ok ? EXIT_OK : fail(&err);
-    }
-    abandon(&files); /* what is not written yet */
-    return ok && interrupt_caught() != 0 ? 128 + interrupt_caught() : status;
+    int status = render_open(&r, options);
+    return status == EXIT_OK ? render_close(&r, render_work(&r, &err), &err) : status;
 }
 
 const struct command command_render = {

@@ -10,7 +10,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/version.h"
-#include "render/parameters.h"
+#include "render/job.h"
 
 /* --- messages ----------------------------------------------------------------------------------------- */
 
@@ -62,7 +62,7 @@ static void print_integrators(void)
     printf("Integrators (--integrator NAME) and their parameters with defaults: -P NAME=VALUE, or in the\n"
            "scene's Integrator directive. If one is given twice, an option such as --maxdepth overrides -P, and\n"
            "-P overrides the scene.\n\nall\n");
-    print_parameters(parameters_common());
+    print_parameters(job_common());
     for (const struct method *const *m = method_rows; *m != NULL; before = (*m++)->name) {
         if (strcmp((*m)->name, before) != 0)
             printf("\n%s\n", (*m)->name);

@@ -10,7 +10,6 @@
 #include "base/os.h"
 #include "cli/command.h"
 #include "parser/parser.h"
-#include "render/parameters.h"
 
 #define AT(member) offsetof(struct job_options, member)
 const struct option RUN_OPTIONS[] = {
@@ -93,16 +92,6 @@ static bool apply(const struct job_options *o, struct scene *scene, struct error
     return true;
 }
 
-bool integrator_unknown(const char *wanted, struct error *err)
-{
-    char known[256] = "";
-    const char *before = "";
-    for (const struct method *const *m = method_rows; *m != NULL; before = (*m++)->name)
-        if (strcmp((*m)->name, before) != 0)
-            snprintf(known + strlen(known), sizeof known - strlen(known), " %s", (*m)->name);
-    return error_usage(err, "there is no integrator %s; known are:%s", wanted, known);
-}
-
 /* A warning about the scene as a whole. */
 static void warn(struct job_loading *to, const char *format, ...)
 {
@@ -121,26 +110,22 @@ static const struct method *choose_method(const struct scene *scene, struct job_
 {
     const struct job_options *o = to->options;
     const char *name = o->integrator != NULL ? o->integrator : scene->integrator != NULL ? scene->integrator : "bdpt";
-    if (method_exists(name))
+    if (o->integrator != NULL || method_exists(name))
         return method_find(name, &scene->settings, err);
-    if (o->integrator != NULL) {
-        integrator_unknown(name, err);
-        return NULL;
-    }
     warn(to, "integrator \"%s\" does not exist here; bdpt is used, which computes all light up to maxdepth", name);
     return method_find("bdpt", &scene->settings, err);
 }
 
-int job_open(struct job_loading *job, struct scene *scene, const struct method **method)
+int job_open(struct job_loading *l, struct scene *scene, const struct method **method)
 {
-    const struct job_options *o = job->options;
+    const struct job_options *o = l->options;
     struct error err;
-    struct message_sink sink = {print_message, job};
+    struct message_sink sink = {print_message, l};
     const struct parse_options options = {o->integrator, 1e9 * o->max_memory};
     if (!parse_scene(o->scene_path, &options, scene, &sink, NULL))
         return EXIT_JOB;
-    job->n_warnings = scene->n_warnings;
-    if (apply(o, scene, &err) && (*method = choose_method(scene, job, &err)) != NULL)
+    l->n_warnings = scene->n_warnings;
+    if (apply(o, scene, &err) && (*method = choose_method(scene, l, &err)) != NULL)
         return EXIT_OK;
     scene_free(scene);
     return fail(&err);
@@ -151,57 +136,58 @@ static long wanted_spp(const struct job_options *o, const struct scene *scene)
     return o->spp > 0 ? o->spp : o->quick ? 1 : scene->spp > 0 ? scene->spp : 16;
 }
 
-long job_spp(const struct job_options *o, const struct scene *scene)
-{
-    long cycle = filter_cycle(&scene->filter);
-    return (wanted_spp(o, scene) + cycle - 1) / cycle * cycle;
-}
-
 /* Vertices are floats, and shadow rays begin a step of theirs away from surfaces: see doc/design-notes.md. */
 enum { FAR_AWAY = 1000 };
 
-int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene)
+static void warn_of_size(struct job_loading *l, const struct scene *scene)
 {
-    const struct job_options *o = job->options;
-    struct error err;
-    struct message_sink sink = {print_message, job};
-    struct render_job read;
-    parameters_adapt(scene, readers, &sink);
-    bool ok = parameters_belong(scene, readers, &err) &&
-              parameters_read(scene, readers[0], o->max_depth, &read, &err);
-    if (ok)
-        scene_prepare(scene);
     vec3 center = add(scene->lights.center, scene->origin);
-    if (ok && scene->media.ends)
-        warn(job, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the infinite "
+    if (scene->media.ends)
+        warn(l, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the infinite "
              "and distant lights are", scene->lights.radius, center.x, center.y, center.z);
     double distance = length(scene->lights.center) / scene->lights.radius; /* from the camera, in radii */
-    if (ok && distance > FAR_AWAY)
-        warn(job, "the scene is %.3g times its own radius away from the camera; above %d light passes through edges, "
+    if (distance > FAR_AWAY)
+        warn(l, "the scene is %.3g times its own radius away from the camera; above %d light passes through edges, "
              "by rounding: move the camera nearer", distance, FAR_AWAY);
-    scene->n_warnings = job->n_warnings;
-    if (ok && !o->quiet && job_spp(o, scene) > wanted_spp(o, scene))
-        say_line("asbdpt: a pixel filter with negative lobes takes samples in fours: %ld, not %ld", job_spp(o, scene),
-                 wanted_spp(o, scene));
-    if (ok && o->strict && job->n_warnings > 0)
-        ok = error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
-    if (ok)
+}
+
+/* The filter must be prepared. */
+static void set_samples(const struct job_options *o, const struct scene *scene, struct job *job)
+{
+    long wanted = wanted_spp(o, scene), cycle = filter_cycle(&scene->filter);
+    job->options.end = job->options.planned = (wanted + cycle - 1) / cycle * cycle;
+    if (!o->quiet && job->options.end > wanted)
+        say_line("asbdpt: a pixel filter with negative lobes takes samples in fours: %ld, not %ld", job->options.end,
+                 wanted);
+}
+
+int job_ready(struct job_loading *l, const struct method *const *readers, struct scene *scene, struct job *job)
+{
+    const struct job_options *o = l->options;
+    const struct render_options options = {.integrator = readers[0], .seed = o->seed, .n_threads = o->n_threads,
+                                           .max_depth = o->max_depth};
+    struct error err;
+    struct message_sink sink = {print_message, l};
+    if (!job_adapt(scene, readers, &sink, &err) || !job_settle(scene, &options, job, &err)) {
+        scene_free(scene);
+        return fail(&err);
+    }
+    scene_prepare(scene);
+    warn_of_size(l, scene);
+    set_samples(o, scene, job);
+    scene->n_warnings = l->n_warnings;
+    if (!o->strict || l->n_warnings == 0)
         return EXIT_OK;
+    error_set(&err, "%s: refused for what is said above, by --strict", o->scene_path);
+    job_free(job);
     scene_free(scene);
     return fail(&err);
 }
 
-int job_load(const struct job_options *o, struct scene *scene, const struct method **method)
+int job_load(const struct job_options *o, struct scene *scene, struct job *job)
 {
-    struct job_loading job = {.options = o};
+    struct job_loading l = {.options = o};
     const struct method *readers[2] = {NULL, NULL};
-    int status = job_open(&job, scene, &readers[0]);
-    *method = readers[0];
-    return status == EXIT_OK ? job_ready(&job, readers, scene) : status;
-}
-
-struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m)
-{
-    return (struct render_options){.integrator = m->name, .seed = o->seed, .end = job_spp(o, scene),
-                                   .n_threads = o->n_threads, .max_depth = o->max_depth};
+    int status = job_open(&l, scene, &readers[0]);
+    return status == EXIT_OK ? job_ready(&l, readers, scene, job) : status;
 }

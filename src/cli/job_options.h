@@ -7,7 +7,7 @@
 
 #include "cli/options.h"
 #include "cli/outputs.h"
-#include "render/render.h"
+#include "render/job.h"
 #include "scene/scene.h"
 
 /* How a render is stopped, saved and resumed. */
@@ -39,15 +39,11 @@ struct job_options {
     double crop[4];         /* x0, x1, y0, y1; x1 = 0: the scene's */
     int n_threads;
     uint64_t seed;
-    double max_memory;      /* GB; 0: what is usual (budget.h) */
+    double max_memory;      /* GB; 0: what is usual (budget_new) */
     bool quick;             /* a quarter of the width and height, one sample, unless options say otherwise */
     bool strict, quiet;
     struct texts output; /* of render and worth */
     /* Of render alone: */
-    const char *lights; /* directory or NULL */
-    bool alpha;
-    const char *aov;        /* list or NULL */
-    bool layers, seen;      /* they go into the picture's own file; see render/aov.h */
     const char *stats;      /* file or NULL */
     struct tone_options tone;
     struct keep_options keep;
@@ -55,29 +51,22 @@ struct job_options {
 /* Of render; RUN_OPTIONS, for what takes samples; JOB_OPTIONS, for all: each leads on to the next. */
 extern const struct option RENDER_OPTIONS[], RUN_OPTIONS[], JOB_OPTIONS[];
 
-/* job_load: parse the scene, apply the options, prepare it, and find the method. Returns EXIT_OK, or EXIT_JOB or
- * EXIT_USAGE after printing why (then nothing needs release). */
-int job_load(const struct job_options *o, struct scene *scene, const struct method **method);
+/* job_load: parse the scene, apply the options, settle the job, whose samples are those of --spp, --quick or the scene,
+ * else 16, in whole cycles of the filter (filter.h), and prepare the scene. Returns EXIT_OK, after which job_free and
+ * scene_free must follow, or EXIT_JOB or EXIT_USAGE after printing why. */
+int job_load(const struct job_options *o, struct scene *scene, struct job *job);
 
-/* The same in two steps: job_open parses the scene, applies the options and finds the method; job_ready, with
- * all methods that will read the parameters, ended by NULL, does the rest, and releases the scene if it fails. */
+/* The same in two steps: job_open parses the scene, applies the options and finds the method; job_ready does the rest,
+ * and releases the scene if it fails.
+ *   readers  all methods that will read the settings, ended by NULL; the job is the first one's */
 struct job_loading {
     const struct job_options *options;
     long n_warnings; /* so far */
 };
-int job_open(struct job_loading *job, struct scene *scene, const struct method **method);
-int job_ready(struct job_loading *job, const struct method *const *readers, struct scene *scene);
-
-/* job_render: what a render is to be by these options, all its samples at once.
- * job_spp: samples per pixel in force: option, 1 if quick, scene, else 16; rounded up to whole cycles of the prepared
- * scene's filter (filter.h). */
-struct render_options job_render(const struct job_options *o, const struct scene *scene, const struct method *m);
-long job_spp(const struct job_options *o, const struct scene *scene);
+int job_open(struct job_loading *l, struct scene *scene, const struct method **method);
+int job_ready(struct job_loading *l, const struct method *const *readers, struct scene *scene, struct job *job);
 
 /* job_spares: is none of these outputs a file that the scene was read from? False with a message. */
 bool job_spares(const struct scene *scene, const struct texts *outputs, struct error *err);
-
-/* integrator_unknown: the message about an integrator that does not exist. Returns false. */
-bool integrator_unknown(const char *wanted, struct error *err);
 
 #endif

@@ -69,10 +69,8 @@ static bool save_film(struct keep *k, struct error *err)
     struct file_output file;
     if (!file_create(k->options->checkpoint, &file, err))
         return false;
-    if (f->learnt_short) {
+    if (f->learnt_short)
         film_init(&none, f->rect, f->full_width, f->full_height);
-        film_keep_planes(&none, f->planes);
-    }
     part_write(&file, &k->part, f->learnt_short ? &none : f);
     film_free(&none);
     return file_commit(&file, err);
@@ -145,11 +143,11 @@ static enum render_wish watch(void *context, double done)
     return late(k, 0) ? RENDER_END_BLOCK : RENDER_GO_ON;
 }
 
-bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const struct scene *scene,
-                struct render_options *render, struct film *film, const struct outputs *pictures, struct error *err)
+bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, struct job *job, struct film *film,
+                const struct outputs *pictures, struct error *err)
 {
+    struct render_options *render = &job->options;
     memset(k, 0, sizeof *k);
-    render->planned = render->end;
     if (o->samples[1] > 0) {
         if (o->samples[1] > render->planned)
             return error_usage(err, "--samples %d:%d: there are %ld per pixel, see --spp", o->samples[0], o->samples[1],
@@ -165,8 +163,7 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
     k->film = film;
     k->pictures = pictures;
     k->preview_due = fmin(1, o->preview);
-    k->part = part_describe(scene, render);
-    k->part.planes = film->planes;
+    k->part = part_describe(job);
     if (!resume(k, err)) {
         part_free(&k->part);
         return false;
@@ -179,20 +176,6 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const 
     k->begun = k->saved = k->bar.start;
     interrupt_defer(STOPPING + !k->bar.bar);
     return true;
-}
-
-static enum render_wish watch_after(void *context, double done)
-{
-    struct keep *k = context;
-    progress_update(&k->bar, done);
-    return interrupt_caught() != 0 ? RENDER_STOP : late(k, 0) ? RENDER_END_BLOCK : RENDER_GO_ON;
-}
-
-void keep_after(struct keep *k, struct render_options *render)
-{
-    render->progress = watch_after;
-    progress_start(&k->bar, !k->bar.shown);
-    strcpy(k->bar.note, " of --aov");
 }
 
 static void say_noise(const struct keep *k)

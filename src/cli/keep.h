@@ -28,16 +28,13 @@ bool keep_check(const struct keep_options *o, struct error *err);
 
 /* keep_begin: cut the render to the samples asked for, and continue what --resume names. False with a message; after
  * success keep_end must follow.
- *   render  in-out: its samples, and what is called after each tile pass, which is given `k`
+ *   job     in-out: its samples, and what is called after each tile pass, which is given `k`
  *   film    initialised, empty
  *   pictures  their film and part set before the render
  * keep_end: remove the progress bar, say on stderr if and why the render has stopped early, save the last checkpoint if
- * `ok`. False with a message where it cannot be written; err may be NULL. The caller releases k->part.
- * keep_after: the render's progress from now on is that of what is made when it is done, --aov; it, too, ends at a
- * signal and in time. progress_end(&k->bar) must follow. */
-bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, const struct scene *scene,
-                struct render_options *render, struct film *film, const struct outputs *pictures, struct error *err);
+ * `ok`. False with a message where it cannot be written; err may be NULL. The caller releases k->part. */
+bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, struct job *job, struct film *film,
+                const struct outputs *pictures, struct error *err);
 bool keep_end(struct keep *k, bool ok, struct error *err);
-void keep_after(struct keep *k, struct render_options *render);
 
 #endif

@@ -185,6 +185,8 @@ static bool read_texts(struct reader *r, struct texts *texts)
 static bool read_value(struct reader *r, void *target)
 {
     enum option_kind kind = r->option->kind;
+    if (kind == OPTION_ELSEWHERE)
+        return error_set(r->err, "%s: %s", r->option->name, r->option->help);
     if (kind == OPTION_ON)
         return *(bool *)target = true;
     if (kind == OPTION_SEED)
@@ -318,6 +320,8 @@ void options_print(const struct option *table)
 {
     enum { HELP = 30 }; /* the column where the help begins */
     for (const struct option *o = table; o != NULL; o = options_next(o)) {
+        if (o->kind == OPTION_ELSEWHERE)
+            continue;
         char left[80], right[300];
         bool fallback = o->fallback != NULL && o->fallback[0] != '\0';
         snprintf(left, sizeof left, "%s%s%s %s", o->name, o->alias != NULL ? ", " : "",

@@ -20,6 +20,7 @@
 /* What a value is, and what it becomes. Numbers are from low to high. */
 enum option_kind {
     OPTION_ON,      /* bool: becomes true; no value */
+    OPTION_ELSEWHERE, /* none: it is refused with its line of help, which `help` leaves out */
     OPTION_INTEGER, /* int */
     OPTION_NUMBER,  /* double */
     OPTION_TIME,    /* double: seconds, or with a unit: 90s, 5m, 1h */

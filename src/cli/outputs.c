@@ -39,7 +39,7 @@ bool outputs_is_part(const char *name)
     return n > 5 && strcmp(name + n - 5, ".part") == 0;
 }
 
-bool outputs_add(struct outputs *out, const char *name, bool is_part, struct error *err)
+static bool add_file(struct outputs *out, const char *name, bool is_part, struct error *err)
 {
     struct output o = {.is_part = is_part};
     if (is_part ? !file_create(name, &o.file, err) : !image_create(name, &o.file, err))
@@ -55,7 +55,7 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, bo
     memset(out, 0, sizeof *out);
     bool ok = read_tone(tone, names, &out->tone, err);
     for (int i = 0; ok && i < names->n; i++)
-        ok = outputs_add(out, names->item[i], parts && outputs_is_part(names->item[i]), err);
+        ok = add_file(out, names->item[i], parts && outputs_is_part(names->item[i]), err);
     if (!ok)
         outputs_abandon(out);
     return ok;
@@ -64,56 +64,29 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, bo
 static bool write_one(struct outputs *o, struct output *one, int width, int height, const float *pixels,
                       struct error *err)
 {
-    if (one->plane > 0) {
-        float *own = mem_alloc((size_t)width * (size_t)height * 3, sizeof *own);
-        film_develop_plane(o->film, one->plane, o->part->scale, own);
-        bool ok = image_finish(&one->file, &(struct raster){o->place, width, height, own, NULL, 0}, err);
-        free(own);
-        return ok;
-    }
-    if (one->is_part) {
-        part_write(&one->file, o->part, o->film);
-        return file_commit(&one->file, err);
-    }
-    struct channel more[1 + OUTPUTS_LAYERS] = {{"A", o->alpha, 3, false}};
-    memcpy(more + 1, o->layer, sizeof o->layer);
-    int first = o->alpha != NULL ? 0 : 1, n = one->pixels == NULL ? 1 + o->n_layers - first : 0;
-    const struct raster r = {o->place, width, height, one->pixels != NULL ? one->pixels : pixels, more + first, n};
-    return image_finish(&one->file, &r, err);
-}
-
-/* The picture as it is to be shown: it is the colours that a curve is for, not their multiples by alpha. */
-static void show(const struct outputs *o, const float *pixels, size_t n, float *out)
-{
-    for (size_t i = 0; i < n; i++)
-        out[i] = o->alpha == NULL ? pixels[i] : o->alpha[i] > 0 ? pixels[i] / o->alpha[i] : 0;
-    tone_map(&o->tone, out, n, out);
-    for (size_t i = 0; o->alpha != NULL && i < n; i++)
-        out[i] *= o->alpha[i];
+    const struct raster r = {o->place, width, height, pixels, NULL, 0};
+    if (!one->is_part)
+        return image_finish(&one->file, &r, err);
+    part_write(&one->file, o->part, o->film);
+    return file_commit(&one->file, err);
 }
 
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err)
 {
     bool ok = true;
-    size_t n = (size_t)width * (size_t)height * 3, room = 1;
-    for (int i = 0; i < o->n; i++)
-        room += strlen(o->item[i].file.path) + sizeof ", standard output";
-    char *wrote = mem_alloc(room, 1);
+    size_t n = (size_t)width * (size_t)height * 3;
     float *shown = tone_is_plain(&o->tone) ? NULL : mem_alloc(n, sizeof *shown);
     if (shown != NULL)
-        show(o, pixels, n, shown);
+        tone_map(&o->tone, pixels, n, shown);
     for (int i = 0; i < o->n; i++) {
         char *name = mem_copy_text(o->item[i].file.path);
         const float *source = shown != NULL && image_is_8_bit(name) ? shown : pixels;
         bool done = write_one(o, &o->item[i], width, height, source, ok ? err : NULL);
-        if (done)
-            strcat(strcat(wrote, wrote[0] != '\0' ? ", " : ""), strcmp(name, "-") == 0 ? "standard output" : name);
+        if (done && !quiet)
+            say_line("wrote %s", strcmp(name, "-") == 0 ? "standard output" : name);
         ok = ok && done;
         free(name);
     }
-    if (wrote[0] != '\0' && !quiet)
-        say_line("wrote %s", wrote);
-    free(wrote);
     free(shown);
     release(o);
     return ok;
@@ -125,13 +98,11 @@ bool outputs_preview(const struct outputs *o, struct error *err)
     const struct film *f = o->film;
     first.item = NULL;
     first.n = 0;
-    if (!outputs_add(&first, o->item[0].file.path, false, err))
+    if (!add_file(&first, o->item[0].file.path, false, err))
         return false;
-    float *pixels = mem_alloc(rect_pixels(f->rect) * 3, sizeof *pixels), *alpha = film_alpha(f);
+    float *pixels = mem_alloc(rect_pixels(f->rect) * 3, sizeof *pixels);
     film_develop(f, o->part->scale, pixels);
-    first.alpha = alpha;
     bool ok = outputs_write(&first, rect_width(f->rect), rect_height(f->rect), pixels, true, err);
-    free(alpha);
     free(pixels);
     return ok;
 }

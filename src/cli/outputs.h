@@ -15,11 +15,7 @@
 struct output {
     struct file_output file;
     bool is_part;
-    int plane;           /* of the film, which they are where it is not 0 */
-    const float *pixels; /* where they are others than the picture's, else NULL; borrowed */
 };
-
-enum { OUTPUTS_LAYERS = 16 };
 
 struct outputs {
     struct output *item; /* [n], owned */
@@ -27,9 +23,6 @@ struct outputs {
     struct tone tone; /* of 8-bit pictures */
     /* Set before outputs_write: */
     struct placement place;  /* where the pictures lie in their whole */
-    const float *alpha;      /* [height*width*3], grey, by which pixels are multiplied already; NULL: none; borrowed */
-    struct channel layer[OUTPUTS_LAYERS]; /* [n_layers], more channels of OpenEXR; values borrowed */
-    int n_layers;
     const struct part *part; /* what is written into parts; borrowed */
     const struct film *film;
 };
@@ -50,13 +43,11 @@ bool outputs_possible(const char *name, struct error *err);
 /* outputs_open: begin to write pictures of these names, which differ.
  *   tone   of the 8-bit pictures, or NULL: as they are; if it changes anything, one of the pictures must be such
  *   parts  may a name that ends in .part be that of a part (render/part.h)?
- * Returns false with a message; nothing is open then. After success outputs_abandon must follow in the end.
- * outputs_add: one more. False with a message. */
+ * Returns false with a message; nothing is open then. After success outputs_abandon must follow in the end. */
 bool outputs_open(const struct texts *names, const struct tone_options *tone, bool parts, struct outputs *out,
                   struct error *err);
-bool outputs_add(struct outputs *out, const char *name, bool is_part, struct error *err);
 
-/* outputs_write: the picture into all of them; unless `quiet` a line on stderr names them. One that fails does not
+/* outputs_write: the picture into all of them; unless `quiet` a line on stderr names each. One that fails does not
  * keep the others from being written: the first message is kept and false returned.
  * outputs_preview: the film as it is now into the file of the first, which outputs_write replaces in the end;
  * outputs_previews: can it be? False with a message.

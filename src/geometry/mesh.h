@@ -5,7 +5,7 @@
 #ifndef ASBDPT_MESH_H
 #define ASBDPT_MESH_H
 
-#include "base/budget.h"
+#include "base/file.h"
 #include "base/field.h"
 #include "geometry/shape.h"
 

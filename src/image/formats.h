@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "base/budget.h"
+#include "base/file.h"
 #include "image/picture.h"
 
 /* PFM, portable float maps: a text header, then 32-bit floats, bottom row first. Read: RGB and grey, either byte order.

@@ -15,18 +15,18 @@ struct format {
     bool (*matches)(const uint8_t *data, size_t size); /* by content; NULL where the format has no signature */
     bool (*read)(const uint8_t *data, size_t size, const struct budget *memory, struct image *out, struct error *err);
     void (*write)(FILE *f, const struct raster *r); /* NULL where it is not written */
-    bool is_8_bit, keeps_place;
+    bool is_8_bit;
 };
 
 /* The first whose extension fits counts. */
 static const struct format FORMATS[] = {
-    {".pfm", pfm_matches, pfm_read, pfm_write, false, false},
-    {".float.exr", exr_matches, exr_read, exr_write_float, false, true},
-    {".exr", exr_matches, exr_read, exr_write_half, false, true},
-    {".ppm", ppm_matches, ppm_read, ppm_write, true, false},
-    {".pgm", ppm_matches, ppm_read, NULL, true, false},
-    {".png", png_matches, png_read, png_write, true, false},
-    {".tga", NULL, tga_read, NULL, true, false},
+    {".pfm", pfm_matches, pfm_read, pfm_write, false},
+    {".float.exr", exr_matches, exr_read, exr_write_float, false},
+    {".exr", exr_matches, exr_read, exr_write_half, false},
+    {".ppm", ppm_matches, ppm_read, ppm_write, true},
+    {".pgm", ppm_matches, ppm_read, NULL, true},
+    {".png", png_matches, png_read, png_write, true},
+    {".tga", NULL, tga_read, NULL, true},
 };
 enum { N_FORMATS = sizeof FORMATS / sizeof FORMATS[0] };
 
@@ -123,12 +123,6 @@ bool image_is_8_bit(const char *path)
 {
     const struct format *format = format_to_write(path);
     return format != NULL && format->is_8_bit;
-}
-
-bool image_keeps_place(const char *path)
-{
-    const struct format *format = format_to_write(path);
-    return format != NULL && format->keeps_place;
 }
 
 static float light(const struct image *img, size_t i, bool decode)

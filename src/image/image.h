@@ -8,14 +8,13 @@
 
 #include <stdbool.h>
 
-#include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "image/picture.h"
 
 /* image_read: read a picture; the format is recognised by content where it has a signature, else by the
  * name's extension (upper or lower case).
- *   memory  that may be used for it; nothing is taken; NULL: what is usual (budget.h)
+ *   memory  that may be used for it; nothing is taken; NULL: what is usual (budget_new)
  *   out     filled on success, to be released with image_free (picture.h); empty on failure
  * Returns false with a message "PATH: what is wrong" on a missing, truncated, too large or unknown file. */
 bool image_read(const char *path, const struct budget *memory, struct image *out, struct error *err);
@@ -40,10 +39,8 @@ void image_mend(struct image *img, bool negative_too);
 bool image_create(const char *path, struct file_output *out, struct error *err);
 bool image_finish(struct file_output *f, const struct raster *r, struct error *err);
 
-/* image_writable: does it end in an extension that image_create knows? image_is_8_bit: in one of 8-bit sRGB pictures?
- * image_keeps_place: in one of those that say where the picture lies in its whole? */
+/* image_writable: does it end in an extension that image_create knows? image_is_8_bit: in one of 8-bit pictures? */
 bool image_writable(const char *path);
 bool image_is_8_bit(const char *path);
-bool image_keeps_place(const char *path);
 
 #endif

@@ -28,12 +28,3 @@ bool method_read(const struct method *m, const struct scene *scene, struct prepa
         free(p->own);
     return ok;
 }
-
-bool method_check(const struct method *m, const struct scene *scene, struct error *err)
-{
-    struct prepared p;
-    bool ok = method_read(m, scene, &p, err);
-    if (ok)
-        free(p.own);
-    return ok;
-}

@@ -1,7 +1,7 @@
 /* method.h: a method is one file and one row. Methods differ in how many samples they take of each kind, and in how
  * they choose light vertices for an eye vertex.
  *
- * A row describes a method completely; the table of all rows is render/methods.h. Before the first sample, a method
+ * A row describes a method completely; the table of all rows is in render/job.h. Before the first sample, a method
  * reads its parameters and is prepared: tables are learnt, a race may decide on the numbers of samples, and the counts
  * in the weights follow. Then it renders tile passes (tile_pass.h) on all threads.
  *
@@ -122,10 +122,7 @@ struct method {
 const struct field *method_has(const struct method *m, const char *name);
 
 /* method_read: read all parameters into *p, all else of which is empty. False with a message if one is not valid; else
- * p->own is the caller's. */
+ * method_release (prepare.h) must follow. */
 bool method_read(const struct method *m, const struct scene *scene, struct prepared *p, struct error *err);
-
-/* method_check: are the method's parameters valid in this scene's settings? False with a message if not. */
-bool method_check(const struct method *m, const struct scene *scene, struct error *err);
 
 #endif

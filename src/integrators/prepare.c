@@ -48,49 +48,48 @@ static void learn_tables(const struct render_job *job, struct prepared *p)
         learn(job, &options, p->tables);
 }
 
-bool method_prepare(const struct method *m, const struct render_job *job, struct prepared *out, struct error *err)
+void method_prepare(const struct render_job *job, struct prepared *p)
 {
-    if (!method_read(m, job->scene, out, err))
-        return false;
+    const struct method *m = p->method;
     bool plain = false;
-    out->numbers = out->parameters.numbers;
-    out->size = (struct pass_size){0, out->parameters.tile, out->parameters.spread};
-    out->tables = mem_alloc(1, sizeof *out->tables);
-    learn_tables(job, out);
+    p->numbers = p->parameters.numbers;
+    p->size = (struct pass_size){0, p->parameters.tile, p->parameters.spread};
+    p->tables = mem_alloc(1, sizeof *p->tables);
+    learn_tables(job, p);
     if (m->prepare != NULL)
-        m->prepare(job, out);
-    method_counts(job, out, true);
-    if (out->parameters.race && out->numbers.path_pixels > 0) {
-        race(job, out);
-        out->numbers = out->runner[out->winner].numbers;
-        plain = out->runner[out->winner].plain;
+        m->prepare(job, p);
+    method_counts(job, p, true);
+    if (p->parameters.race && p->numbers.path_pixels > 0) {
+        race(job, p);
+        p->numbers = p->runner[p->winner].numbers;
+        plain = p->runner[p->winner].plain;
     }
-    if (m->draw != NULL && out->numbers.path_pixels == 0)
-        become_path_tracer(out, plain);
-    method_counts(job, out, !plain);
-    return true;
+    if (m->draw != NULL && p->numbers.path_pixels == 0)
+        become_path_tracer(p, plain);
+    method_counts(job, p, !plain);
 }
 
-void method_numbers(const struct prepared *p, struct film_number out[FILM_NUMBERS])
+void method_numbers(const struct prepared *p, struct method_number out[METHOD_NUMBERS])
 {
     const struct runner *winner = &p->runner[p->winner];
-    const struct film_number numbers[] = {
+    const struct method_number numbers[] = {
         {"draws_first_hit", p->numbers.draws[FIRST_HIT]}, {"draws_after", p->numbers.draws[LATER_HIT]},
         {"light_points_first_hit", p->numbers.light_points}, {"pixels_per_light_path", p->numbers.path_pixels},
         {"regions", p->tables->regions.n}};
     enum { N = sizeof numbers / sizeof *numbers };
-    memset(out, 0, FILM_NUMBERS * sizeof *out); /* a NULL name ends the list */
+    memset(out, 0, METHOD_NUMBERS * sizeof *out); /* a NULL name ends the list */
     memcpy(out, numbers, sizeof numbers);
     for (int i = 0; i < p->n_runners && winner->price > 0; i++)
-        out[N + i] = (struct film_number){p->runner[i].name, p->runner[i].variance * p->runner[i].price /
+        out[N + i] = (struct method_number){p->runner[i].name, p->runner[i].variance * p->runner[i].price /
                                                                  (winner->variance * winner->price)};
 }
 
 void method_release(struct prepared *p)
 {
-    if (p->method->release != NULL)
+    if (p->tables != NULL && p->method->release != NULL)
         p->method->release(p);
-    tables_free(p->tables);
+    if (p->tables != NULL)
+        tables_free(p->tables);
     free(p->tables);
     free(p->own);
 }

@@ -8,14 +8,20 @@
 
 #include "integrators/method.h"
 
-/* method_prepare: read the parameters and prepare.
- *   out  after success, method_release releases it
- * Returns false with a message if a parameter is not valid. */
-bool method_prepare(const struct method *m, const struct render_job *job, struct prepared *out, struct error *err);
+/* method_prepare: prepare, by the parameters that method_read has read.
+ * method_release: release what method_read and method_prepare have made. */
+void method_prepare(const struct render_job *job, struct prepared *p);
 void method_release(struct prepared *p);
 
+/* What a method has chosen for itself. */
+enum { METHOD_NUMBERS = 16 };
+struct method_number {
+    const char *name; /* static; NULL: the one before was the last */
+    double value;
+};
+
 /* method_numbers: what was chosen for this scene, for --stats; runners with variance times price over the winner's. */
-void method_numbers(const struct prepared *p, struct film_number out[FILM_NUMBERS]);
+void method_numbers(const struct prepared *p, struct method_number out[METHOD_NUMBERS]);
 
 /* method_counts: p->counts, of p->numbers and p->tables. */
 void method_counts(const struct render_job *job, struct prepared *p, bool credits);

@@ -9,7 +9,6 @@
 
 #include "base/field.h"
 #include "base/number.h"
-#include "parser/near.h"
 #include "parser/params.h"
 #include "parser/symbols.h"
 #include "scene/scene.h"

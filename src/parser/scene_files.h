@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/budget.h"
+#include "base/file.h"
 #include "base/error.h"
 #include "parser/symbols.h"
 

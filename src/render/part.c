@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <limits.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,26 +13,86 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "base/os.h"
+#include "base/version.h"
 #include "image/zlib.h"
 
-static const char MAGIC[] = "asbdpt part 8\n";
+static const char MAGIC[] = "asbdpt part 9\n";
 enum { MOST_TEXT = 1 << 20, BUFFER = 1 << 16, EMPTY = 255, LONGEST_SUM = 1 + 10 * EXACT_DIGITS };
 
-/* Of one plane; of all; with half the picture's samples; and, of a block under way, with its splats and then, of each
- * pixel, its samples. */
-static size_t plane_of(const struct part *p) { return (size_t)p->width * (size_t)p->height * 3; }
-static size_t planes_of(const struct part *p) { return plane_of(p) * (size_t)plane_count(p->planes); }
-static size_t samples_of(const struct part *p) { return planes_of(p) + (p->halves ? plane_of(p) : 0); }
-static size_t splats_of(const struct part *p)
-{
-    return samples_of(p) + (p->passes > 0 ? plane_of(p) * (size_t)(1 + p->planes.lights) : 0);
-}
-static size_t sums_of(const struct part *p) { return splats_of(p) + (p->passes > 0 ? plane_of(p) / 3 : 0); }
+/* Of the picture; with half its samples; and, of a block under way, with its splats and then, of each pixel, its
+ * samples. */
+static size_t picture_of(const struct part *p) { return (size_t)p->width * (size_t)p->height * 3; }
+static size_t samples_of(const struct part *p) { return picture_of(p) * (p->halves ? 2 : 1); }
+static size_t splats_of(const struct part *p) { return samples_of(p) + (p->passes > 0 ? picture_of(p) : 0); }
+static size_t sums_of(const struct part *p) { return splats_of(p) + (p->passes > 0 ? picture_of(p) / 3 : 0); }
 
-struct part part_describe(const struct scene *scene, const struct render_options *o)
+/* --- what a render is of ------------------------------------------------------------------------------ */
+
+struct lines {
+    char *text; /* owned */
+    size_t used, capacity;
+};
+
+/* One line more; whatever could break a line is replaced. */
+static void add_line(struct lines *l, const char *format, ...)
 {
-    struct pixel_rect r = render_crop(scene);
-    return (struct part){.identity = identity_text(scene, o), .width = rect_width(r), .height = rect_height(r),
+    struct error line;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(line.text, sizeof line.text, format, args);
+    va_end(args);
+    error_clean(line.text);
+    size_t n = strlen(line.text);
+    l->text = mem_grow(l->text, &l->capacity, l->used + n + 2, 1);
+    memcpy(l->text + l->used, line.text, n);
+    l->used += n;
+    memcpy(l->text + l->used++, "\n", 2);
+}
+
+static int by_name(const void *a, const void *b)
+{
+    const struct setting *const *x = a, *const *y = b;
+    return strcmp((*x)->name, (*y)->name);
+}
+
+/* In order of their names: -P may give them in any. Long values are told apart by a hash. */
+static void add_settings(struct lines *l, const struct settings *s)
+{
+    const struct setting **item = mem_alloc((size_t)s->n, sizeof *item);
+    for (int i = 0; i < s->n; i++)
+        item[i] = &s->item[i];
+    qsort(item, (size_t)s->n, sizeof *item, by_name);
+    for (int i = 0; i < s->n; i++)
+        if (strcmp(item[i]->name, "maxdepth") != 0)
+            add_line(l, "parameter %.100s %.200s %016" PRIx64, item[i]->name, item[i]->value,
+                hash_content(item[i]->value, strlen(item[i]->value)));
+    free(item);
+}
+
+/* The lines from "version" on: all that changes a byte of a sample. To be given to free(). */
+static char *identity_text(const struct job *job)
+{
+    const struct scene *scene = job->state.scene;
+    const struct render_options *o = &job->options;
+    const struct filter *f = &scene->filter;
+    struct lines l = {0};
+    add_line(&l, "version %s, estimator %d", VERSION, ESTIMATOR);
+    add_line(&l, "scene %016" PRIx64, scene->content);
+    add_line(&l, "integrator %s", o->integrator->name);
+    add_line(&l, "maxdepth %d", o->max_depth);
+    add_settings(&l, &scene->settings);
+    add_line(&l, "seed %" PRIu64, o->seed);
+    add_line(&l, "filter %d %.17g %.17g %.17g %.17g %.17g %.17g", (int)f->kind, f->radius[0], f->radius[1], f->alpha,
+             f->B, f->C, f->tau);
+    return l.text;
+}
+
+struct part part_describe(const struct job *job)
+{
+    const struct scene *scene = job->state.scene;
+    const struct render_options *o = &job->options;
+    struct pixel_rect r = job->state.film_rect;
+    return (struct part){.identity = identity_text(job), .width = rect_width(r), .height = rect_height(r),
                          .scale = scene->film_scale, .place = {r.x0, r.y0, scene->width, scene->height},
                          .planned = o->planned, .first = o->first, .end = o->end};
 }
@@ -135,9 +196,8 @@ static char *picture_text(const struct part *p)
 {
     size_t room = strlen(p->identity) + 256;
     char *text = mem_alloc(room, 1);
-    snprintf(text, room, "size %d %d, planes %d %d\nfilm %d %d, window %d %d\nscale %.17g\nspp %ld\n%s", p->width,
-             p->height, p->planes.lights, p->planes.alpha, p->place.width, p->place.height, p->place.x, p->place.y,
-             p->scale, p->planned, p->identity);
+    snprintf(text, room, "size %d %d\nfilm %d %d, window %d %d\nscale %.17g\nspp %ld\n%s", p->width, p->height,
+             p->place.width, p->place.height, p->place.x, p->place.y, p->scale, p->planned, p->identity);
     return text;
 }
 
@@ -167,7 +227,7 @@ void part_write(struct file_output *file, const struct part *p, const struct fil
     s->file = file->stream;
     fwrite(text, 1, strlen(text), s->file);
     const struct film_block *block = &film->block;
-    for (size_t i = 0, n = planes_of(p), m = samples_of(&now), k = splats_of(&now); i < sums_of(&now); i++) {
+    for (size_t i = 0, n = picture_of(p), m = samples_of(&now), k = splats_of(&now); i < sums_of(&now); i++) {
         struct exact_sum of_block = {{0}, 0};
         if (i >= m && i < k)
             exact_add(&of_block, (double)block->splat[i - m]);
@@ -210,7 +270,6 @@ static bool possible(const struct part *p)
     const struct placement *at = &p->place;
     struct error ignored;
     return p->width > 0 && p->height > 0 && picture_size_ok((uint64_t)p->width, (uint64_t)p->height, &ignored) &&
-           p->planes.lights >= 0 && p->planes.lights <= LIGHT_MAX_GROUPS &&
            at->x >= 0 && at->y >= 0 && at->width > 0 && at->height > 0 && p->width <= at->width - at->x &&
            p->height <= at->height - at->y && p->scale >= 0 && p->scale <= NUMBER_MAX && p->first >= 0 &&
            p->end > p->first && p->end <= p->planned && p->done >= 0 && p->done <= p->end - p->first &&
@@ -221,12 +280,11 @@ static bool possible(const struct part *p)
  * twice, missing, elsewhere, or read otherwise than it is compared. */
 static bool read_numbers(const char *text, struct part *p)
 {
-    int begin = 0, alpha = 0, halves = 0;
-    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld halves %d size %d %d, planes "
-           "%d %d film %d %d, window %d %d scale %lf spp %ld %n", &p->first, &p->end, &p->done, &p->passes,
-           &p->left_out, &halves, &p->width, &p->height, &p->planes.lights, &alpha, &p->place.width, &p->place.height,
-           &p->place.x, &p->place.y, &p->scale, &p->planned, &begin);
-    p->planes.alpha = alpha != 0;
+    int begin = 0, halves = 0;
+    sscanf(text + sizeof MAGIC - 1, "samples %ld %ld done %ld %" SCNd64 " left-out %ld halves %d size %d %d film %d "
+           "%d, window %d %d scale %lf spp %ld %n", &p->first, &p->end, &p->done, &p->passes, &p->left_out, &halves,
+           &p->width, &p->height, &p->place.width, &p->place.height, &p->place.x, &p->place.y, &p->scale, &p->planned,
+           &begin);
     p->halves = halves != 0;
     const char *identity = text + sizeof MAGIC - 1 + begin, *check = identity;
     while (strncmp(check, "check ", 6) != 0)
@@ -286,7 +344,7 @@ static bool get_samples(const struct part *p, size_t pixel, double samples, stru
 /* Every sum, the right check behind them, and nothing more. */
 static bool add_sums(struct stream *s, const struct part *p, struct film *film)
 {
-    for (size_t i = 0, n = planes_of(p), m = samples_of(p), k = splats_of(p); i < sums_of(p); i++) {
+    for (size_t i = 0, n = picture_of(p), m = samples_of(p), k = splats_of(p); i < sums_of(p); i++) {
         struct exact_sum sum, *to = i < n ? &film->sum[i] : i < m && film->half != NULL ? &film->half[i - n] : NULL;
         if (!get_sum(s, &sum) || (to != NULL && !exact_join(to, &sum)))
             return false;
@@ -308,8 +366,7 @@ static bool add_sums(struct stream *s, const struct part *p, struct film *film)
 
 bool part_add(FILE *file, const char *path, const struct part *p, struct film *film, struct error *err)
 {
-    if (p->width != rect_width(film->rect) || p->height != rect_height(film->rect) ||
-        plane_count(p->planes) != plane_count(film->planes)) {
+    if (p->width != rect_width(film->rect) || p->height != rect_height(film->rect)) {
         fclose(file);
         return error_set(err, "%s: the part has another size than the film", path);
     }

@@ -2,12 +2,12 @@
  *
  * A file begins with lines of text, each ended by a line feed:
  *
- *     asbdpt part 8                    the format and its version
+ *     asbdpt part 9                    the format and its version
  *     samples A B                      samples A .. B-1 of each pixel are to be in the file when it is complete,
  *     done N P                         the first N of them are, and P tile passes of the next block
  *     left-out K                       contributions that were not finite or too large
  *     halves N                         1: behind the sums are those of half the samples (render/halves.h); 0: not
- *     size W H, planes L A             pixels of the film's rectangle; planes of light groups and of alpha
+ *     size W H                         pixels of the film's rectangle
  *     film W H, window X Y             the whole frame, and where in it the rectangle begins
  *     scale X                          by which pixels are multiplied when they are written
  *     spp N                            samples per pixel of the whole picture
@@ -16,13 +16,12 @@
  *     check XXXXXXXX                   CRC-32 of all lines before, hexadecimal
  *
  * The lines from `size` on must agree between parts of one picture. A file's lines must be those that the program
- * would write for what they say, to the byte. The file goes on with the sums of all planes (scene/film.h), of each
- * pixel by pixel, row by row from the top, red, green and blue: 255 for an empty sum, else a byte `top` and three
- * digits (exact_sum.h), the highest first. Those of half the samples follow, and if P is not 0, of the next block:
- * what light sub-paths have sent to the lens, of the picture and of each group of lights, and the samples of each
- * pixel. A digit d is written as the whole number 2d, or -2d - 1 if it is negative, seven bits to the byte from the
- * lowest on, 128 being added to all bytes but the last. The CRC-32 of these bytes follows, four bytes, the lowest
- * first. Nothing depends on the machine's byte order.
+ * would write for what they say, to the byte. The file goes on with the sums (scene/film.h), pixel by pixel, row by row
+ * from the top, red, green and blue: 255 for an empty sum, else a byte `top` and three digits (exact_sum.h), the
+ * highest first. Those of half the samples follow, and if P is not 0, of the next block: what light sub-paths have sent
+ * to the lens, and the samples of each pixel. A digit d is written as the whole number 2d, or -2d - 1 if it is
+ * negative, seven bits to the byte from the lowest on, 128 being added to all bytes but the last. The CRC-32 of these
+ * bytes follows, four bytes, the lowest first. Nothing depends on the machine's byte order.
  *
  * The same film gives the same bytes, and sums are exact, so parts added up in any order give the bytes of the whole.
  * Parts are read as a stream: adding them needs the memory of one film. Files appear whole or not at all.
@@ -36,13 +35,12 @@
 
 #include "base/file.h"
 #include "image/picture.h"
-#include "render/render.h"
+#include "render/job.h"
 
 /* What a file says of itself. */
 struct part {
     char *identity; /* the lines from "version" on; owned */
     int width, height;
-    struct planes planes; /* of the film: part_describe does not know it */
     struct placement place; /* of these in the film */
     double scale;
     long planned;          /* samples per pixel of the whole picture */
@@ -52,9 +50,9 @@ struct part {
     bool halves; /* the sums of one half are there, too */
 };
 
-/* part_describe: the part that a render with these options is to fill, nothing being done yet. Threads, names of files
+/* part_describe: the part that this job is to fill, nothing being done yet. Threads, names of files
  * and what is written do not belong to it; what the scene's files hold does. To be released with part_free. */
-struct part part_describe(const struct scene *scene, const struct render_options *options);
+struct part part_describe(const struct job *job);
 void part_free(struct part *p);
 
 /* part_write: the film into a file that was begun; file_commit or file_abandon is to follow. */

@@ -5,28 +5,49 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "base/os.h"
 #include "base/parallel.h"
-#include "integrators/prepare.h"
+#include "base/sampler.h"
 #include "render/halves.h"
-#include "render/parameters.h"
 
-/* Fractions lie within [0,1]: readers of scenes and options see to it. */
-struct pixel_rect render_crop(const struct scene *scene)
+/* --- tiles ------------------------------------------------------------------------------------------- */
+
+struct tiling tiling_of(struct pixel_rect film, const struct pass_size *size)
 {
-    const double *c = scene->crop;
-    return (struct pixel_rect){(int)ceil(scene->width * c[0]), (int)ceil(scene->height * c[2]),
-                               (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3])};
+    struct tiling t = {film, *size, (rect_width(film) + size->tile - 1) / size->tile,
+                       (rect_height(film) + size->tile - 1) / size->tile, 0};
+    t.step = lattice_step(tiling_count(&t));
+    return t;
+}
+
+/* On one axis, of `n` tiles: number `tile` is number `own` of a group of *together, which shares [*begin, *end). Groups
+ * are of up to `spread` tiles, and as like in size as can be. */
+static void interleave(const struct pass_size *size, int n, int tile, int *begin, int *end, int *together, int *own)
+{
+    int groups = (n + size->spread - 1) / size->spread, group = (int)((int64_t)tile * groups / n);
+    int first = (int)(((int64_t)group * n + groups - 1) / groups);
+    int next = (int)((((int64_t)group + 1) * n + groups - 1) / groups);
+    if (next < n)
+        *end = *begin + next * size->tile;
+    *begin += first * size->tile;
+    *together = next - first;
+    *own = tile - first;
+}
+
+struct tile_pixels tiling_pixels(const struct tiling *t, int64_t i)
+{
+    struct tile_pixels p = {.rect = t->film};
+    i = i * t->step % tiling_count(t);
+    interleave(&t->size, t->nx, (int)(i % t->nx), &p.rect.x0, &p.rect.x1, &p.nx, &p.x);
+    interleave(&t->size, t->ny, (int)(i / t->nx), &p.rect.y0, &p.rect.y1, &p.ny, &p.y);
+    return p;
 }
 
 /* --- tile passes ------------------------------------------------------------------------------------- */
 
 struct run {
-    const struct render_options *options;
-    struct render_job job;
+    struct job *job; /* blocks begin at multiples of their length, maybe INT_MAX: counted in 64 bits */
     struct film *film;
     struct tiling tiling;
-    struct prepared prepared; /* blocks begin at multiples of their length, maybe INT_MAX: counted in 64 bits */
     int64_t begun;    /* tile passes of the first block that the film holds already */
     int64_t n_passes; /* of all blocks, with these */
     enum render_wish wish; /* the most urgent so far, of progress and of the noise */
@@ -61,8 +82,8 @@ static int64_t tiles_per_block(const struct run *r) { return tiling_count(&r->ti
 /* The iterations of block number b of this run. */
 static void block_range(const struct run *r, int64_t b, long *first, long *end)
 {
-    const struct render_options *o = r->options;
-    int64_t block = r->prepared.size.block, begin = (o->first / block + b) * block;
+    const struct render_options *o = &r->job->options;
+    int64_t block = r->job->prepared.size.block, begin = (o->first / block + b) * block;
     *first = begin > o->first ? (long)begin : o->first;
     *end = begin + block < o->end ? (long)(begin + block) : o->end;
 }
@@ -70,9 +91,9 @@ static void block_range(const struct run *r, int64_t b, long *first, long *end)
 /* Whenever the halves are of one size. */
 static bool good_enough(const struct run *r)
 {
-    const double *limit = r->options->noise;
+    const double *limit = r->job->options.noise;
     struct film *f = r->film;
-    bool good = halves_noise(f, r->job.scene->film_scale);
+    bool good = halves_noise(f, r->job->state.scene->film_scale);
     for (int i = 0; i < N_NOISE_SCALES; i++)
         good = good && (limit[i] == 0 || f->noise[i].value < limit[i]);
     return good && limit[NOISE_RELATIVE] + limit[NOISE_8_BIT] > 0;
@@ -80,7 +101,7 @@ static bool good_enough(const struct run *r)
 
 static void ask_progress(struct run *r, double share)
 {
-    const struct render_options *o = r->options;
+    const struct render_options *o = &r->job->options;
     enum render_wish wish = o->progress != NULL ? o->progress(o->progress_context, share) : RENDER_GO_ON;
     r->wish = wish > r->wish ? wish : r->wish;
 }
@@ -97,36 +118,32 @@ static void take_splats(void *context, struct tile *tile)
 static bool enough(void *context)
 {
     const struct under_way *p = context;
-    const struct render_options *o = p->run->options;
+    const struct render_options *o = &p->run->job->options;
     return !p->taken && o->stop != NULL && o->stop(o->progress_context);
 }
 
 static void run_pass(void *context, int64_t number, int slot, int thread)
 {
     struct run *r = context;
-    struct render_job job = r->job;
-    const struct observers *others = r->options->observers;
-    const struct observer planes = planes_observer(r->film->planes);
+    struct render_job job = r->job->state;
+    const struct observers *others = r->job->options.observers;
     struct tile_pass pass = {.job = &job, .tile = &r->tile[slot], .work = &r->work[thread]};
-    struct observer other;
+    struct observer observer;
     r->pass[slot] = (struct under_way){r, number, false};
     job.enough = enough;
     job.enough_context = &r->pass[slot];
-    if (planes.walked != NULL || planes.joined != NULL)
-        pass.observer = &planes;
-    if (others != NULL) {
-        other = others->begin(others->context, slot);
-        other.next = pass.observer;
-        pass.observer = &other;
-    }
     block_range(r, (r->begun + number) / tiles_per_block(r), &pass.first, &pass.end);
-    tile_start(pass.tile, tiling_pixels(&r->tiling, (r->begun + number) % tiles_per_block(r)), r->job.film_rect,
-               &r->job.scene->filter);
+    tile_start(pass.tile, tiling_pixels(&r->tiling, (r->begun + number) % tiles_per_block(r)), r->job->state.film_rect,
+               &r->job->state.scene->filter);
     if (r->film->half != NULL)
         pass.tile->first_half = pass.first / r->film->run % 2 == 0;
+    if (others != NULL) {
+        observer = others->begin(others->context, slot, pass.tile);
+        pass.observer = &observer;
+    }
     pass.tile->full = take_splats;
     pass.tile->context = &r->pass[slot];
-    r->prepared.method->render(&r->prepared, &pass);
+    r->job->prepared.method->render(&r->job->prepared, &pass);
 }
 
 static bool merge_pass(void *context, int64_t number, int slot)
@@ -139,8 +156,9 @@ static bool merge_pass(void *context, int64_t number, int slot)
     block_range(r, (done - 1) / tiles_per_block(r), &first, &end);
     r->film->block.iterations = end - first;
     film_merge_tile(r->film, &r->tile[slot]);
-    if (r->options->observers != NULL)
-        r->options->observers->end(r->options->observers->context, slot);
+    const struct observers *observers = r->job->options.observers;
+    if (observers != NULL)
+        observers->end(observers->context, slot);
     r->film->passes++;
     if (r->film->passes == tiles_per_block(r)) {
         film_end_block(r->film);
@@ -153,34 +171,22 @@ static bool merge_pass(void *context, int64_t number, int slot)
 
 static void run_all(struct run *r)
 {
-    const struct render_options *o = r->options;
-    int64_t block = r->prepared.size.block, first_block = o->first / block, end_block = (o->end + block - 1) / block;
-    int n_slots = (o->observers != NULL ? OBSERVED_SLOTS : SLOTS_PER_THREAD) * r->job.n_threads;
+    const struct render_options *o = &r->job->options;
+    int64_t block = r->job->prepared.size.block;
+    int64_t first_block = o->first / block, end_block = (o->end + block - 1) / block;
+    int n_slots = (o->observers != NULL ? OBSERVED_SLOTS : SLOTS_PER_THREAD) * r->job->state.n_threads;
     r->n_passes = tiles_per_block(r) * (end_block - first_block);
-    r->parallel = (struct parallel_jobs){.n_jobs = r->n_passes - r->begun, .n_threads = r->job.n_threads,
+    r->parallel = (struct parallel_jobs){.n_jobs = r->n_passes - r->begun, .n_threads = r->job->state.n_threads,
                                          .n_slots = n_slots, .context = r, .work = run_pass, .commit = merge_pass};
     r->tile = mem_alloc((size_t)n_slots, sizeof *r->tile);
     r->pass = mem_alloc((size_t)n_slots, sizeof *r->pass);
-    for (int i = 0; i < n_slots; i++)
-        r->tile[i].planes = r->film->planes;
-    r->work = workspaces_new(r->job.n_threads, r->job.max_depth);
+    r->work = workspaces_new(r->job->state.n_threads, r->job->state.max_depth);
     parallel_run(&r->parallel);
-    workspaces_free(r->work, r->job.n_threads);
+    workspaces_free(r->work, r->job->state.n_threads);
     for (int i = 0; i < n_slots; i++)
         tile_free(&r->tile[i]);
     free(r->tile);
     free(r->pass);
-}
-
-bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
-                    struct render_job *job, struct prepared *out, struct error *err)
-{
-    const struct method *m = method_find(options->integrator, &scene->settings, err);
-    job->scene = scene;
-    job->film_rect = rect;
-    job->seed = job->eye_seed = options->seed;
-    job->n_threads = options->n_threads < 1 ? os_cores() : options->n_threads;
-    return m != NULL && parameters_read(scene, m, options->max_depth, job, err) && method_prepare(m, job, out, err);
 }
 
 static bool watch(void *context, double traced)
@@ -193,21 +199,20 @@ static bool watch(void *context, double traced)
 
 static bool holds_samples(const struct film *film) { return film->iterations > 0 || film->passes > 0; }
 
-static bool prepare(struct run *r, const struct scene *scene, struct error *err)
+static void prepare(struct run *r)
 {
-    r->job.watch = r->options->progress != NULL ? watch : NULL;
-    r->job.watch_context = r;
-    bool ok = render_prepare(scene, r->options, r->film->rect, &r->job, &r->prepared, err);
+    r->job->state.watch = r->job->options.progress != NULL ? watch : NULL;
+    r->job->state.watch_context = r;
+    job_prepare(r->job);
     r->film->learnt_short = r->wish != RENDER_GO_ON && !holds_samples(r->film);
-    return ok;
 }
 
 /* Blocks of a length that the method has chosen must not be cut: what it draws depends on where one begins. Nothing is
  * cut where all is done. */
 static bool check_range(const struct run *r, struct error *err)
 {
-    const struct render_options *o = r->options;
-    int block = r->prepared.size.block;
+    const struct render_options *o = &r->job->options;
+    int block = r->job->prepared.size.block;
     if (block == 0 || o->first == o->end)
         return true;
     if (r->film->iterations > 0 && o->first % block != 0)
@@ -223,31 +228,29 @@ static bool check_range(const struct run *r, struct error *err)
 /* Tiles, and blocks where their length is free. */
 static bool cut(struct run *r, struct error *err)
 {
-    struct pass_size *size = &r->prepared.size;
+    struct pass_size *size = &r->job->prepared.size;
     if (size->block == 0)
-        size->block = r->options->block > 0 ? r->options->block : choose_block(&r->job, size->tile);
-    r->tiling = tiling_of(r->job.film_rect, size);
+        size->block = r->job->options.block > 0 ? r->job->options.block : choose_block(&r->job->state, size->tile);
+    r->tiling = tiling_of(r->job->state.film_rect, size);
     r->film->run = halves_run(size->block);
     r->begun = r->film->passes;
     return r->begun < tiles_per_block(r) ||
            error_set(err, "the film has more tile passes in it than a block of samples has");
 }
 
-bool render_scene(const struct scene *scene, const struct render_options *options, struct film *film,
-                  struct error *err)
+bool render_scene(struct job *job, struct film *film, struct error *err)
 {
-    struct run r = {.options = options, .film = film};
-    if (!prepare(&r, scene, err))
+    struct run r = {.job = job, .film = film};
+    const struct render_options *o = &job->options;
+    prepare(&r);
+    if (!check_range(&r, err) || !cut(&r, err))
         return false;
-    method_numbers(&r.prepared, film->number);
-    bool ok = check_range(&r, err) && cut(&r, err);
     /* Learning that was cut short has learnt other things than what the film's samples go by: no more are added. */
     bool in_haste = r.wish != RENDER_GO_ON && holds_samples(film);
-    if (ok && scene->lights.n == 0 && !film->planes.alpha) { /* all samples are black */
-        film->block.iterations = options->end - options->first;
+    if (job->state.scene->lights.n == 0 && o->observers == NULL) { /* all samples are black */
+        film->block.iterations = o->end - o->first;
         film_end_block(film);
-    } else if (ok && options->end > options->first && !in_haste && !good_enough(&r)) /* what is resumed may be */
+    } else if (o->end > o->first && !in_haste && !good_enough(&r)) /* what is resumed may be */
         run_all(&r);
-    method_release(&r.prepared);
-    return ok;
+    return true;
 }

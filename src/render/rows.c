@@ -1,6 +1,6 @@
-/* rows.c: the methods of asbdpt; see methods.h. A new method is a new line here, or, if it is only to be compared with
+/* rows.c: the methods of asbdpt; see job.h. A new method is a new line here, or, if it is only to be compared with
  * these, in the laboratory's table, test/lab/rows.c. */
-#include "render/methods.h"
+#include "render/job.h"
 
 extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,
     method_subspaces;

@@ -5,20 +5,116 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/error.h"
-#include "base/number.h"
 
-/* Places of block.splat. */
-static size_t film_splat_sums(const struct film *f)
+/* --- tiles ------------------------------------------------------------------------------------------- */
+
+/* Of the tiles that share a cell each takes the pixel whose number is the rank of its own hash. Ranks differ, since
+ * hash_combine is a bijection of its second argument. */
+bool pixels_get(struct tile_pixels p, int i, int *x, int *y)
 {
-    return (size_t)(1 + f->planes.lights) * rect_pixels(f->rect) * 3;
+    if (i >= pixels_count(p))
+        return false;
+    *x = p.rect.x0 + i % pixels_columns(p) * p.nx;
+    *y = p.rect.y0 + i / pixels_columns(p) * p.ny;
+    int w = p.rect.x1 - *x < p.nx ? p.rect.x1 - *x : p.nx, h = p.rect.y1 - *y < p.ny ? p.rect.y1 - *y : p.ny;
+    uint64_t cell = hash_combine((uint64_t)*x, (uint64_t)*y), own = hash_combine(cell, (uint64_t)(p.y * w + p.x));
+    int rank = 0;
+    for (int k = 0; k < w * h; k++)
+        rank += hash_combine(cell, (uint64_t)k) < own;
+    *x += rank % w;
+    *y += rank / w;
+    return true;
 }
 
-double film_bytes(struct pixel_rect rect, struct planes planes)
+void tile_start(struct tile *t, struct tile_pixels pixels, struct pixel_rect film_rect, const struct filter *filter)
 {
-    size_t sums = 3 * (size_t)plane_count(planes) * sizeof(struct exact_sum);
-    size_t floats = 3 * (size_t)(1 + plane_count(planes) + 2) * sizeof(float); /* splats, pictures, what is written */
-    return (double)rect_pixels(rect) * (double)(sums + floats + sizeof(bool));
+    size_t n = (size_t)pixels_count(pixels) * 3;
+    t->pixels = pixels;
+    t->film_rect = film_rect;
+    t->filter = filter;
+    t->sum = mem_grow(t->sum, &t->capacity, n, sizeof *t->sum);
+    memset(t->sum, 0, n * sizeof *t->sum);
+    t->n_splats = 0;
+    t->first_half = false;
+    t->nonfinite = 0;
+}
+
+void tile_free(struct tile *t)
+{
+    free(t->sum);
+    free(t->splat);
+    memset(t, 0, sizeof *t);
+}
+
+static void make_room(struct tile *t)
+{
+    if (t->full != NULL && t->n_splats >= TILE_FULL)
+        t->full(t->context, t);
+}
+
+void tile_add(struct tile *t, int x, int y, rgb value)
+{
+    const double part[3] = {value.r, value.g, value.b};
+    bool fits = rgb_fits_float(value);
+    make_room(t);
+    t->nonfinite += !fits;
+    for (size_t c = 0, i = 3 * (size_t)pixels_cell(t->pixels, x, y); fits && c < 3; c++)
+        exact_add(&t->sum[i + c], part[c]);
+}
+
+bool tile_add_splat(struct tile *t, double px, double py, rgb value)
+{
+    if (!rgb_fits_float(value)) {
+        t->nonfinite++;
+        return false;
+    }
+    struct splat s = {px, py, value};
+    t->splat = mem_grow(t->splat, &t->splat_capacity, t->n_splats + 1, sizeof *t->splat);
+    t->splat[t->n_splats++] = s;
+    return true;
+}
+
+/* --- splats ------------------------------------------------------------------------------------------ */
+
+/* First pixel whose filter covers the raster coordinate p on one axis, and the one after the last. */
+static void filter_span(double p, double radius, int low, int high, int *first, int *end)
+{
+    bool one = 2 * radius == 1; /* half-open: a point belongs to exactly one pixel */
+    double a = floor(one ? p : p - radius + 0.5), b = one ? a : floor(p + radius - 0.5); /* |p - (i + 0.5)| <= radius */
+    *first = int_within(a, low, high); /* a NaN covers nothing */
+    *end = int_within(b + 1, low, high);
+}
+
+struct pixel_rect splat_pixels(const struct splat *s, const struct filter *filter, struct pixel_rect within)
+{
+    struct pixel_rect r = {0, 0, 0, 0};
+    filter_span(s->px, filter->radius[0], within.x0, within.x1, &r.x0, &r.x1);
+    filter_span(s->py, filter->radius[1], within.y0, within.y1, &r.y0, &r.y1);
+    return r;
+}
+
+bool splat_part(const struct splat *s, const struct filter *filter, int x, int y, float out[3])
+{
+    rgb part = rgb_scale(s->value, filter_eval(filter, s->px - (x + 0.5), s->py - (y + 0.5)));
+    if (!rgb_fits_float(part))
+        return false;
+    out[0] = (float)part.r;
+    out[1] = (float)part.g;
+    out[2] = (float)part.b;
+    return true;
+}
+
+/* --- the film ---------------------------------------------------------------------------------------- */
+
+/* Of each pixel the values of the image. */
+static size_t values(const struct film *f) { return 3 * rect_pixels(f->rect); }
+
+double film_bytes(struct pixel_rect rect)
+{
+    size_t value = sizeof(struct exact_sum) + 4 * sizeof(float); /* splats, picture, what is written */
+    return (double)rect_pixels(rect) * (double)(3 * value + sizeof(bool));
 }
 
 void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_height)
@@ -28,7 +124,8 @@ void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_
     f->full_width = full_width;
     f->full_height = full_height;
     f->block.in = mem_alloc(rect_pixels(rect), sizeof *f->block.in);
-    film_keep_planes(f, f->planes);
+    f->block.splat = mem_alloc(values(f), sizeof *f->block.splat);
+    f->sum = mem_alloc(values(f), sizeof *f->sum);
 }
 
 void film_free(struct film *f)
@@ -38,29 +135,12 @@ void film_free(struct film *f)
     free(f->block.splat);
     free(f->more);
     free(f->half);
-    free(f->eye);
-    free(f->square);
     memset(f, 0, sizeof *f);
-}
-
-void film_keep_planes(struct film *f, struct planes planes)
-{
-    free(f->sum);
-    free(f->block.splat);
-    f->planes = planes;
-    f->sum = mem_alloc(rect_pixels(f->rect) * 3, (size_t)plane_count(planes) * sizeof *f->sum);
-    f->block.splat = mem_alloc(film_splat_sums(f), sizeof *f->block.splat);
-}
-
-void film_keep_errors(struct film *f)
-{
-    f->eye = mem_alloc(rect_pixels(f->rect) * 3, sizeof *f->eye);
-    f->square = mem_alloc(rect_pixels(f->rect) * 3, sizeof *f->square);
 }
 
 void film_keep_halves(struct film *f)
 {
-    f->half = mem_alloc(rect_pixels(f->rect) * 3, sizeof *f->half);
+    f->half = mem_alloc(values(f), sizeof *f->half);
     for (int i = 0; i < N_NOISE_SCALES; i++)
         f->noise[i].value = f->noise[i].error = INFINITY;
 }
@@ -70,16 +150,9 @@ static size_t pixel_of(const struct film *f, int x, int y)
     return (size_t)(y - f->rect.y0) * (size_t)rect_width(f->rect) + (size_t)(x - f->rect.x0);
 }
 
-static void add_to_plane(struct film *f, size_t i, float part)
-{
-    exact_add(&f->sum[i], (double)part);
-    f->block.splat[i] += part;
-}
-
 static void add_splat(struct film *f, const struct splat *s, const struct filter *filter, bool first_half)
 {
     struct pixel_rect range = splat_pixels(s, filter, f->rect);
-    size_t plane = (size_t)(1 + s->lights) * 3 * rect_pixels(f->rect);
     for (int y = range.y0; y < range.y1; y++)
         for (int x = range.x0; x < range.x1; x++) {
             float part[3];
@@ -87,13 +160,10 @@ static void add_splat(struct film *f, const struct splat *s, const struct filter
             bool ok = splat_part(s, filter, x, y, part);
             f->nonfinite += !ok;
             for (size_t c = 0; ok && c < 3; c++) {
-                add_to_plane(f, at + c, part[c]);
+                exact_add(&f->sum[at + c], (double)part[c]);
+                f->block.splat[at + c] += part[c];
                 if (first_half)
                     exact_add(&f->half[at + c], (double)part[c]);
-                if (f->planes.lights > 0)
-                    add_to_plane(f, plane + at + c, part[c]);
-                if (f->square != NULL)
-                    f->square[at + c] += sqr((double)part[c]);
             }
         }
 }
@@ -107,18 +177,13 @@ void film_take_splats(struct film *f, struct tile *t)
 
 void film_merge_tile(struct film *f, struct tile *t)
 {
-    size_t from = 0, film_plane = 3 * rect_pixels(f->rect), tile_plane = 3 * (size_t)pixels_count(t->pixels);
+    size_t from = 0;
     for (int i = 0, x, y; pixels_get(t->pixels, i, &x, &y); i++) {
         f->block.in[pixel_of(f, x, y)] = true;
         for (size_t to = 3 * pixel_of(f, x, y), c = 0; c < 3; c++, to++, from++) {
-            for (size_t p = 0; p < (size_t)plane_count(f->planes); p++)
-                f->nonfinite += !exact_join(&f->sum[p * film_plane + to], &t->sum[p * tile_plane + from]);
+            f->nonfinite += !exact_join(&f->sum[to], &t->sum[from]);
             if (f->half != NULL && t->first_half) /* part of the sum: it cannot overflow before it */
                 exact_join(&f->half[to], &t->sum[from]);
-            if (f->square != NULL) {
-                f->eye[to] += exact_value(&t->sum[from]);
-                f->square[to] += t->square[from];
-            }
         }
     }
     film_take_splats(f, t);
@@ -131,7 +196,7 @@ static void clear_block(struct film *f)
     f->passes = 0;
     f->block.n_in = 0;
     memset(f->block.in, 0, rect_pixels(f->rect) * sizeof *f->block.in);
-    memset(f->block.splat, 0, film_splat_sums(f) * sizeof *f->block.splat);
+    memset(f->block.splat, 0, values(f) * sizeof *f->block.splat);
 }
 
 void film_end_block(struct film *f)
@@ -140,15 +205,14 @@ void film_end_block(struct film *f)
     clear_block(f);
 }
 
-/* What must be added to the value in place i of the planes. Of a block under way pixels that are in have their own
- * samples, but every pixel has the splats of all that are in: where its samples count these are made to stand for the
- * splats of all, else taken out. */
+/* What must be added to the value in place i. Of a block under way pixels that are in have their own samples, but every
+ * pixel has the splats of all that are in: where its samples count these are made to stand for the splats of all, else
+ * taken out. */
 static double block_correction(const struct film *f, size_t i)
 {
-    size_t n = rect_pixels(f->rect), pixel = i % (3 * n) / 3;
-    if (f->block.n_in == 0 || i >= film_splat_sums(f))
+    if (f->block.n_in == 0)
         return 0;
-    double all = f->block.in[pixel] ? (double)n / (double)f->block.n_in : 0;
+    double all = f->block.in[i / 3] ? (double)rect_pixels(f->rect) / (double)f->block.n_in : 0;
     return (all - 1) * (double)f->block.splat[i];
 }
 
@@ -162,7 +226,7 @@ void film_settle(struct film *f)
     size_t n = rect_pixels(f->rect);
     if (f->more == NULL)
         f->more = mem_alloc(n, sizeof *f->more);
-    for (size_t i = 0; i < film_splat_sums(f); i++)
+    for (size_t i = 0; i < values(f); i++)
         exact_add(&f->sum[i], block_correction(f, i));
     for (size_t i = 0; i < n; i++)
         f->more[i] = samples_of(f, i) - f->iterations;
@@ -175,36 +239,16 @@ double film_samples(const struct film *f)
     return (double)f->iterations + share * (double)f->block.iterations;
 }
 
-/* --- pictures ---------------------------------------------------------------------------------------- */
-
-long film_develop(const struct film *f, double scale, float *out) { return film_develop_plane(f, 0, scale, out); }
-
-/* A pixel's value in a plane. */
-static double mean_in_plane(const struct film *f, size_t plane, size_t i, double scale)
-{
-    size_t at = plane * 3 * rect_pixels(f->rect) + i;
-    long samples = samples_of(f, i / 3);
-    return samples > 0 ? (film_value(f, at) + block_correction(f, at)) * (scale / (double)samples) : 0;
-}
-
-long film_develop_plane(const struct film *f, int plane, double scale, float *out)
+long film_develop(const struct film *f, double scale, float *out)
 {
     long cut = 0;
-    for (size_t i = 0; i < rect_pixels(f->rect) * 3; i++) {
-        double value = mean_in_plane(f, (size_t)plane, i, scale);
+    for (size_t i = 0; i < values(f); i++) {
+        long samples = samples_of(f, i / 3);
+        double value = samples > 0 ? (film_value(f, i) + block_correction(f, i)) * (scale / (double)samples) : 0;
         cut += !fits_float(value);
         out[i] = float_within(value);
     }
     return cut;
-}
-
-float *film_alpha(const struct film *f)
-{
-    if (!f->planes.alpha)
-        return NULL;
-    float *out = mem_alloc(rect_pixels(f->rect) * 3, sizeof *out);
-    film_develop_plane(f, 1 + f->planes.lights, 1, out);
-    return out;
 }
 
 void film_warn(const struct film *f, long cut)
@@ -213,14 +257,4 @@ void film_warn(const struct film *f, long cut)
         say_line("asbdpt: warning: %ld contributions were not finite, or too large, and were left out", f->nonfinite);
     if (cut > 0)
         say_line("asbdpt: warning: %ld pixel values were beyond 3.4e38 and were cut to it", cut);
-}
-
-void film_standard_error(const struct film *f, double scale, float *out)
-{
-    size_t n = rect_pixels(f->rect) * 3;
-    for (size_t i = 0; i < n; i++) {
-        double k = (double)samples_of(f, i / 3);
-        double variance = (f->square[i] - sqr(f->eye[i]) / k) / (k * (k - 1));
-        out[i] = k < 2 ? INFINITY : float_within(scale * sqrt(fmax(variance, 0)));
-    }
 }

@@ -420,14 +420,6 @@ rgb light_Le_sky(const struct light_set *set, vec3 w, bool seen)
     return sum;
 }
 
-bool light_sky_seen(const struct light_set *set)
-{
-    bool seen = false;
-    for (int i = 0; i < set->n_layers; i++)
-        seen |= !set->layer[i].hidden;
-    return seen;
-}
-
 double light_pdf_sky(const struct light_set *set, vec3 w, int *cell)
 {
     *cell = -1;

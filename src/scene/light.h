@@ -179,9 +179,8 @@ void light_emission_numbers(const struct light_set *set, const struct light_poin
 rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w);
 
 /* light_Le_sky: radiance of the sky, or of those layers alone that the lens sees, for a ray leaving the scene in unit
- * direction w. light_sky_seen: does the lens see any? */
+ * direction w. */
 rgb light_Le_sky(const struct light_set *set, vec3 w, bool seen);
-bool light_sky_seen(const struct light_set *set);
 
 /* light_pdf_sky: density of the light point in direction w (from the scene towards the sky), cells being chosen by
  * power, 1/sr; 0 if there is no sky.

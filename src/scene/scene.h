@@ -16,7 +16,7 @@
 
 #include <stdbool.h>
 
-#include "base/budget.h"
+#include "base/file.h"
 #include "geometry/kdtree.h"
 #include "geometry/shape.h"
 #include "material/material.h"
@@ -25,7 +25,7 @@
 #include "scene/filter.h"
 #include "scene/light.h"
 #include "scene/medium.h"
-#include "scene/settings.h"
+#include "base/field.h"
 
 struct scene {
     vec3 origin;            /* of world space in the file's coordinates; see scene_set_origin */

@@ -26,9 +26,6 @@ struct joined {
     rgb added;                   /* C* times scale times weight; t = 1: at raster point (c->px, c->py) */
 };
 
-/* joined_light: number of the light that a path begins on. */
-static inline int joined_light(const struct joined *j) { return j->s > 1 ? j->light[0].light : j->c->light; }
-
 /* Each function may be NULL. Its arguments are valid only during the call. */
 struct observer {
     void *context; /* passed to all functions */

@@ -118,8 +118,7 @@ void sample_splat(struct sample *sample, struct joined j)
         path.c = &image;
         tell_joined(sample, &path);
         if (seen)
-            tile_add_splat(sample->pass->tile, image.px, image.py, j.added,
-                           scene->lights.light[joined_light(&j)].group);
+            tile_add_splat(sample->pass->tile, image.px, image.py, j.added);
     }
 }
 

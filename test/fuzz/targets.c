@@ -20,7 +20,8 @@
 #include "lab/files.h"
 #include "lab/store.h"
 #include "parser/parser.h"
-#include "render/parameters.h"
+#include "lab/methods.h"
+#include "render/job.h"
 #include "render/part.h"
 #include "render/render.h"
 
@@ -235,12 +236,13 @@ enum { WIDTH = 3, HEIGHT = 2, SAMPLES = 2, DEPTH = 4 };
 
 static void render(const struct scene *scene, const char *integrator)
 {
-    struct render_options o = {.integrator = integrator, .end = SAMPLES, .n_threads = 1, .max_depth = DEPTH};
+    struct render_options o = {.integrator = method_of(scene, integrator), .end = SAMPLES, .n_threads = 1,
+                               .max_depth = DEPTH};
     struct film film;
     struct error err = {.text = ""};
     float pixels[3 * WIDTH * HEIGHT];
     film_init(&film, render_crop(scene), scene->width, scene->height);
-    if (render_scene(scene, &o, &film, &err)) {
+    if (render_by(scene, &o, &film, &err)) {
         film_develop(&film, scene->film_scale, pixels);
         for (int i = 0; i < 3 * rect_width(film.rect) * rect_height(film.rect); i++)
             if (!isfinite(pixels[i]))
@@ -259,7 +261,7 @@ static void render_all(struct scene *scene)
     scene->width = WIDTH;
     scene->height = HEIGHT;
     memcpy(scene->crop, WHOLE, sizeof scene->crop);
-    parameters_adapt(scene, method_rows, NULL);
+    job_adapt(scene, method_rows, NULL, NULL);
     scene_prepare(scene);
     for (const struct method *const *m = method_rows; *m != NULL; m++) {
         render(scene, (*m)->name);

@@ -17,7 +17,7 @@
 #include "lab/methods.h"
 #include "lab/timed.h"
 #include "parser/parser.h"
-#include "render/parameters.h"
+#include "render/job.h"
 #include "render/render.h"
 
 enum measure { LOAD, BUILD, TRIANGLES, CLOSEST, ANY, PT, BDPT, ASBDPT, GAIN, MEMORY, N_MEASURES };
@@ -122,7 +122,7 @@ static bool render_once(const struct scene *s, const struct bench_options *o, co
                         double *cpu, struct error *err)
 {
     struct render_options options = {
-        .integrator = integrator, .end = o->spp, .max_depth = o->max_depth, .n_threads = n_threads};
+        .integrator = method_of(s, integrator), .end = o->spp, .max_depth = o->max_depth, .n_threads = n_threads};
     struct timed took;
     if (!timed_render(s, &options, &took, err))
         return false;
@@ -163,7 +163,7 @@ static bool measure_scene(const char *path, const struct bench_options *o, doubl
     double start = os_cpu_seconds();
     if (!parse_scene(path, NULL, &scene, NULL, err))
         return false;
-    parameters_adapt(&scene, method_rows, NULL);
+    job_adapt(&scene, method_rows, NULL, NULL);
     value[LOAD] = os_cpu_seconds() - start;
     shrink_film(&scene);
     start = os_cpu_seconds();

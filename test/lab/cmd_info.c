@@ -7,6 +7,7 @@
 #include "cli/job_options.h"
 #include "image/image.h"
 #include "integrators/prepare.h"
+#include "lab/methods.h"
 #include "lab/commands.h"
 #include "lab/race_table.h"
 #include "lab/tree.h"
@@ -117,19 +118,14 @@ struct info_options {
 };
 
 /* By asbdpt, unless another integrator was named. */
-static bool print_race(const struct scene *scene, const struct job_options *o, const struct method *m,
-                       struct error *err)
+static bool print_race(struct job *job, struct error *err)
 {
-    struct render_options render = job_render(o, scene, m);
-    struct render_job job = {.scene = NULL};
-    struct prepared prepared;
-    if (method_has(m, "race") == NULL)
-        return error_usage(err, "--race: %s has no race; select=subspaces of asbdpt has", m->name);
-    if (!render_prepare(scene, &render, render_crop(scene), &job, &prepared, err))
-        return false;
-    const struct race_result result = race_result(&prepared);
+    if (method_has(job->options.integrator, "race") == NULL)
+        return error_usage(err, "--race: %s has no race; select=subspaces of asbdpt has",
+                           job->options.integrator->name);
+    job_prepare(job);
+    const struct race_result result = race_result(&job->prepared);
     race_print_table(stdout, &result);
-    method_release(&prepared);
     return true;
 }
 
@@ -138,18 +134,19 @@ static int run(void *options)
     struct info_options *info = options;
     struct job_options *o = &info->job;
     struct scene scene;
-    const struct method *integrator;
+    struct job job;
     double start = os_wall_seconds();
     struct error err;
     if (extension(o->scene_path) != NULL)
         return print_picture(o->scene_path, &err) ? EXIT_OK : fail(&err);
     if (info->race && o->integrator == NULL)
         o->integrator = "asbdpt";
-    int status = job_load(o, &scene, &integrator);
+    int status = job_load(o, &scene, &job);
     if (status != EXIT_OK)
         return status;
-    print_scene(&scene, integrator, os_wall_seconds() - start);
-    bool ok = !info->race || print_race(&scene, o, integrator, &err);
+    print_scene(&scene, job.options.integrator, os_wall_seconds() - start);
+    bool ok = !info->race || print_race(&job, &err);
+    job_free(&job);
     scene_free(&scene);
     return ok ? EXIT_OK : fail(&err);
 }

@@ -1,46 +1,81 @@
-/* cmd_render.c: asbdpt-lab render: the renderer's (src/cli/cmd_render.c), which some methods of the laboratory cannot
- * do all of. */
+/* cmd_render.c: asbdpt-lab render: the renderer's (src/cli/cmd_render.c), with more methods, some of which cannot do
+ * all of it, and more images of the same paths. */
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "cli/job_options.h"
+#include "base/os.h"
+#include "cli/cmd_render.h"
 #include "lab/commands.h"
+#include "lab/looks.h"
 #include "lab/methods.h"
 
+struct more_options {
+    struct job_options job;
+    struct look_options look;
+};
+
+#define AT(member) offsetof(struct more_options, look.member)
+static const struct option OPTIONS[] = {
+    {"--aov", "LIST", OPTION_TEXT, AT(aov),
+     .help = "also write NAME.albedo.pfm and so on: some of albedo,normal,depth,position,variance"},
+    {"--layers", NULL, OPTION_ON, AT(layers),
+     .help = "write the images of --aov as layers of the .exr"},
+    {"--seen", NULL, OPTION_ON, AT(seen),
+     .help = "albedo and normal show what is seen in mirrors and through glass, for denoisers"},
+    {"--lights", "DIR", OPTION_TEXT, AT(lights),
+     .help = "write into DIR an image for each light, or each \"string group\" of lights; convert --weights adds them"},
+    {"--alpha", NULL, OPTION_ON, AT(alpha),
+     .help = "write alpha into .exr and .png: 0 where the lens sees nothing, or a light of \"bool visible\" \"false\""},
+    {.others = RENDER_OPTIONS},
+};
+
 /* What a chain does not show: its samples are not a pixel's own, and not independent. */
-static const char *of_samples(const struct job_options *o)
+static const char *of_samples(const struct more_options *o)
 {
-    return o->aov != NULL && strstr(o->aov, "variance") != NULL ? "--aov variance"
-           : o->lights != NULL ? "--lights" : o->alpha ? "--alpha" : keep_asks_noise(&o->keep) ? "--noise" : NULL;
+    return looks_variance(&o->look) ? "--aov variance" : o->look.lights != NULL ? "--lights"
+           : o->look.alpha ? "--alpha" : keep_asks_noise(&o->job.keep) ? "--noise" : NULL;
 }
 
-static int refuse(const struct job_options *o, const struct method *m)
+/* Can the method show that? */
+static bool can_show(const struct more_options *o, const struct method *m, struct error *err)
 {
-    struct error err;
-    if (method_is_chain(m))
-        error_usage(&err, "%s: the samples of %s are a chain, and do not show that; render several --seed",
-                    of_samples(o), m->name);
-    else
-        error_set(&err, "%s adds what comes of many lights at once: render one of them at a time", m->name);
-    return fail(&err);
+    if (of_samples(o) != NULL && method_is_chain(m))
+        return error_usage(err, "%s: the samples of %s are a chain, and do not show that; render several --seed",
+                           of_samples(o), m->name);
+    return o->look.lights == NULL || !method_merges(m) ||
+           error_set(err, "%s adds what comes of many lights at once: render one of them at a time", m->name);
+}
+
+/* Can the options be as they are? */
+static bool check(const struct more_options *o, struct error *err)
+{
+    bool kept = looks_variance(&o->look) || o->look.lights != NULL || o->look.alpha;
+    if (o->job.keep.resume != NULL && kept)
+        return error_set(err, "%s: variance, lights and alpha are not saved and cannot be resumed; render them by "
+                         "--samples, and take the mean by convert --weights", o->job.keep.resume);
+    return looks_check(&o->look, err);
 }
 
 static int run(void *options)
 {
-    struct job_options before = *(const struct job_options *)options;
-    struct scene scene;
-    const struct method *m;
-    before.quiet = true;
-    before.strict = false;
-    if (of_samples(&before) == NULL || strcmp(before.scene_path, "-") == 0) /* which cannot be read twice */
-        return command_render.run(options);
-    int status = job_load(&before, &scene, &m);
+    struct more_options *o = options;
+    struct render_run r;
+    struct looks looks;
+    struct error err;
+    if (!check(o, &err))
+        return fail(&err);
+    int status = render_open(&r, &o->job);
     if (status != EXIT_OK)
         return status;
-    scene_free(&scene);
-    bool can = !method_is_chain(m) && !(before.lights != NULL && method_merges(m));
-    return can ? command_render.run(options) : refuse(&before, m);
+    bool ok = can_show(o, r.job.options.integrator, &err) && looks_open(&looks, &o->look, &r, &err);
+    if (ok) {
+        ok = render_work(&r, &err);
+        ok = looks_write(&looks, ok, &err);
+    }
+    return render_close(&r, ok, &err);
 }
 
 const struct command command_render_more = {
-    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,png,ppm}]... [options]"}, RENDER_OPTIONS,
-    sizeof(struct job_options), run, false, "render scenes/veach-ajar.pbrt --quick --spp 16 -o out/ajar.png"};
+    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,png,ppm}]... [options]"}, OPTIONS,
+    sizeof(struct more_options), run, false, "render scenes/veach-ajar.pbrt --quick --spp 16 -o out/ajar.png"};

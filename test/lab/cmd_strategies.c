@@ -7,7 +7,7 @@
 #include "lab/commands.h"
 #include "lab/pyramid.h"
 #include "lab/sheet.h"
-#include "render/parameters.h"
+#include "render/job.h"
 
 /* Two pictures of each: (d + 1) (d + 4) for paths of up to d + 1 edges. */
 enum { STRATEGIES_MAX_DEPTH = 20 };
@@ -48,8 +48,6 @@ static bool write_all(const char *directory, const struct strategy_images *image
 static bool render(const struct scene *scene, struct render_options o, const char *directory, struct error *err)
 {
     struct strategy_images images;
-    if (!parameters_max_depth(scene, o.max_depth, &o.max_depth, err))
-        return false;
     if (o.max_depth > STRATEGIES_MAX_DEPTH)
         return error_set(err, "paths of up to %d edges have %d pictures; --maxdepth %d is the most here",
                          o.max_depth + 1, (o.max_depth + 1) * (o.max_depth + 4), STRATEGIES_MAX_DEPTH);
@@ -63,13 +61,14 @@ static int run(void *options)
 {
     struct strategies_options *o = options;
     struct scene scene;
-    const struct method *m;
+    struct job job;
     struct error err;
-    int status = job_load(&o->job, &scene, &m);
+    int status = job_load(&o->job, &scene, &job);
     if (status != EXIT_OK)
         return status;
     bool ok = file_make_directory(o->directory, &err) &&
-              render(&scene, job_render(&o->job, &scene, m), o->directory, &err);
+              render(&scene, job.options, o->directory, &err);
+    job_free(&job);
     scene_free(&scene);
     if (ok && !o->job.quiet)
         say_line("wrote the pictures of all strategies, and pyramid.png, into %s", o->directory);

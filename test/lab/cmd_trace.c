@@ -27,18 +27,17 @@ static int run(void *options)
 {
     const struct trace_options *o = options;
     struct scene scene;
-    const struct method *integrator;
+    struct job job;
     struct error err;
     struct trace trace = {.x = o->pixel[0], .y = o->pixel[1], .iteration = o->brightest ? TRACE_BRIGHTEST : o->sample};
     struct file_output svg = {.stream = NULL}; /* opened before the work */
-    int status = job_load(&o->job, &scene, &integrator);
+    int status = job_load(&o->job, &scene, &job);
     if (status != EXIT_OK)
         return status;
-    struct render_options render = job_render(&o->job, &scene, integrator);
-    const struct trace_story story = {o->job.scene_path, &scene, integrator, o->job.seed, &trace};
+    const struct trace_story story = {o->job.scene_path, &scene, job.options.integrator, o->job.seed, &trace};
     struct texts outputs = {(const char **)&o->svg, o->svg != NULL};
     bool ok = job_spares(&scene, &outputs, &err) && (o->svg == NULL || file_create(o->svg, &svg, &err)) &&
-              trace_render(&scene, &render, &trace, &err);
+              trace_render(&scene, &job.options, &trace, &err);
     if (ok)
         trace_tell(stdout, &story, o->all);
     if (ok && svg.stream != NULL)
@@ -48,6 +47,7 @@ static int run(void *options)
     else if (svg.stream != NULL)
         file_abandon(&svg);
     trace_free(&trace);
+    job_free(&job);
     scene_free(&scene);
     return ok ? EXIT_OK : fail(&err);
 }

@@ -86,19 +86,19 @@ static int run(void *options)
     struct transient_options *o = options;
     struct gates gates = {o->range[0], (o->range[1] - o->range[0]) / o->n, o->n};
     struct scene scene;
-    const struct method *method;
+    struct job job;
     struct error err;
-    int status = job_load(&o->job, &scene, &method);
+    int status = job_load(&o->job, &scene, &job);
     if (status != EXIT_OK)
         return status;
     struct pixel_rect r = render_crop(&scene);
-    struct render_options by = job_render(&o->job, &scene, method);
     if (!(o->range[1] > 0))
         choose_range(&scene, &gates);
     bool ok = file_make_directory(o->directory, &err);
-    float *pictures = ok ? render(&scene, &by, gates, &err) : NULL;
+    float *pictures = ok ? render(&scene, &job.options, gates, &err) : NULL;
     ok = pictures != NULL && write_all(o->directory, gates, pictures, rect_width(r), rect_height(r), &err);
     free(pictures);
+    job_free(&job);
     scene_free(&scene);
     if (ok && !o->job.quiet)
         say_line("wrote %d pictures, and transient.png, into %s", gates.n, o->directory);

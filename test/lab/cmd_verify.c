@@ -6,7 +6,7 @@
 #include "lab/commands.h"
 #include "lab/methods.h"
 #include "lab/sides.h"
-#include "render/parameters.h"
+#include "render/job.h"
 
 /* Where a side comes from: pictures, or a method that renders them. */
 struct source {
@@ -144,13 +144,13 @@ static bool render_side(struct scene *scene, const struct verify_options *o, int
 {
     static const double seconds = 20; /* of rendering */
     const struct measured *given = &o->source[number].method;
-    struct render_options options = {.integrator = o->by[number]->name, .seed = o->job.seed,
+    struct render_options options = {.integrator = o->by[number], .seed = o->job.seed,
                                      .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
     struct settings shared = scene->settings;
     scene->settings = measured_settings(given, &shared);
     options.end = o->job.spp > 0 ? o->job.spp : side_choose_spp(scene, &options, o->batches, seconds, err);
     bool ok = options.end > 0 && side_render(scene, &options, number, o->batches, o->job.quiet, out, err);
-    out->name = given->text[0] != '\0' ? given->text : options.integrator;
+    out->name = given->text[0] != '\0' ? given->text : o->by[number]->name;
     if (ok)
         printf("%s: %dx%d pixels, %d batches of %ld spp, seed %llu\n", out->name, out->width, out->height, o->batches,
                options.end, (unsigned long long)o->job.seed);
@@ -235,22 +235,28 @@ static int judge(const struct verify_options *o, uint64_t content, int max_depth
     return o->store == NULL || sides_store(o->store, a, b, &from, err) ? EXIT_OK : fail(err);
 }
 
-static int load(struct verify_options *o, struct scene *scene)
+static int load(struct verify_options *o, struct scene *scene, int *max_depth)
 {
-    struct job_loading job = {.options = &o->job};
+    struct job_loading loading = {.options = &o->job};
+    struct job job;
     const struct method *readers[3] = {NULL, NULL, NULL};
     struct error err;
-    int status = job_open(&job, scene, &readers[0]);
+    int status = job_open(&loading, scene, &readers[0]);
     if (status != EXIT_OK)
         return status;
     bool ok = choose_integrators(o, scene, readers[0], &err);
     for (int i = 0, n = 0; i < 2; i++)
         if (o->by[i] != NULL)
             readers[n++] = o->by[i];
-    if (ok)
-        return job_ready(&job, readers, scene);
-    scene_free(scene);
-    return fail(&err);
+    if (!ok) {
+        scene_free(scene);
+        return fail(&err);
+    }
+    if ((status = job_ready(&loading, readers, scene, &job)) == EXIT_OK) {
+        *max_depth = job.options.max_depth;
+        job_free(&job);
+    }
+    return status;
 }
 
 static int verify(struct verify_options *o)
@@ -260,10 +266,9 @@ static int verify(struct verify_options *o)
     struct side side[2] = {{.name = ""}, {.name = ""}};
     bool has_scene = o->job.scene_path != NULL;
     int status = EXIT_OK, max_depth = 0;
-    if (has_scene && (status = load(o, &scene)) != EXIT_OK)
+    if (has_scene && (status = load(o, &scene, &max_depth)) != EXIT_OK)
         return status;
-    bool ok = (!has_scene || parameters_max_depth(&scene, o->job.max_depth, &max_depth, &err)) &&
-              make_sides(&scene, o, side, &err);
+    bool ok = make_sides(&scene, o, side, &err);
     status = ok ? judge(o, has_scene ? scene.content : 0, max_depth, &side[0], &side[1], &err) : fail(&err);
     batches_free(&side[0].pixels);
     batches_free(&side[1].pixels);

@@ -26,7 +26,7 @@ static int run(void *options)
 {
     struct worth_options *o = options;
     struct scene scene;
-    const struct method *integrator;
+    struct job job;
     struct outputs out;
     struct sheet picture = {0};
     struct error err;
@@ -36,13 +36,13 @@ static int run(void *options)
         return usage_error(&command_worth, "--cropwindow has no place here: the whole film is shown");
     if (!outputs_open(&o->job.output, NULL, false, &out, &err))
         return fail(&err);
-    int status = job_load(&o->job, &scene, &integrator);
+    int status = job_load(&o->job, &scene, &job);
     if (status == EXIT_OK) {
-        struct render_options render = job_render(&o->job, &scene, integrator);
         bool ok = job_spares(&scene, &o->job.output, &err) &&
-                  worth_picture(&scene, &render, o->pixel[0], o->pixel[1], o->scale, &picture, &err) &&
+                  worth_picture(&scene, &job.options, o->pixel[0], o->pixel[1], o->scale, &picture, &err) &&
                   outputs_write(&out, picture.width, picture.height, picture.pixels, o->job.quiet, &err);
         sheet_free(&picture);
+        job_free(&job);
         scene_free(&scene);
         status = ok ? EXIT_OK : fail(&err);
     }

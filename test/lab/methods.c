@@ -7,7 +7,7 @@
 
 #include "chains/chain.h"
 #include "cli/job_options.h"
-#include "render/parameters.h"
+#include "render/job.h"
 
 /* Set the parameters after the colons. False with a message if something there is no NAME=VALUE. */
 static bool set_pairs(const char *text, struct settings *out, struct error *err)
@@ -82,19 +82,63 @@ const char *method_why(const struct method *m)
     return m->build != NULL ? m->help : NULL;
 }
 
+const struct method *method_named(const char *name)
+{
+    const struct settings none = {0};
+    return method_find(name, &none, NULL);
+}
+
+const struct method *method_of(const struct scene *scene, const char *name)
+{
+    return method_find(name, &scene->settings, NULL);
+}
+
+bool render_by(const struct scene *scene, const struct render_options *o, struct film *film, struct error *err)
+{
+    struct job job;
+    if (!job_settle(scene, o, &job, err))
+        return false;
+    bool ok = render_scene(&job, film, err);
+    job_free(&job);
+    return ok;
+}
+
+bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
+                    struct render_job *job, struct prepared *prepared, struct error *err)
+{
+    struct job whole;
+    if (!job_settle(scene, options, &whole, err))
+        return false;
+    whole.state.film_rect = rect;
+    whole.state.watch = job->watch;
+    whole.state.watch_context = job->watch_context;
+    job_prepare(&whole);
+    *job = whole.state;
+    *prepared = whole.prepared;
+    return true;
+}
+
+/* Are the parameters valid? */
+static bool valid(const struct method *m, const struct scene *scene, struct error *err)
+{
+    struct prepared p;
+    bool ok = method_read(m, scene, &p, err);
+    if (ok)
+        method_release(&p);
+    return ok;
+}
+
 /* Is there such an integrator, and has it these parameters, with such values? */
 static bool check(const struct measured *m, struct error *err)
 {
     struct scene none = {.settings = {0}};
     struct settings *s = &none.settings;
-    if (!method_exists(m->integrator))
-        return integrator_unknown(m->integrator, err);
     bool ok = set_pairs(m->text, s, err);
     const struct method *row = ok ? method_find(m->integrator, s, err) : NULL;
     for (int i = 0; row != NULL && ok && i < s->n; i++)
-        if (field_find(parameters_common(), s->item[i].name) == NULL && method_has(row, s->item[i].name) == NULL)
+        if (field_find(job_common(), s->item[i].name) == NULL && method_has(row, s->item[i].name) == NULL)
             ok = error_set(err, "%s: there is no parameter \"%s\"", m->text, s->item[i].name);
-    ok = ok && row != NULL && method_check(row, &none, err);
+    ok = ok && row != NULL && valid(row, &none, err);
     settings_clear(s);
     return ok;
 }

@@ -12,7 +12,7 @@
 #ifndef ASBDPT_LAB_METHODS_H
 #define ASBDPT_LAB_METHODS_H
 
-#include "integrators/method.h"
+#include "render/render.h"
 
 enum { METHODS_MAX = 64, METHOD_TEXT = 128 };
 
@@ -57,6 +57,17 @@ bool method_observable(const struct method *m, struct error *err);
 /* method_why: for trace: how it chooses what it joins to an eye sub-path, of methods that nobody has described here
  * their `help`; NULL: it does not choose. */
 const char *method_why(const struct method *m);
+
+/* method_named: the first row of that name; NULL if there is none. method_of: the row that the scene's settings choose.
+ */
+const struct method *method_named(const char *name);
+const struct method *method_of(const struct scene *scene, const char *name);
+
+/* render_by: settle a job and render it. render_prepare: settle a job for these pixels of the scene, and prepare it.
+ * Both its halves are copied, and method_release(prepared) must follow. Both return false with a message. */
+bool render_by(const struct scene *scene, const struct render_options *o, struct film *film, struct error *err);
+bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
+                    struct render_job *job, struct prepared *prepared, struct error *err);
 
 /* methods_read: a list. False with a message on an integrator, a parameter or a value that does not exist, and if a
  * method is given twice. */

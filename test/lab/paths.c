@@ -34,8 +34,9 @@ static void joined(void *context, const struct sample *sample, const struct join
     list->item[list->n++] = told;
 }
 
-static struct observer begin(void *context, int slot)
+static struct observer begin(void *context, int slot, const struct tile *tile)
 {
+    (void)tile;
     struct lists *l = context;
     l->of[slot].n = 0;
     const struct observer o = {.context = &l->of[slot], .joined = joined};
@@ -74,16 +75,15 @@ bool paths_render(const struct scene *scene, const struct render_options *option
 {
     struct render_options o = *options;
     struct lists lists = {NULL, scene, film->rect, taker};
-    const struct method *m = method_find(options->integrator, &scene->settings, err);
     const struct observers observers = {&lists, begin, end};
-    if (m == NULL || !method_observable(m, err))
+    if (!method_observable(options->integrator, err))
         return false;
     o.n_threads = options->n_threads < 1 ? os_cores() : options->n_threads;
     o.observers = &observers;
     o.block = options->block > 0 ? options->block : 1; /* short passes: their paths are kept until it is their turn */
     int slots = o.n_threads * OBSERVED_SLOTS;
     lists.of = mem_alloc((size_t)slots, sizeof *lists.of);
-    bool ok = render_scene(scene, &o, film, err);
+    bool ok = render_by(scene, &o, film, err);
     for (int i = 0; i < slots; i++)
         free(lists.of[i].item);
     free(lists.of);
@@ -114,8 +114,8 @@ bool gates_render(const struct scene *scene, const struct render_options *option
 {
     struct gate_sums sums = {gates, rect_pixels(film->rect), sum};
     const struct path_taker taker = {&sums, take_by_gate};
-    const struct method *m = method_find(options->integrator, &scene->settings, err);
-    if (m != NULL && method_merges(m))
+    const struct method *m = options->integrator;
+    if (method_merges(m))
         return error_set(err, "%s adds paths of many lengths at once: no gate can tell them apart", m->name);
-    return m != NULL && paths_render(scene, options, film, &taker, err);
+    return paths_render(scene, options, film, &taker, err);
 }

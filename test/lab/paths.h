@@ -34,7 +34,7 @@ struct gates {
     int n;
 };
 
-/* gates_render: add to sum, [n][pixels*3], what comes by each of neighbouring gates (scene/tile.h), all from one
+/* gates_render: add to sum, [n][pixels*3], what comes by each of neighbouring gates (scene/film.h), all from one
  * render; the film is rendered as ever. False with a message. */
 bool gates_render(const struct scene *scene, const struct render_options *options, const struct gates *gates,
                   struct film *film, double *sum, struct error *err);

@@ -6,7 +6,7 @@
 
 #include "base/os.h"
 #include "parser/parser.h"
-#include "render/parameters.h"
+#include "render/job.h"
 
 void plan_scene_name(const char *path, char *out, int size)
 {
@@ -29,16 +29,20 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
     static const double whole[4] = {0, 1, 0, 1};
     if (!parse_scene(path, NULL, scene, NULL, err))
         return false;
-    parameters_adapt(scene, method_rows, NULL);
+    job_adapt(scene, method_rows, NULL, NULL);
     if (width == 0)
         width = scene->width < WIDTH_WITHOUT_REFERENCE ? scene->width : WIDTH_WITHOUT_REFERENCE;
     memcpy(scene->crop, whole, sizeof whole);
     scene_resize(scene, width, height);
     filter_default("box", &scene->filter);
-    if (!parameters_max_depth(scene, max_depth, depth, err)) {
+    const struct render_options any = {.integrator = method_named(METHOD_REFERENCE), .max_depth = max_depth};
+    struct job job;
+    if (!job_settle(scene, &any, &job, err)) {
         scene_free(scene);
         return false;
     }
+    *depth = job.options.max_depth;
+    job_free(&job);
     scene_prepare(scene);
     return true;
 }

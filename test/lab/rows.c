@@ -1,5 +1,5 @@
 /* rows.c: the methods of asbdpt-lab: the renderer's (src/render/rows.c), and those that they are compared with. */
-#include "render/methods.h"
+#include "render/job.h"
 
 extern const struct method method_pt, method_lt, method_bdpt, method_bins, method_pool, method_vertices,
     method_subspaces, method_lvc, method_cbdpt, method_mbdpt, method_pcbdpt, method_ris, method_ris2, method_spcbpt,

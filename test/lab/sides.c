@@ -15,6 +15,7 @@
 #include "base/rng.h"
 #include "image/image.h"
 #include "image/picture.h"
+#include "lab/methods.h"
 #include "lab/compare.h"
 #include "lab/files.h"
 #include "lab/timed.h"
@@ -91,7 +92,7 @@ static bool render_batch(const struct scene *scene, const struct render_options 
     struct film film;
     o.seed = seed;
     film_init(&film, render_crop(scene), scene->width, scene->height);
-    bool ok = render_scene(scene, &o, &film, err);
+    bool ok = render_by(scene, &o, &film, err);
     film_warn(&film, 0);
     for (long i = 0; ok && i < 3L * rect_width(film.rect) * rect_height(film.rect); i++)
         out[i] = film_value(&film, (size_t)i) / (double)film.iterations * scene->film_scale;
@@ -110,7 +111,7 @@ bool side_render(const struct scene *scene, const struct render_options *options
                  struct side *out, struct error *err)
 {
     struct progress bar;
-    out->name = options->integrator;
+    out->name = options->integrator->name;
     out->width = rect_width(render_crop(scene));
     out->height = rect_height(render_crop(scene));
     out->pixels = batches_new(n_batches, 3L * out->width * out->height, false);

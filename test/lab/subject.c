@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "lab/methods.h"
 #include "lab/stats.h"
 #include "lab/timed.h"
 
@@ -19,7 +20,7 @@ struct render_options subject_options(struct subject *s, const struct measured *
     settings_clear(&s->scene.settings);
     s->scene.settings = measured_settings(m, &base);
     settings_clear(&base);
-    struct render_options o = {.integrator = m->integrator, .seed = seed, .n_threads = n_threads,
+    struct render_options o = {.integrator = method_of(&s->scene, m->integrator), .seed = seed, .n_threads = n_threads,
                                .max_depth = s->out->max_depth};
     return o;
 }

@@ -5,13 +5,13 @@
 
 #include "base/mem.h"
 #include "base/os.h"
-#include "integrators/prepare.h"
+#include "lab/methods.h"
 
 bool timed_film(const struct scene *scene, const struct render_options *o, struct film *film, struct timed *out,
                 struct error *err)
 {
     double cpu = os_cpu_seconds(), wall = os_wall_seconds();
-    bool ok = render_scene(scene, o, film, err);
+    bool ok = render_by(scene, o, film, err);
     out->seconds += fmax(os_cpu_seconds() - cpu, 1e-6);
     out->wall += fmax(os_wall_seconds() - wall, 1e-6);
     out->nonfinite = film->nonfinite;

@@ -217,8 +217,7 @@ bool trace_render(const struct scene *scene, const struct render_options *option
     struct pixel_rect film = render_crop(scene);
     struct render_job job = {.scene = NULL};
     struct prepared prepared;
-    const struct method *m = method_find(options->integrator, &scene->settings, err);
-    if (m == NULL || !method_observable(m, err) || !check_sample(options, film, trace, err) ||
+    if (!method_observable(options->integrator, err) || !check_sample(options, film, trace, err) ||
         !render_prepare(scene, options, film, &job, &prepared, err))
         return false;
     if (trace->iteration == TRACE_BRIGHTEST)

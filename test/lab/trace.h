@@ -45,7 +45,7 @@ struct trace {
     size_t light_capacity, connection_capacity;
     const char *why;   /* how the method chooses what to connect with; NULL: it does not */
     struct race_result race;
-    struct film_number number[FILM_NUMBERS]; /* what it has chosen for itself, ended by a NULL name */
+    struct method_number number[METHOD_NUMBERS]; /* what it has chosen for itself, ended by a NULL name */
 };
 
 /* A trace starts as zeros, except the sample to watch. trace_free releases what it owns. */

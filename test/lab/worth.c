@@ -9,7 +9,8 @@
 #include "base/mem.h"
 #include "base/number.h"
 #include "integrators/prepare.h"
-#include "render/aov.h"
+#include "lab/aov.h"
+#include "lab/methods.h"
 
 enum { LIGHT_PATHS = 64 * 1024, GAP = 8, LABEL = 24, TEXT = 2 };
 

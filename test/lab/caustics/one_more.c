@@ -6,7 +6,7 @@
 
 #include "caustics/derived.h"
 #include "integrators/prepare.h"
-#include "render/methods.h"
+#include "render/job.h"
 
 const char *const ONE_MORE_METHODS[] = {"bdpt", "pt", "asbdpt", NULL};
 
@@ -165,9 +165,10 @@ void one_more_prepare(const struct render_job *job, struct prepared *p)
     own->scene = *job->scene;
     own->scene.settings = usual;
     other.scene = &own->scene;
-    bool ok = method_prepare(method_find(ONE_MORE_METHODS[own->with], &usual, &err), &other, &own->method, &err);
+    bool ok = method_read(method_find(ONE_MORE_METHODS[own->with], &usual, &err), &own->scene, &own->method, &err);
     assert(ok);
     (void)ok;
+    method_prepare(&other, &own->method);
     p->size = own->method.size;
     p->numbers = own->method.numbers;
     p->tables->regions.n = own->method.tables->regions.n;

@@ -137,7 +137,7 @@ static void send(const struct chain *c, const struct tile_pass *pass, const stru
     double factor = share > 0 ? share * c->all->scale * c->b / state->I : 0;
     for (size_t i = 0; factor > 0 && i < state->heard.n_splats; i++) {
         const struct splat *s = &state->heard.splat[i];
-        tile_add_splat(tile, s->px, s->py, rgb_scale(s->value, factor), 0);
+        tile_add_splat(tile, s->px, s->py, rgb_scale(s->value, factor));
     }
     if (tile->full != NULL && tile->n_splats >= TILE_FULL)
         tile->full(tile->context, tile);

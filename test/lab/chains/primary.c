@@ -144,7 +144,7 @@ bool primary_bring(struct primary *p, const struct connection *c, struct strateg
         double px = out->px, py = out->py;
         if (out->t == 1)
             camera_image(&scene->camera, radius, i, &px, &py);
-        tile_add_splat(&p->state->heard, px, py, out->value, 0);
+        tile_add_splat(&p->state->heard, px, py, out->value);
     }
     return true;
 }

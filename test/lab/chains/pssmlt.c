@@ -24,7 +24,7 @@ static void sample(struct chain *c, bool small)
     loop_eye(&s, eye, n_eye);
     for (int t = 2; t <= n_eye; t++)
         sample_pairs(&s, &all, &eye[t - 1], t, 1);
-    tile_add_splat(pass.tile, px, py, s.value, 0);
+    tile_add_splat(pass.tile, px, py, s.value);
     s.sampler = p.sampler[LENS_NUMBERS];
     sample_lens(&s, c->light, n_light, 1);
     primary_end(&p);

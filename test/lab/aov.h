@@ -5,7 +5,7 @@
  *   normal    the shading normal in world space, bump mapping included, turned towards the camera
  *   depth     distance along the camera's axis (z in camera space), the same in all channels
  *   position  in the world of the scene file
- *   variance  of the rendered pixel itself, a bound from above: that of the mean of as many independent samples
+ *   variance  of the rendered pixel itself; see planes.h
  *
  * The first four are means over the first AOV_SAMPLES samples of a pixel, if the render has so many, through the very
  * points of pixel and lens that it draws, so that their edges are smooth where the picture's are. Depth and position
@@ -18,8 +18,8 @@
  *
  * Tests: test_aov.c.
  */
-#ifndef ASBDPT_AOV_H
-#define ASBDPT_AOV_H
+#ifndef ASBDPT_LAB_AOV_H
+#define ASBDPT_LAB_AOV_H
 
 #include "render/render.h"
 
@@ -38,9 +38,5 @@ const char *aov_name(enum aov which);
  * Returns false if there are pixels without a sample, which stay black. The same numbers for any number of threads. */
 bool aov_render(const struct scene *scene, const struct render_options *options, bool seen,
                 float *const out[N_FIRST_HIT]);
-
-/* aov_variance: of each value of film_develop at this scale, [height*width*3]; two iterations at least. The
- * film must have kept errors. */
-void aov_variance(const struct film *film, double scale, float *out);
 
 #endif

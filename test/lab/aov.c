@@ -1,5 +1,5 @@
 /* aov.c: see aov.h. */
-#include "render/aov.h"
+#include "lab/aov.h"
 
 #include <stdlib.h>
 
@@ -159,11 +159,4 @@ bool aov_render(const struct scene *scene, const struct render_options *options,
     free(r.done);
     free(r.hits);
     return all;
-}
-
-void aov_variance(const struct film *film, double scale, float *out)
-{
-    film_standard_error(film, scale, out);
-    for (size_t i = 0; i < rect_pixels(film->rect) * 3; i++)
-        out[i] = float_within((double)out[i] * (double)out[i]);
 }

@@ -1,0 +1,38 @@
+/* cmd_render.h: the steps of `asbdpt render`, which the laboratory's program takes, too, and looks on.
+ * Tests: test/cli.sh, test/outputs.sh, test/keep.sh. */
+#ifndef ASBDPT_CMD_RENDER_H
+#define ASBDPT_CMD_RENDER_H
+
+#include <stdio.h>
+
+#include "cli/job_options.h"
+#include "cli/keep.h"
+#include "cli/outputs.h"
+
+/* A render on its way from options to files. */
+struct render_run {
+    struct job_options *asked;
+    struct scene scene;
+    struct job job;
+    struct film film;
+    struct keep keep;
+    struct outputs pictures;
+    struct file_output stats; /* its stream NULL: none; it is complete when all others are */
+    double load, wall, cpu, samples; /* seconds; samples per pixel in this time */
+};
+
+/* render_open: load the scene, open all files that are to be written, and begin a film. Returns EXIT_OK, or another
+ * status after saying why (then nothing needs release).
+ * render_work: render, and write all files but --stats. False with a message.
+ * render_close: write --stats if all is well so far, else say what `err` does; remove what is not written; release
+ * everything. Returns the exit status. */
+int render_open(struct render_run *r, struct job_options *o);
+bool render_work(struct render_run *r, struct error *err);
+int render_close(struct render_run *r, bool ok, struct error *err);
+
+/* stats.c. stats_write: --stats, one object of JSON, when the render is over and its files are about to be written.
+ * stats_us_per_path: microseconds of CPU per sample of a pixel; 0 if there was none. */
+void stats_write(FILE *f, const struct render_run *r);
+double stats_us_per_path(const struct render_run *r);
+
+#endif

@@ -1,0 +1,197 @@
+/* job.c: see job.h. */
+#include "render/job.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "base/os.h"
+
+/* --- methods ------------------------------------------------------------------------------------------ */
+
+/* The rows of a name, which are neighbours: the first, and how many. */
+static const struct method *const *rows_of(const char *name, int *n)
+{
+    const struct method *const *first = method_rows;
+    name = strcmp(name, "path") == 0 ? "pt" : name;
+    while (*first != NULL && strcmp((*first)->name, name) != 0)
+        first++;
+    for (*n = 0; first[*n] != NULL && strcmp(first[*n]->name, name) == 0;)
+        ++*n;
+    return first;
+}
+
+bool method_exists(const char *name)
+{
+    int n;
+    rows_of(name, &n);
+    return n > 0;
+}
+
+static void say_unknown(const char *wanted, struct error *err)
+{
+    char known[256] = "";
+    const char *before = "";
+    for (const struct method *const *m = method_rows; *m != NULL; before = (*m++)->name)
+        if (strcmp((*m)->name, before) != 0)
+            snprintf(known + strlen(known), sizeof known - strlen(known), " %s", (*m)->name);
+    error_usage(err, "there is no integrator %s; known are:%s", wanted, known);
+}
+
+const struct method *method_find(const char *name, const struct settings *s, struct error *err)
+{
+    enum { MOST = 16 };
+    const char *words[MOST + 1] = {NULL};
+    int n, which = 0;
+    const struct method *const *row = rows_of(name, &n);
+    if (n == 0)
+        say_unknown(name, err);
+    for (int i = 0; n > 1 && i < n && i < MOST; i++)
+        words[i] = row[i]->select;
+    return n == 1 || (n > 0 && settings_choice(s, "select", 0, words, &which, err)) ? row[which] : NULL;
+}
+
+/* --- settings ----------------------------------------------------------------------------------------- */
+
+/* What all integrators have. */
+struct common {
+    int max_depth, heuristic, strategy;
+    double rr_threshold;
+};
+enum { DEFAULT_MAX_DEPTH = 5 }; /* pbrt-v3's */
+static const char *const HEURISTICS[] = {"balance", "power", NULL};
+static const char *const STRATEGIES[] = {"spatial", "power", "uniform", NULL};
+
+#define AT(member) offsetof(struct common, member)
+static const struct field COMMON[] = {
+    {"maxdepth", FIELD_INTEGER, AT(max_depth), DEFAULT_MAX_DEPTH, 0, PATH_MAX_DEPTH,
+     "longest path, in edges minus one", NULL},
+    {"heuristic", FIELD_WORD, AT(heuristic), 0, 0, 0, "heuristic of the weights: balance or power", HEURISTICS},
+    {"rrthreshold", FIELD_NUMBER, AT(rr_threshold), DEFAULT_RR_THRESHOLD, 0, 1e6,
+     "relative throughput below which Russian roulette begins, 0: never; for bins 0", NULL},
+    {"lightsamplestrategy", FIELD_WORD, AT(strategy), 0, 0, 0,
+     "asbdpt chooses the light of s = 1 by what is seen, or by power", STRATEGIES},
+    {.name = NULL}};
+
+const struct field *job_common(void) { return COMMON; }
+
+/* The first of these methods that has such a parameter, or NULL. */
+static const struct method *owner(const struct method *const *m, const char *name)
+{
+    bool common = field_find(COMMON, name) != NULL;
+    while (*m != NULL && !common && method_has(*m, name) == NULL)
+        m++;
+    return *m;
+}
+
+/* Returns true. */
+static bool warn(const struct message_sink *sink, const struct setting *item, const char *text)
+{
+    struct error line;
+    error_set(&line, "%s: \"%s\" %s", item->origin, item->name, text);
+    if (sink != NULL)
+        sink->hear(sink->context, false, line.text);
+    return true;
+}
+
+/* Lights chosen uniformly give the same image with more noise, so "uniform" becomes "power". pbrt-v3 has no longest
+ * path. */
+static void adapt(struct settings *s, const struct setting *item, const struct message_sink *sink)
+{
+    char text[96], most[32];
+    snprintf(most, sizeof most, "%d", PATH_MAX_DEPTH);
+    snprintf(text, sizeof text, "is %.20s, which counts as %s", item->value, most);
+    bool deep = strcmp(item->name, "maxdepth") == 0 && setting_is_of_file(item) &&
+                strtod(item->value, NULL) > PATH_MAX_DEPTH;
+    if (strcmp(item->name, "lightsamplestrategy") == 0 && strcmp(item->value, "uniform") == 0) {
+        warn(sink, item, "is \"power\" instead of \"uniform\", which only has more noise");
+        settings_set(s, item->name, "power", item->origin);
+    } else if (deep && warn(sink, item, text)) {
+        settings_set(s, item->name, most, item->origin);
+    }
+}
+
+/* Is it one of the integrator that the file names? There it is right: --integrator may have replaced that, or -P its
+ * selection. */
+static bool belongs_to_file(const struct scene *scene, const struct setting *item)
+{
+    for (const struct method *const *m = method_rows; scene->integrator != NULL && *m != NULL; m++)
+        if (strcmp((*m)->name, scene->integrator) == 0 && method_has(*m, item->name) != NULL)
+            return true;
+    return false;
+}
+
+/* "asbdpt", or "asbdpt with select=bins" where a name has several rows, which `select` itself belongs to alike. */
+static void name_method(const struct method *m, const char *parameter, char *out, size_t size)
+{
+    bool row = m->select != NULL && strcmp(parameter, "select") != 0;
+    snprintf(out, size, row ? "%s with select=%s" : "%s", m->name, m->select);
+}
+
+/* Of -P, a parameter of `has`, or, if that is NULL, of nobody. Returns false. */
+static bool refuse(const struct setting *item, const struct method *has, const struct method *reader, struct error *err)
+{
+    char whose[64], here[64];
+    if (has == NULL)
+        return error_usage(err, "%s: no integrator has a parameter \"%s\"; asbdpt help integrators lists them",
+                           item->origin, item->name);
+    name_method(has, item->name, whose, sizeof whose);
+    name_method(reader, item->name, here, sizeof here);
+    return error_usage(err, "-P: \"%s\" is a parameter of %s, not of %s; see --integrator", item->name, whose, here);
+}
+
+bool job_adapt(struct scene *scene, const struct method *const *readers, const struct message_sink *sink,
+               struct error *err)
+{
+    struct settings *all = &scene->settings;
+    for (int i = 0; i < all->n;) {
+        const struct setting *item = &all->item[i];
+        const struct method *has = owner(method_rows, item->name);
+        char text[128] = "is not used: no integrator here has such a parameter";
+        if (has != NULL)
+            snprintf(text, sizeof text, "is not used: it is a parameter of %s", has->name);
+        if (owner(readers, item->name) != NULL || (setting_is_of_file(item) && belongs_to_file(scene, item)))
+            adapt(all, &all->item[i++], sink);
+        else if (!setting_is_of_file(item))
+            return refuse(item, has, readers[0], err);
+        else if (warn(sink, item, text))
+            settings_remove(all, i);
+    }
+    return true;
+}
+
+/* --- jobs --------------------------------------------------------------------------------------------- */
+
+/* Fractions lie within [0,1]: readers of scenes and options see to it. */
+struct pixel_rect render_crop(const struct scene *scene)
+{
+    const double *c = scene->crop;
+    return (struct pixel_rect){(int)ceil(scene->width * c[0]), (int)ceil(scene->height * c[2]),
+                               (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3])};
+}
+
+bool job_settle(const struct scene *scene, const struct render_options *options, struct job *out, struct error *err)
+{
+    const struct method *m = options->integrator;
+    const struct settings *s = &scene->settings;
+    struct common c;
+    *out = (struct job){.options = *options};
+    struct render_options *o = &out->options;
+    if (!settings_fields(s, COMMON, &c, err) || !method_read(m, scene, &out->prepared, err))
+        return false;
+    o->planned = o->planned > 0 ? o->planned : o->end;
+    o->n_threads = o->n_threads > 0 ? o->n_threads : os_cores();
+    o->max_depth = o->max_depth > 0 ? o->max_depth : c.max_depth;
+    out->state = (struct render_job){
+        .scene = scene, .film_rect = render_crop(scene), .seed = o->seed, .eye_seed = o->seed,
+        .n_threads = o->n_threads, .max_depth = o->max_depth, .power_heuristic = c.heuristic == 1,
+        .spatial_lights = c.strategy == 0,
+        .rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold};
+    return true;
+}
+
+void job_prepare(struct job *job) { method_prepare(&job->state, &job->prepared); }
+
+void job_free(struct job *job) { method_release(&job->prepared); }

@@ -1,0 +1,312 @@
+/* looks.c: see looks.h. */
+#include "lab/looks.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "base/mem.h"
+#include "base/os.h"
+#include "image/image.h"
+
+/* --- options ------------------------------------------------------------------------------------------ */
+
+/* Names of aov_name with commas between them; NULL: none. */
+static bool read_list(const char *list, bool wanted[N_AOVS], struct error *err)
+{
+    for (const char *word = list; word != NULL;) {
+        size_t n = strcspn(word, ",");
+        int i = 0;
+        while (i < N_AOVS && (strlen(aov_name((enum aov)i)) != n || strncmp(word, aov_name((enum aov)i), n) != 0))
+            i++;
+        if (i == N_AOVS)
+            return error_usage(err, "--aov %s: known are albedo, normal, depth, position, variance, with commas "
+                                    "between them", list);
+        wanted[i] = true;
+        word = word[n] == ',' ? word + n + 1 : NULL;
+    }
+    return true;
+}
+
+bool looks_check(const struct look_options *o, struct error *err)
+{
+    bool wanted[N_AOVS] = {false};
+    return read_list(o->aov, wanted, err);
+}
+
+bool looks_variance(const struct look_options *o)
+{
+    bool wanted[N_AOVS] = {false};
+    struct error ignored;
+    return read_list(o->aov, wanted, &ignored) && wanted[AOV_VARIANCE];
+}
+
+/* --- files -------------------------------------------------------------------------------------------- */
+
+static bool add_file(struct looks *l, const char *name, int light, enum aov aov, struct error *err)
+{
+    struct look_file f = {.light = light, .aov = aov};
+    if (!image_create(name, &f.file, err))
+        return false;
+    l->item = mem_append(l->item, (size_t)l->n, sizeof *l->item);
+    l->item[l->n++] = f;
+    return true;
+}
+
+static bool open_aov(struct looks *l, const char *picture, enum aov which, struct error *err)
+{
+    const char *dot = strrchr(picture, '.'), *slash = os_last_separator(picture);
+    int stem = dot != NULL && (slash == NULL || dot > slash) ? (int)(dot - picture) : (int)strlen(picture);
+    size_t size = strlen(picture) + 20;
+    if (strcmp(picture, "-") == 0)
+        return error_usage(err, "--aov needs an image with a name (-o), to write next to it");
+    char *name = mem_alloc(size, 1);
+    snprintf(name, size, "%.*s.%s.pfm", stem, picture, aov_name(which));
+    bool ok = add_file(l, name, -1, which, err);
+    free(name);
+    return ok;
+}
+
+/* Every picture that has layers or alpha a second time: it is whole without them while they are made. */
+static bool open_again(struct looks *l, struct error *err)
+{
+    const struct outputs *pictures = &l->run->pictures;
+    bool ok = true;
+    int n = l->n;
+    for (int i = 0; ok && i < pictures->n; i++) {
+        const char *name = pictures->item[i].file.path;
+        bool exr = file_has_extension(name, ".exr"), png = file_has_extension(name, ".png");
+        if (!pictures->item[i].is_part && (exr || (png && l->options->alpha)))
+            ok = add_file(l, name, -1, N_AOVS, err);
+    }
+    return ok && (l->n > n || !l->options->layers ||
+                  error_usage(err, "--layers: no other format has them than .exr; name one by -o"));
+}
+
+/* A group is called by its name, or by what it is. */
+static bool open_light(struct looks *l, int i, struct error *err)
+{
+    static const char *const KINDS[] = {
+        [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot", [LIGHT_DISTANT] = "distant",
+        [LIGHT_INFINITE] = "infinite"};
+    const struct light_group *g = &l->run->scene.lights.group[i];
+    size_t size = strlen(l->options->lights) + 64;
+    char *name = mem_alloc(size, 1);
+    snprintf(name, size, "%s/light%02d_%s.pfm", l->options->lights, i, g->name != NULL ? g->name : KINDS[g->kind]);
+    bool ok = add_file(l, name, i, N_AOVS, err);
+    free(name);
+    return ok;
+}
+
+static bool open_lights(struct looks *l, struct error *err)
+{
+    int n = l->run->scene.lights.n_groups;
+    bool ok = true;
+    if (n > LIGHT_MAX_GROUPS)
+        return error_usage(err, "--lights: %d images, one for each light, and %d are the most here; lights with the "
+                           "same \"string group\" are one", n, LIGHT_MAX_GROUPS);
+    os_make_directory(l->options->lights); /* if that fails, creating a file says why */
+    for (int i = 0; ok && i < n; i++)
+        ok = open_light(l, i, err);
+    return ok;
+}
+
+/* Does every file have a name of its own, and is the scene read from none? */
+static bool names_differ(const struct looks *l, struct error *err)
+{
+    struct texts names = {0};
+    options_written(RENDER_OPTIONS, l->run->asked, &names);
+    if (l->run->asked->output.n == 0)
+        texts_add(&names, l->run->pictures.item[0].file.path);
+    for (int i = 0; i < l->n; i++)
+        if (l->item[i].light >= 0 || l->item[i].aov < N_AOVS)
+            texts_add(&names, l->item[i].file.path);
+    bool ok = texts_differ(&names, err) && job_spares(&l->run->scene, &names, err);
+    free(names.item);
+    return ok;
+}
+
+static bool open_files(struct looks *l, struct error *err)
+{
+    const struct look_options *o = l->options;
+    bool ok = read_list(o->aov, l->wanted, err);
+    for (int i = 0; ok && i < N_AOVS && !o->layers; i++)
+        ok = !l->wanted[i] || open_aov(l, l->run->pictures.item[0].file.path, (enum aov)i, err);
+    return ok && (o->lights == NULL || open_lights(l, err)) && ((!o->layers && !o->alpha) || open_again(l, err)) &&
+           names_differ(l, err);
+}
+
+static void release(struct looks *l)
+{
+    for (int i = 0; i < l->n; i++)
+        if (l->item[i].file.stream != NULL)
+            file_abandon(&l->item[i].file);
+    free(l->item);
+    planes_free(&l->planes);
+}
+
+static bool begin_planes(struct looks *l, struct error *err)
+{
+    struct render_run *r = l->run;
+    const struct look_options *o = l->options;
+    struct error why;
+    planes_init(&l->planes, &r->scene, &r->film, o->lights != NULL, o->alpha, l->wanted[AOV_VARIANCE],
+                r->job.options.n_threads);
+    if (!budget_has(&r->scene.memory, (1 + l->planes.n) * film_bytes(r->film.rect), &why))
+        return error_set(err, "%s: its film and %d more of %dx%d pixels: %s; --res makes them smaller",
+                         r->asked->scene_path, l->planes.n, r->scene.width, r->scene.height, why.text);
+    l->observers = planes_observers(&l->planes);
+    if (l->planes.n > 0 && (r->scene.lights.n > 0 || o->alpha)) /* else all samples are black */
+        r->job.options.observers = &l->observers;
+    return true;
+}
+
+bool looks_open(struct looks *l, const struct look_options *o, struct render_run *run, struct error *err)
+{
+    *l = (struct looks){.options = o, .run = run};
+    bool ok = open_files(l, err) && begin_planes(l, err);
+    if (!ok)
+        release(l);
+    return ok;
+}
+
+/* --- images ------------------------------------------------------------------------------------------- */
+
+static bool late(const struct keep *k)
+{
+    return k->options->time > 0 && os_wall_seconds() - k->begun >= k->options->time;
+}
+
+/* First-hit images, too, end at a signal and in time. */
+static enum render_wish watch(void *context, double done)
+{
+    struct keep *k = context;
+    progress_update(&k->bar, done);
+    return interrupt_caught() != 0 ? RENDER_STOP : late(k) ? RENDER_END_BLOCK : RENDER_GO_ON;
+}
+
+static bool make_first_hit(const struct looks *l, float *const picture[N_AOVS])
+{
+    struct keep *k = &l->run->keep;
+    struct render_options o = l->run->job.options;
+    o.end = l->run->film.iterations > 0 ? l->run->film.iterations : 1;
+    o.progress = watch;
+    o.progress_context = k;
+    progress_start(&k->bar, l->run->asked->quiet);
+    strcpy(k->bar.note, " of --aov");
+    bool ok = aov_render(&l->run->scene, &o, l->options->seen, picture);
+    progress_end(&k->bar);
+    return ok;
+}
+
+static float *image_of(const struct film *f, double scale)
+{
+    float *out = mem_alloc(rect_pixels(f->rect) * 3, sizeof *out);
+    film_develop(f, scale, out);
+    return out;
+}
+
+/* The picture as it is to be shown: it is the colours that a curve is for, not their multiples by alpha. */
+static void show(const struct tone *tone, const float *alpha, size_t n, float *pixels)
+{
+    for (size_t i = 0; alpha != NULL && i < n; i++)
+        pixels[i] = alpha[i] > 0 ? pixels[i] / alpha[i] : 0;
+    tone_map(tone, pixels, n, pixels);
+    for (size_t i = 0; alpha != NULL && i < n; i++)
+        pixels[i] *= alpha[i];
+}
+
+/* The channels of the picture's own file. Returns their number. */
+static int channels_of(const struct looks *l, const float *alpha, float *const picture[N_AOVS], struct channel *out)
+{
+    static const char *const NAMES[N_AOVS][3] = {{"albedo.R", "albedo.G", "albedo.B"},
+                                                 {"normal.X", "normal.Y", "normal.Z"},
+                                                 {"depth.Z", NULL, NULL},
+                                                 {"position.X", "position.Y", "position.Z"},
+                                                 {"variance.R", "variance.G", "variance.B"}};
+    int n = 0;
+    if (alpha != NULL)
+        out[n++] = (struct channel){"A", alpha, 3, false};
+    for (int i = 0; i < N_AOVS && l->options->layers; i++)
+        for (int c = 0; c < 3 && picture[i] != NULL && NAMES[i][c] != NULL; c++)
+            out[n++] = (struct channel){NAMES[i][c], picture[i] + c, 3, true};
+    return n;
+}
+
+static bool write_one(const struct looks *l, struct look_file *f, float *const picture[N_AOVS], struct error *err)
+{
+    const struct render_run *r = l->run;
+    const struct film *film = f->light >= 0 ? &l->planes.film[f->light] : &r->film;
+    float *pixels = f->aov < N_AOVS ? NULL : image_of(film, r->scene.film_scale), *alpha = NULL;
+    struct raster raster = {r->keep.part.place, rect_width(film->rect), rect_height(film->rect), pixels, NULL, 0};
+    struct channel channel[1 + 3 * N_AOVS];
+    if (f->aov < N_AOVS)
+        raster.pixels = picture[f->aov];
+    if (f->light < 0 && f->aov == N_AOVS) {
+        alpha = l->options->alpha ? image_of(planes_alpha(&l->planes), 1) : NULL;
+        raster.more = channel;
+        raster.n_more = channels_of(l, alpha, picture, channel);
+        if (image_is_8_bit(f->file.path))
+            show(&r->pictures.tone, alpha, 3 * rect_pixels(film->rect), pixels);
+    }
+    bool ok = image_finish(&f->file, &raster, err);
+    free(alpha);
+    free(pixels);
+    return ok;
+}
+
+/* One that fails does not keep the others from being written: the first message is kept. */
+static bool write_all(struct looks *l, float *const picture[N_AOVS], bool ok, struct error *err)
+{
+    for (int i = 0; i < l->n; i++) {
+        struct look_file *f = &l->item[i];
+        if (f->aov < N_AOVS && picture[f->aov] == NULL)
+            continue;
+        char *name = mem_copy_text(f->file.path);
+        bool done = write_one(l, f, picture, ok ? err : NULL);
+        if (done && !l->run->asked->quiet)
+            say_line("wrote %s", name);
+        ok = ok && done;
+        free(name);
+    }
+    return ok;
+}
+
+/* The images of --aov that are wanted, to be given to free(); NULL where they were not made. False with a message. */
+static bool make_aovs(const struct looks *l, float *picture[N_AOVS], struct error *err)
+{
+    const struct film *film = &l->run->film;
+    bool first_hit = false;
+    if (l->wanted[AOV_VARIANCE] && film->iterations < 2)
+        return error_set(err, "--aov: not written, for one sample per pixel has no variance");
+    for (int i = 0; i < N_AOVS; i++) {
+        picture[i] = mem_alloc(rect_pixels(film->rect) * 3, sizeof *picture[i]);
+        first_hit |= i < N_FIRST_HIT && l->wanted[i];
+    }
+    if (l->wanted[AOV_VARIANCE])
+        planes_variance(&l->planes, l->run->scene.film_scale, picture[AOV_VARIANCE]);
+    bool looked = first_hit && make_first_hit(l, picture);
+    if (first_hit && !looked)
+        say_line("asbdpt: --aov: not written, for there are pixels that have not been looked at");
+    for (int i = 0; i < N_AOVS; i++)
+        if (!l->wanted[i] || (first_hit && !looked)) {
+            free(picture[i]);
+            picture[i] = NULL;
+        }
+    return true;
+}
+
+bool looks_write(struct looks *l, bool ok, struct error *err)
+{
+    float *picture[N_AOVS] = {NULL};
+    planes_end(&l->planes);
+    if (ok && l->n > 0) {
+        ok = make_aovs(l, picture, err);
+        ok = write_all(l, picture, ok, err) && ok;
+    }
+    for (int i = 0; i < N_AOVS; i++)
+        free(picture[i]);
+    release(l);
+    return ok;
+}
