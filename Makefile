@@ -22,7 +22,7 @@ LABS     = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/lab/*.c tes
            $(filter-out %/cli/program.o %/render/rows.o,$(OBJECTS))
 TARGETS  = $(BUILD)/obj/test/fuzz/targets.o $(BUILD)/obj/test/fuzz/hostile.o
 TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/*.c)) $(TARGETS)
-PROGRAMS = asbdpt asbdpt-lab $(addprefix $(BUILD)/,test fuzz inject inject-lab)
+PROGRAMS = asbdpt asbdpt-lab $(addprefix $(BUILD)/,test fuzz inject inject-lab embree)
 
 .BEGIN: # which other makes do before anything else, and GNU make never
 	@echo "This Makefile needs GNU make (gmake); doc/portability.md has a line that builds without any make." >&2; exit 1
@@ -41,6 +41,8 @@ $(BUILD)/test: $(TESTS) $(filter-out %/main.o,$(LABS))
 $(BUILD)/fuzz: $(BUILD)/obj/test/fuzz/libfuzzer.o $(TARGETS) $(filter-out %/main.o,$(LABS))
 # both programs, except for functions that may fail: test/fuzz/inject.c has others in their place
 $(BUILD)/inject: $(OBJECTS) $(BUILD)/obj/test/fuzz/inject.o
+$(BUILD)/embree: $(BUILD)/obj/test/peers/embree.o $(filter-out %/main.o,$(LABS))
+$(BUILD)/embree: LIBS += -lembree3
 $(BUILD)/inject-lab: $(LABS) $(BUILD)/obj/test/fuzz/inject.o
 
 $(PROGRAMS): $(BUILD)/files

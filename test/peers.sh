@@ -4,6 +4,8 @@
 #   PEERS=DIR PUBLISHED=DIR sh test/peers.sh measure OUT
 #       CPU time of a sample path, gain of two threads, memory, into OUT/peers.txt; what is there is not measured again
 #   sh test/peers.sh table <OUT/peers.txt    as a table
+#   PUBLISHED=DIR sh test/peers.sh rays OUT  rays beside those of Embree 3 (Debian: libembree-dev), into OUT/rays.txt
+#   sh test/peers.sh rays_table <OUT/rays.txt
 # DIR/pbrt-v3 and DIR/SmallVCM are their repositories; a program DIR/pbrt or DIR/smallvcm is taken as it is. PUBLISHED
 # has the published scenes in pbrt-v3's format; the room of SmallVCM is scenes/test/smallvcm-1.pbrt.
 # A sample path costs what more samples cost, so that reading and building are not in it: the least of three runs, of
@@ -105,9 +107,26 @@ table() {
         $8 / $5, 2 * $5 / $6, 2 * $8 / $9, $7, $10 }'
 }
 
+# rays OUT: see test/peers/embree.c.
+rays() {
+    mkdir -p "$1"
+    : >"$1/rays.txt"
+    echo '#include <embree3/rtcore.h>' | ${CC-cc} -E - >/dev/null 2>&1 || { echo "Embree 3: not there" >&2; return; }
+    make -s build/embree >&2 || return
+    for scene in cornell-box veach-ajar living-room bathroom; do
+        build/embree "$PUBLISHED/$scene/scene.pbrt" | sed "s|^.*/scene.pbrt|$scene|" >>"$1/rays.txt"
+    done
+}
+rays_table() {
+    echo '| scene | triangles | first hit: ours, Embree, Mray/s | ratio | any hit | ratio | between two places | ratio |'
+    echo '|---|---:|---:|---:|---:|---:|---:|---:|'
+    awk '{ printf "| %s | %s | %s, %s | %s | %s, %s | %s | %s, %s | %s |\n", $1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11 }'
+}
+
 case ${1-} in
 build) build ;;
 measure) measure "$2" ;;
-table) table ;;
-*) sed -n '2,6s/^# *//p' "$0"; exit 2 ;;
+rays) rays "$2" ;;
+table | rays_table) "$1" ;;
+*) sed -n '2,8s/^# *//p' "$0"; exit 2 ;;
 esac

@@ -48,7 +48,7 @@ double kd_half_area(const struct box *b);
 
 /* The cost of a visit of an inner node in tests of a block of triangles, with its share of cache misses and wrong
  * guesses of the processor; found by measurement. */
-#define KD_VISIT_COST 1.5
+#define KD_VISIT_COST 2
 
 /* kd_leaf_cost: the same for a leaf with items of weight n. */
 double kd_leaf_cost(size_t n);

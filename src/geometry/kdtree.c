@@ -1,7 +1,8 @@
 /* kdtree.c: rays through the kd-tree. See kdtree.h; the tree is built in kd_build.c.
  *
  * A ray goes front to back: of an inner node's two cells the one on its side is visited first, the other waits on a
- * stack. A ray that asks for the first hit does not visit cells behind it; a shadow ray takes any hit.
+ * stack. A ray that asks for the first hit does not visit cells behind it. A shadow ray takes any hit, and goes back to
+ * front: walls are far from where most rays begin, and what shades a lamp is near it.
  *
  * No hit may be lost to rounding, so a plane is a slab: the ray enters it at t_lo and leaves it at t_hi, and both
  * cells extend over it. Its half width, 1e-14 of the scene's size, is a hundred times what the triangle test and
@@ -226,7 +227,7 @@ struct traversal {
     uint32_t near_child[3];  /* 0: the ray goes up the axis, the lower cell comes first; 1: down */
     struct kd_visit cell;
     int waiting;
-    struct kd_visit stack[KD_MAX_DEPTH];
+    struct kd_visit stack[KD_MAX_DEPTH + 1];
 };
 
 /* A component this small moves the ray by nothing within any scene. It replaces 0 to keep 1/d finite. */
@@ -236,14 +237,14 @@ static double inverse_of(double d)
     return 1 / (d + copysign(least, d));
 }
 
-/* Prepare the traversal of a stretch of the ray; false if it misses the bounds. */
-static inline bool traversal_start(struct traversal *w, const struct kdtree *kd, const struct ray *ray, bool bounded,
+/* Prepare the traversal of a stretch of o + t d; false if it misses the bounds. */
+static inline bool traversal_start(struct traversal *w, const struct kdtree *kd, vec3 o, vec3 to, bool bounded,
                                    double tmin, double tmax)
 {
-    const double d[3] = {ray->d.x, ray->d.y, ray->d.z};
-    w->o[0] = ray->o.x;
-    w->o[1] = ray->o.y;
-    w->o[2] = ray->o.z;
+    const double d[3] = {to.x, to.y, to.z};
+    w->o[0] = o.x;
+    w->o[1] = o.y;
+    w->o[2] = o.z;
     w->size = larger(larger(kd->reach, fabs(w->o[0])), larger(fabs(w->o[1]), fabs(w->o[2])));
     for (int k = 0; k < 3; k++) {
         double inverse = inverse_of(d[k]), slack = 1e-14 * w->size * fabs(inverse);
@@ -272,18 +273,17 @@ static inline struct kd_node traversal_to_leaf(struct traversal *w, const struct
         uint32_t near_cell = children + w->near_child[axis], far_cell = children + 1 - w->near_child[axis];
         double t = (n.at.split - w->o[axis]) * w->inverse[axis];
         double t_lo = t - w->slack[axis], t_hi = t + w->slack[axis];
-        if (t_lo > tmax) {
-            n = nodes[near_cell];
-        } else if (t_hi < tmin) {
+        if (t_hi < tmin) {
             n = nodes[far_cell];
-        } else {
-            struct kd_visit *far = &w->stack[w->waiting++];
-            far->node = far_cell;
-            far->tmin = larger(t_lo, tmin);
-            far->tmax = tmax;
-            tmax = smaller(t_hi, tmax);
-            n = nodes[near_cell];
+            continue;
         }
+        struct kd_visit *far = &w->stack[w->waiting]; /* the next one's place, where this one does not wait */
+        far->node = far_cell;
+        far->tmin = larger(t_lo, tmin);
+        far->tmax = tmax;
+        w->waiting += t_lo <= tmax; /* no branch: a processor guesses it wrong too often */
+        tmax = smaller(t_hi, tmax);
+        n = nodes[near_cell];
     }
     range[0] = tmin;
     range[1] = tmax;
@@ -310,7 +310,9 @@ static inline bool traverse(struct search *q, const struct ray *ray, double tmin
     struct traversal w;
     double range[2];
     q->found = false;
-    if (!traversal_start(&w, q->kd, ray, ray->tmax < INFINITY && q->instance == 0, tmin, tmax))
+    bool bounded = ray->tmax < INFINITY && q->instance == 0;
+    if (!(shadow ? traversal_start(&w, q->kd, ray->o, neg(ray->d), bounded, -tmax, -tmin)
+                 : traversal_start(&w, q->kd, ray->o, ray->d, bounded, tmin, tmax)))
         return false;
     q->ray = triangle_ray(ray);
     const struct block_ray r = block_ray(&q->ray, w.size);
@@ -322,7 +324,7 @@ static inline bool traverse(struct search *q, const struct ray *ray, double tmin
             if ((near.pair[0] | near.pair[1]) != 0 && note_block(q, block, near, range, shadow))
                 return true;
         }
-    } while (traversal_next(&w, q->limit));
+    } while (traversal_next(&w, shadow ? INFINITY : q->limit));
     return q->found;
 }
 
@@ -343,8 +345,9 @@ static bool instance_met(const struct search *q, int prim, const double range[2]
     const struct instance *place = &q->geo->instance[prim - FIRST_INSTANCE];
     const struct ray *ray = q->ray.ray;
     const int number = prim - FIRST_INSTANCE + 1;
-    double slack = 1e-9 * (fabs(range[1]) + q->kd->reach);
-    double tmin = larger(ray->tmin, range[0] - slack), tmax = smaller(q->limit, range[1] + slack);
+    double slack = 1e-9 * (larger(fabs(range[0]), fabs(range[1])) + q->kd->reach);
+    double first = shadow ? -range[1] : range[0], last = shadow ? -range[0] : range[1];
+    double tmin = larger(ray->tmin, first - slack), tmax = smaller(q->limit, last + slack);
     struct search in = *q;
     struct ray r = *ray;
     in.kd = &q->kd->object[place->object];
@@ -417,7 +420,7 @@ int kd_all(const struct kdtree *kd, const struct geometry *geo, const struct ray
     double range[2];
     int n = 0;
     bool bounded = ray->tmax < INFINITY;
-    for (bool more = traversal_start(&w, kd, ray, bounded, ray->tmin, ray->tmax); more;
+    for (bool more = traversal_start(&w, kd, ray->o, ray->d, bounded, ray->tmin, ray->tmax); more;
          more = traversal_next(&w, ray->tmax)) {
         struct kd_node leaf = traversal_to_leaf(&w, kd->node, range);
         const struct kd_block *block = kd->block + leaf.at.first, *end = block + kd_blocks(leaf);

@@ -1,20 +1,17 @@
 /* cmd_bench.c: asbdpt-lab bench: how fast is each part of the program on given scenes?
  *
  * Rates are per second of CPU time of one thread: other programs on the machine disturb them less than wall time.
- * Rays are incoherent: cosine-distributed directions from points all over the scene, found by following a camera ray
- * one bounce. Peak memory is that of the process so far: for a scene's own, measure it alone.
+ * Peak memory is that of the process so far: for a scene's own, measure it alone.
  */
 
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/vec.h"
 #include "base/mem.h"
 #include "base/os.h"
-#include "base/sampler.h"
-#include "base/warp.h"
 #include "lab/commands.h"
 #include "lab/methods.h"
+#include "lab/rays.h"
 #include "lab/timed.h"
 #include "parser/parser.h"
 #include "render/job.h"
@@ -53,42 +50,6 @@ static const struct option OPTIONS[] = {
 
 /* --- rays --------------------------------------------------------------------------------------------- */
 
-enum { N_RAYS = 1 << 17, FRAME = 128 /* pixels along the square root of the frame's area */ };
-
-static vec3 cosine_direction(struct sampler *sampler, vec3 n)
-{
-    struct frame f = frame_from_normal(n);
-    double u[2];
-    sampler_pair(sampler, DRAW_SCATTERING, u);
-    return to_world(&f, warp_cos_hemisphere(u[0], u[1]));
-}
-
-/* Replace the ray by one leaving the surface it meets. False if it meets none. */
-static bool bounce(const struct scene *s, struct ray *ray, struct sampler *sampler)
-{
-    struct surface at;
-    if (!scene_intersect(s, ray, &at))
-        return false;
-    struct ray next = {at.p, cosine_direction(sampler, faceforward(at.ng, neg(ray->d))), ray_margin(at.p), INFINITY,
-                       at.prim_id, 0};
-    *ray = next;
-    return true;
-}
-
-/* N_RAYS rays; returns fewer if the camera sees hardly anything. */
-static int make_rays(const struct scene *s, struct ray *out)
-{
-    int n = 0;
-    for (int i = 0; n < N_RAYS && i < 8 * N_RAYS; i++) {
-        struct sampler sampler = sampler_start(0, RNG_TEST, (uint64_t)i, 0);
-        double u[2];
-        sampler_pair(&sampler, DRAW_FILM_POINT, u);
-        out[n] = camera_ray(&s->camera, u[0] * s->width, u[1] * s->height, 0.5, 0.5);
-        n += bounce(s, &out[n], &sampler) && bounce(s, &out[n], &sampler);
-    }
-    return n;
-}
-
 /* Million rays per second of CPU time. */
 static double ray_rate(const struct scene *s, const struct ray *rays, int n, bool any)
 {
@@ -110,7 +71,7 @@ static double ray_rate(const struct scene *s, const struct ray *rays, int n, boo
 static void measure_rays(const struct scene *s, double *value)
 {
     struct ray *rays = mem_alloc(N_RAYS, sizeof *rays);
-    int n = make_rays(s, rays);
+    int n = bench_rays(s, rays);
     value[CLOSEST] = ray_rate(s, rays, n, false);
     value[ANY] = ray_rate(s, rays, n, true);
     free(rays);
@@ -147,6 +108,8 @@ static bool measure_renders(const struct scene *s, const struct bench_options *o
 }
 
 /* --- one scene ---------------------------------------------------------------------------------------- */
+
+enum { FRAME = 128 /* pixels along the square root of the frame's area */ };
 
 /* Same framing, about FRAME^2 pixels; at most 65536 FRAME a side. */
 static void shrink_film(struct scene *s)
