@@ -260,7 +260,7 @@ for line in '"version": "asbdpt ' '"select": "subspaces",' '"delta": 0.25,' '"ma
 done
 # Without light sub-paths there are no draws.
 prints '"pixels_per_light_path": 0,' \
-    "$program" render "$scenes/sky.pbrt" --res 64x48 --spp 1 --quiet --integrator asbdpt --stats - -o a.pfm
+    "$program" render "$scenes/sky.pbrt" --res 24x16 --spp 1 --quiet --integrator asbdpt -P pathpixels=0 --stats - -o a.pfm
 says '"draws_first_hit": 0,' '"draws_after": 0,'
 prints '"spp": 3,' "$program" render "$box" --integrator pt --quick --quiet --spp 3 --cropwindow 0 0.5 0 1 \
     --samples 1:3 --stats - -o a.part

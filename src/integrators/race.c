@@ -9,7 +9,7 @@
 #include "learning/patience.h"
 
 enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, EACH = 75, SAMPLES = 16 }; /* a pixel of EACH, SIDE x SIDE at most */
-static const double FIREFLY = 16;
+static const double FIREFLY = 11;
 
 /* What is counted, and its price. Prices were fitted to CPU times; only their ratios count. The price of a light vertex
  * includes its splat. A light point that the guide chooses costs GUIDE more. */
