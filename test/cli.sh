@@ -15,7 +15,7 @@ nan() { head -c "$1" /dev/zero | LC_ALL=C tr '\000' '\377'; } # so many bytes of
 prints '^asbdpt SCENE.pbrt' "$program" --help
 prints '^    experiment  ' "$lab" --help
 for command in render merge convert; do prints "usage: asbdpt $command" "$program" $command --help; done
-for command in info compare trace worth strategies verify experiment equal-time family transient bench; do
+for command in info compare trace worth strategies verify conform experiment equal-time family transient bench; do
     prints "usage: asbdpt-lab $command" "$lab" $command -h
 done
 expect 0 '' "$program" --version
@@ -365,6 +365,26 @@ says '^verdict: DIFFER'
 expect 1 '' "$lab" verify --images nan.pfm ref/bathroom.error.pfm nan.pfm ref/bathroom.error.pfm
 says '^verdict: DIFFER'
 expect 1 'nan.pfm: NaN or infinite values: 2592$' "$lab" compare nan.pfm nan.pfm --max-rmse 1
+# Pictures against a reference, one of them twice.
+mkdir kit
+"$program" render "$scenes/conform/area.pbrt" --integrator bdpt --spp 4 --quiet -o kit/area-1.pfm
+cp kit/area-1.pfm kit/area-2.pfm
+prints '^verdict: agree' "$lab" verify --files kit/area-1.pfm kit/area-2.pfm --reference "$top/ref/conform/area.pfm"
+says 'of 2 pictures 1 differ; the others are identical' '^1 pictures alone: their variance is taken from blocks'
+expect 2 'usage: asbdpt-lab verify' "$lab" verify --files kit/area-1.pfm
+
+# --- conform
+# conform: what differs, in words, with status 1; what is there twice counts once.
+"$lab" conform kit --kit "$top/ref/conform" >stdout.txt
+says '^area  *1 (blocks) .*(1 more pictures are identical: is the seed used?)' '^1 scenes: ' '^no pictures of alpha, bump' \
+    '^a correct renderer has a scene that DIFFERS with probability 0.01'
+rm kit/*
+"$program" render "$scenes/conform/area.pbrt" --integrator bdpt --maxdepth 2 --spp 16 --quiet -o kit/area.exr
+expect 1 '' "$lab" conform kit --kit "$top/ref/conform"
+says '^area .* DIFFERS' '^of the scenes with area differ 1 of 1' '^depth is counted one more explains area$'
+rm kit/*
+expect 1 "holds no picture of the kit" "$lab" conform kit --kit "$top/ref/conform"
+expect 1 'list.txt: cannot be opened; --kit' "$lab" conform kit --kit nowhere
 
 # --- experiment
 # equal-time: a table, and a line for every method and seed.

@@ -36,7 +36,7 @@ static const struct test_entry ENTRIES[] = {
     {"sampler", test_sampler, false},
     {"walk", test_walk, false}, {"joint", test_joint, false}, {"weights", test_formulas, false},
     {"medium", test_medium, false}, {"media", test_media, false}, {"media-long", test_media_long, true},
-    {"closed", test_closed, false},
+    {"closed", test_closed, false}, {"conform", test_conform, false},
     {"mis", test_mis, false}, {"race", test_race, false},
     {"table", test_table, false}, {"regions", test_regions, false},
     {"emission", test_emission, false},

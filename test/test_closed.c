@@ -1,8 +1,9 @@
 /* test_closed.c: scenes along the axes, where radiance is known in closed form: directions are exactly perpendicular,
  * parallel or at 45 degrees. Lights, views, faces and mirrors are in one of the 24 rotations that exchange axes. What
- * all methods miss alike no comparison of methods shows. */
+ * all methods miss alike no comparison of methods shows. Most of the scenes are those of scenes/conform. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/maths.h"
@@ -32,19 +33,33 @@ static vec3 turned(int k, vec3 p)
     return vec(to[0], to[1], to[2]);
 }
 
-/* A scene's text, whose points "<x y z>" are turned. */
+/* The words that points follow. */
+static const char *points_follow(const char *p)
+{
+    static const char *const words[] = {"LookAt ", "\"point P\" [", "\"point from\" [", "\"point to\" ["};
+    for (int i = 0; i < 4; i++)
+        if (strncmp(p, words[i], strlen(words[i])) == 0)
+            return words[i];
+    return NULL;
+}
+
+/* A scene's text, whose points are turned. */
 static void turn_text(const char *text, int k, char out[TEXT])
 {
     size_t n = 0;
-    for (const char *p = text; *p != '\0'; p++) {
+    for (const char *p = text; *p != '\0' && n < TEXT - 100;) {
+        const char *words = points_follow(p);
         vec3 v;
-        if (sscanf(p, "<%lf %lf %lf>", &v.x, &v.y, &v.z) != 3) {
-            out[n++] = *p;
+        int length;
+        if (words == NULL) {
+            out[n++] = *p++;
             continue;
         }
-        v = turned(k, v);
-        n += (size_t)snprintf(out + n, TEXT - n, "%.9g %.9g %.9g", v.x, v.y, v.z);
-        p = strchr(p, '>');
+        n += (size_t)snprintf(out + n, TEXT - n, "%s", words);
+        for (p += strlen(words); sscanf(p, "%lf %lf %lf%n", &v.x, &v.y, &v.z, &length) == 3; p += length) {
+            v = turned(k, v);
+            n += (size_t)snprintf(out + n, TEXT - n, "%.9g %.9g %.9g ", v.x, v.y, v.z);
+        }
     }
     out[n] = '\0';
 }
@@ -56,19 +71,14 @@ static void turn_text(const char *text, int k, char out[TEXT])
     "LookAt " eye " " at " " up "\n"
 #define CAMERA(half)                                                                                                   \
     "Camera \"orthographic\" \"float screenwindow\" [-" half " " half " -" half " " half "]\n"
-#define VIEW(eye, at, up, half) LOOK(eye, at, up) CAMERA(half)
 #define FOG                                                                                                            \
-    VIEW("<0 0 -5>", "<0 0 0>", "<0 1 0>", "1")                                                                        \
+    LOOK("0 0 -5", "0 0 0", "0 1 0") CAMERA("1")                                                                       \
     "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n"                                                        \
     "\"rgb sigma_a\" [.1 .2 .5] \"rgb sigma_s\" [.3 .5 1] \"float g\" .5 WorldBegin Material \"\"\n"                   \
     "MediumInterface \"fog\" \"\" Shape \"trianglemesh\" \"integer indices\" [0 3 2 0 2 1 4 5 6 4 6 7 0 1 5 0 5 4\n"   \
-    "3 7 6 3 6 2 0 4 7 0 7 3 1 2 6 1 6 5] \"point P\" [<-1 -1 -1> <1 -1 -1> <1 1 -1> <-1 1 -1> <-1 -1 1> <1 -1 1>\n"   \
-    "<1 1 1> <-1 1 1>] MediumInterface \"\"\n"
-#define FACE(a, b, c, d) QUAD(a " " b " " c " " d)
-#define SUN(from) "LightSource \"distant\" \"rgb L\" [2 2 2] \"point from\" [" from "] \"point to\" [<0 0 0>]\n"
-#define FLOOR "Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n" FACE("<-1 -2 -1>", "<1 -2 -1>", "<1 -2 1>", "<-1 -2 1>")
-#define LAMP                                                                                                           \
-    "AreaLightSource \"diffuse\" \"rgb L\" [2 2 2] \"bool twosided\" \"true\" Material \"matte\" \"rgb Kd\" [0 0 0]\n"
+    "3 7 6 3 6 2 0 4 7 0 7 3 1 2 6 1 6 5] \"point P\" [-1 -1 -1  1 -1 -1  1 1 -1  -1 1 -1  -1 -1 1  1 -1 1\n"          \
+    "1 1 1  -1 1 1] MediumInterface \"\"\n"
+#define SUN(from) "LightSource \"distant\" \"rgb L\" [2 2 2] \"point from\" [" from "] \"point to\" [0 0 0]\n"
 
 /* What fog sends on of a sun that turns by an angle of this cosine, on average over the box and the channels. */
 static double fog(double cosine)
@@ -87,49 +97,32 @@ static double fog(double cosine)
 static double fog_across(void) { return fog(0); }
 static double fog_back(void) { return fog(-1); }
 static double fog_forward(void) { return fog(1); }
-static double floor_below(void) { return 0.5 * 2 / PI; }
-static double mirror_lamp(void) { return 0.9 * 2; }
-static double mirror_sun(void) { return 0.9 * 0.5 * 2 / PI; }
-static double glass_lamp(void) { return 2 * (1 - 0.04) / (1 + 0.04); } /* of all reflections between the faces */
-static double glass_sun(void) { return 0.96 * 0.96 * 0.5 * 2 / PI; }   /* of the straight way alone */
-
-/* A point light 2 above a square of side 2: what it sends into the square's solid angle. */
-static double point_above(void) { return 0.5 / PI * 2 * 4 * atan(1 / (2 * sqrt(6))) / 4; }
 
 static const struct {
-    const char *name, *text;
+    const char *name, *text; /* NULL: that of scenes/conform/NAME.pbrt, which says its closed form */
     double (*mean)(void);
     int depth, spp;
     const char *without; /* methods that cannot make this light, or hardly ever do */
-} SCENES[] = {
-    {"fog, sun across the view", FOG SUN("<0 1 0>") "WorldEnd", fog_across, 1, 16, ""},
-    {"fog, sun from behind", FOG SUN("<0 0 -1>") "WorldEnd", fog_back, 1, 16, ""},
-    {"fog, sun from the front", FOG SUN("<0 0 1>") "WorldEnd", fog_forward, 1, 16, ""},
-    {"floor, sun and view from above",
-     VIEW("<0 4 0>", "<0 0 0>", "<0 0 1>", "1") "WorldBegin\n" SUN("<0 1 0>") FLOOR "WorldEnd", floor_below, 2, 16, ""},
-    {"floor, point light above it",
-     VIEW("<0 4 0>", "<0 0 0>", "<0 0 1>", "1") "WorldBegin LightSource \"point\" \"rgb I\" [2 2 2]\n" FLOOR "WorldEnd",
-     point_above, 1, 32, ""},
-    {"lamp in a mirror at 45 degrees",
-     VIEW("<0 0 -5>", "<0 0 0>", "<0 1 0>", ".5") "WorldBegin Material \"mirror\"\n"
-     FACE("<-1 -1 -1>", "<1 -1 -1>", "<1 1 1>", "<-1 1 1>")
-     LAMP FACE("<-2 3 -2>", "<2 3 -2>", "<2 3 2>", "<-2 3 2>") "WorldEnd", mirror_lamp, 3, 4, "lt"},
-    {"sun by a mirror at 45 degrees",
-     VIEW("<0 -1 0>", "<0 -2 0>", "<0 0 1>", "1") "WorldBegin Material \"mirror\"\n"
-     FACE("<-1 1 -1>", "<1 1 -1>", "<1 -1 1>", "<-1 -1 1>") SUN("<0 0 -1>") FLOOR "WorldEnd", mirror_sun, 2, 64, "pt"},
-    {"lamp behind glass, head-on",
-     VIEW("<0 0 -5>", "<0 0 0>", "<0 1 0>", ".5") "WorldBegin Material \"glass\"\n"
-     FACE("<-1 -1 0>", "<-1 1 0>", "<1 1 0>", "<1 -1 0>") FACE("<-1 -1 1>", "<1 -1 1>", "<1 1 1>", "<-1 1 1>")
-     LAMP FACE("<-2 -2 3>", "<2 -2 3>", "<2 2 3>", "<-2 2 3>") "WorldEnd", glass_lamp, 12, 32, "lt"},
-    {"sun through glass, head-on",
-     VIEW("<0 -1 0>", "<0 -2 0>", "<0 0 1>", "1") "WorldBegin Material \"glass\"\n"
-     FACE("<-1 0 -1>", "<1 0 -1>", "<1 0 1>", "<-1 0 1>") FACE("<-1 1 -1>", "<-1 1 1>", "<1 1 1>", "<1 1 -1>")
-     SUN("<0 1 0>") FLOOR "WorldEnd", glass_sun, 3, 64, "pt"}};
+} SCENES[] = {{"fog, sun across the view", FOG SUN("0 1 0") "WorldEnd", fog_across, 1, 16, ""},
+              {"fog, sun from behind", FOG SUN("0 0 -1") "WorldEnd", fog_back, 1, 16, ""},
+              {"fog, sun from the front", FOG SUN("0 0 1") "WorldEnd", fog_forward, 1, 16, ""},
+              {"floor-sun", NULL, NULL, 2, 16, ""},
+              {"floor-point", NULL, NULL, 1, 32, ""},
+              {"mirror-lamp", NULL, NULL, 3, 4, "lt"},
+              {"mirror-sun", NULL, NULL, 2, 64, "pt"},
+              {"glass-lamp", NULL, NULL, 12, 32, "lt"},
+              {"glass-sun", NULL, NULL, 3, 64, "pt"}};
 enum { N_SCENES = sizeof SCENES / sizeof SCENES[0] };
 
-static void check(struct test *t, struct scene *scene, int i, const char *way)
+/* What the comment of a scene says that its pixels are, or are on average; NaN if it does not. */
+static double said(const char *text)
 {
-    double wanted = SCENES[i].mean();
+    const char *at = strstr(text, "# closed form");
+    return at != NULL ? strtod(strchr(at, ':') + 1, NULL) : NAN;
+}
+
+static void check(struct test *t, struct scene *scene, int i, const char *way, double wanted)
+{
     const char *m = set_method(scene, way);
     int depth = SCENES[i].depth, spp = SCENES[i].spp;
     struct batches b = is_chain(way) ? independent_batches(t, scene, m, depth, spp, BATCHES / 2, 2, 877)
@@ -142,21 +135,27 @@ static void check(struct test *t, struct scene *scene, int i, const char *way)
     batches_free(&b);
 }
 
-/* Every scene by every method, each pair in a rotation of its own. */
+/* Every scene by every method, each pair in a rotation of its own, as 2x2 pixels. */
 static void test_positions(struct test *t)
 {
-    for (int i = 0, k = 0; i < N_SCENES; i++)
+    for (int i = 0, k = 0; i < N_SCENES; i++) {
+        char name[64], text[TEXT], *stored = NULL;
+        snprintf(name, sizeof name, "%s.pbrt", SCENES[i].name);
+        const char *from = SCENES[i].text != NULL ? SCENES[i].text : (stored = text_of(t, "scenes/conform", name));
         for (int w = 0; w < N_WAYS; w++, k++) {
-            char text[TEXT];
             struct scene scene;
             if (SCENES[i].without[0] != '\0' && strcmp(WAYS[w], SCENES[i].without) == 0)
                 continue;
-            turn_text(SCENES[i].text, k % 24, text);
+            turn_text(from, k % 24, text);
             if (!scene_from_text(t, text, &scene))
-                return;
-            check(t, &scene, i, WAYS[w]);
+                break;
+            scene.width = scene.height = 2;
+            camera_prepare(&scene.camera, scene.width, scene.height);
+            check(t, &scene, i, WAYS[w], SCENES[i].mean != NULL ? SCENES[i].mean() : said(from));
             scene_free(&scene);
         }
+        free(stored);
+    }
 }
 
 /* --- size and brightness ------------------------------------------------------------------------------ */
@@ -165,14 +164,13 @@ static void test_positions(struct test *t)
  * what a float holds. Powers of two leave all else as it is. */
 static double brightness(struct test *t, const char *way, double size, double light)
 {
-    char scaled[TEXT];
-    struct scene scene;
-    snprintf(scaled, sizeof scaled, LOOK("0 0 -5", "0 0 0", "0 1 0") "Scale %.17g %.17g %.17g\n" CAMERA("1")
-             "WorldBegin Scale %.17g %.17g %.17g\n" FLOOR FACE("-1 -2 1", "1 -2 1", "1 2 1", "-1 2 1")
-             "AreaLightSource \"diffuse\" \"rgb L\" [%.17g %.17g %.17g]\n" FACE("-1 2 -1", "1 2 -1", "1 2 1", "-1 2 1")
-             "WorldEnd", 1 / size, 1 / size, 1 / size, size, size, size, light, light, light);
     char text[TEXT];
-    turn_text(scaled, 0, text);
+    struct scene scene;
+    snprintf(text, sizeof text, LOOK("0 0 -5", "0 0 0", "0 1 0") "Scale %.17g %.17g %.17g\n" CAMERA("1")
+             "WorldBegin Scale %.17g %.17g %.17g\n" "Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n"
+             QUAD("-1 -2 -1  1 -2 -1  1 -2 1  -1 -2 1") QUAD("-1 -2 1  1 -2 1  1 2 1  -1 2 1")
+             "AreaLightSource \"diffuse\" \"rgb L\" [%.17g %.17g %.17g]\n" QUAD("-1 2 -1  1 2 -1  1 2 1  -1 2 1")
+             "WorldEnd", 1 / size, 1 / size, 1 / size, size, size, size, light, light, light);
     if (!scene_from_text(t, text, &scene))
         return 0;
     struct batches b = render_batches(t, &scene, set_method(&scene, way), 4, 16, 2, 2, 878);

@@ -14,6 +14,7 @@ void test_alias(struct test *t);
 void test_growth(struct test *t); /* of CPU time: for the course alone, which asks for it by name */
 void test_bsdf(struct test *t);
 void test_closed(struct test *t);
+void test_conform(struct test *t);
 void test_chains(struct test *t);
 void test_chains_long(struct test *t);
 void test_camera(struct test *t);

@@ -4,6 +4,7 @@
 
 #include "cli/job_options.h"
 #include "lab/commands.h"
+#include "lab/conform.h"
 #include "lab/methods.h"
 #include "lab/sides.h"
 #include "render/job.h"
@@ -63,10 +64,10 @@ static bool choose_pictures(struct verify_options *o, struct error *err)
         a->with_errors = b->with_errors = true;
         return o->images.n == 4;
     }
-    if (o->files.n > 0) {
-        a->file = o->files.item;
+    a->file = o->files.item;
+    a->n = o->files.n;
+    if (o->against.n > 0) {
         b->file = o->against.item;
-        a->n = o->files.n;
         b->n = o->against.n;
         return a->n > 1 && b->n > 1;
     }
@@ -78,7 +79,7 @@ static bool choose_pictures(struct verify_options *o, struct error *err)
         b->with_errors = true;
         return side_errors_path(o->reference, o->errors_path, sizeof o->errors_path, err);
     }
-    return true;
+    return a->n == 0;
 }
 
 static bool choose_methods(struct verify_options *o, struct error *err)
@@ -168,6 +169,9 @@ static bool make_sides(struct scene *scene, const struct verify_options *o, stru
         const struct source *from = &o->source[i];
         if (from->n > 0 && !side_read(from->file, from->n, from->with_errors, like, &side[i], err))
             return false;
+        if (from->n > 0 && !from->with_errors && conform_distinct(&side[i]) > 0)
+            printf("%s: of %d pictures %d differ; the others are identical to these\n", side[i].name, from->n,
+                   side[i].pixels.n_batches);
         like = from->n > 0 ? &side[i] : like;
     }
     if (o->source[0].n > 0 && o->source[1].n > 0)
@@ -223,7 +227,11 @@ static int judge(const struct verify_options *o, uint64_t content, int max_depth
         return EXIT_OK;
     }
     int tile = o->tile > 0 ? o->tile : side_choose_tile(a);
-    struct batches x = batches_tiles(&a->pixels, a->width, a->height, tile);
+    struct batches x = b->pixels.error != NULL ? conform_tiles(a, b, tile) :
+                                                 batches_tiles(&a->pixels, a->width, a->height, tile);
+    if (x.n_batches > a->pixels.n_batches)
+        printf("%d pictures alone: their variance is taken from blocks of pixels, as if these were independent\n",
+               a->pixels.n_batches);
     struct batches y = batches_tiles(&b->pixels, b->width, b->height, tile);
     struct verdict v = verify_batches(&x, &y, o->job.seed);
     struct provenance from = {o->note != NULL ? o->note : "", o->job.scene_path, content, max_depth, &v};
@@ -283,6 +291,6 @@ const struct command command_verify = {
     "verify", "test that two methods, or two pictures, agree",
     {"SCENE.pbrt [--methods A,B | --methods A --reference R.pfm] [options]",
      "--images A.pfm A.error.pfm B.pfm B.error.pfm",
-     "SCENE.pbrt --files A.pfm... --against B.pfm... [--store NAME]"},
+     "[SCENE.pbrt] --files A.pfm... [--against B.pfm... [--store NAME] | --reference R.pfm]"},
     OPTIONS, sizeof(struct verify_options), run, true,
     "verify scenes/cornell-box.pbrt --methods pt,bdpt --res 24x24 --spp 16"};

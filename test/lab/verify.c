@@ -164,11 +164,12 @@ struct sides_steps {
     const double *a, *b;
 };
 
-/* Welch's p-value, or more if the darker side may lack but a few samples of its step's size. */
+/* Welch's p-value, or more if a side may lack but a few samples of its step's size: bright ones or, as at the edge of a
+ * shadow, dark ones. */
 static double rare_p(struct moments x, struct moments y, double step_x, double step_y)
 {
     double lacks = fabs(x.mean - y.mean);
-    return most_of(welch(x, y), x.mean < y.mean ? missed_p(x, lacks, step_x) : missed_p(y, lacks, step_y));
+    return most_of(welch(x, y), most_of(missed_p(x, lacks, step_x), missed_p(y, lacks, step_y)));
 }
 
 /* The same of the means over all values: a sample has three channels. */

@@ -1,0 +1,96 @@
+#!/bin/sh
+# make-conform.sh: render the references of scenes/conform again.  sh ref/make-conform.sh [PROGRAM [WORK [SCENE...]]]
+#
+# Every scene is rendered by two methods, bdpt and pt, or lt where no path from the camera finds the light, each in 16
+# batches of 512 samples per pixel with seeds of their own. `asbdpt-lab verify` tests that they agree. Then are stored,
+# with one channel:
+#     ref/conform/NAME.pfm           the mean of both; where the scene has a closed form of every pixel, that
+#     ref/conform/NAME.error.pfm     its standard errors
+#     ref/conform/NAME.MISTAKE.pfm   by bdpt alone, 16 batches of 128: as a renderer with this mistake would show it (test/lab/conform.h)
+#     ref/conform/made.txt           for every scene its mean, the relative error of that, and p of the agreement
+# Renders are kept in WORK: a run that was interrupted goes on where it stopped. One thread takes 20 minutes.
+set -e
+program=${1:-./asbdpt} lab=${1:-./asbdpt}-lab work=${2:-build/conform} out=ref/conform
+[ $# -gt 2 ] && shift 2 || set -- scenes/conform/*.pbrt
+mkdir -p "$work"
+
+# grey FILE.pfm OUT.pfm: its first channel alone.
+grey() {
+    { printf 'Pf\n32 32\n-1\n'; printf "$(od -An -v -to1 -j "$(head -3 "$1" | wc -c)" "$1" |
+        awk '{ for (i = 1; i <= NF; i++) if (n++ % 12 < 4) printf "\\%s", $i }')"; } >"$2"
+}
+# render OUT FIRST_SEED METHOD SPP FILE OPTIONS...: the batches that are still missing.
+render() {
+    to=$1 seed=$2 method=$3 spp=$4 from=$5
+    shift 5
+    for i in 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
+        [ -f "$to-$i.pfm" ] && continue
+        "$program" render "$from" --integrator "$method" "$@" --spp "$spp" --seed $((seed + i)) -j 1 --quiet -o "$work/part.pfm" \
+            2>>"$work/messages"
+        mv "$work/part.pfm" "$to-$i.pfm"
+    done
+}
+# variant MISTAKE FILE OPTIONS...: what bdpt makes of it with these.
+variant() {
+    of=$1 changed=$2
+    shift 2
+    render "$work/$name.$of" 3000 bdpt 128 "$changed" "$@"
+    "$lab" verify "$file" --files "$work/$name.$of"-?.pfm --against "$work/$name.$of"-1?.pfm --store "$work/$name.$of" \
+        >/dev/null
+    grey "$work/$name.$of.pfm" "$out/$name.$of.pfm"
+}
+# turned DEGREES: the scene's file with all its skies turned, in WORK beside their map.
+turned() {
+    cp scenes/conform/map.pfm "$work/"
+    sed "s/^LightSource \"infinite\".*/AttributeBegin $1 & AttributeEnd/" "$file" >"$work/$name.turned.pbrt"
+}
+# dark: the scene's file with nothing that reflects, in WORK.
+dark() {
+    cp scenes/conform/map.pfm "$work/"
+    sed 's/"rgb Kd" \[[^]]*\]/"rgb Kd" [0 0 0]/; s/"rgb sigma_s" \[[^]]*\]/"rgb sigma_s" [0 0 0]/' "$file" >"$work/$name.dark.pbrt"
+}
+# constant VALUE FILE.pfm: a picture of it.
+constant() {
+    echo "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 32 PixelFilter \"box\"
+        Camera \"perspective\" WorldBegin LightSource \"infinite\" \"rgb L\" [$1 $1 $1] WorldEnd" >"$work/constant.pbrt"
+    "$program" render "$work/constant.pbrt" --integrator pt --spp 1 --quiet -o "$work/constant.pfm"
+    grey "$work/constant.pfm" "$2"
+}
+
+for file; do
+    name=$(basename "$file" .pbrt)
+    file=scenes/conform/$name.pbrt
+    depth=$(sed -n 's/^Integrator .*maxdepth" //p' "$file")
+    case $name in mirror-sun | glass-sun | caustic) other=lt ;; *) other=pt ;; esac
+    render "$work/$name-bdpt" 1000 bdpt 512 "$file"
+    render "$work/$name-other" 2000 $other 512 "$file"
+    "$lab" verify "$file" --files "$work/$name-bdpt"-*.pfm --against "$work/$name-other"-*.pfm --store "$work/$name" \
+        >"$work/$name.said" || { cat "$work/$name.said"; exit 1; }
+    grey "$work/$name.pfm" "$out/$name.pfm"
+    grey "$work/$name.error.pfm" "$out/$name.error.pfm"
+    closed=$(sed -n 's/^# closed form: //p' "$file")
+    [ -z "$closed" ] || constant "$closed" "$out/$name.pfm" # of which the kit knows that it has no error
+    if [ "$depth" = 1 ]; then # at depth 0, what shines alone is seen
+        dark
+        variant less "$work/$name.dark.pbrt"
+    else
+        variant less "$file" --maxdepth $((depth - 1))
+    fi
+    variant more "$file" --maxdepth $((depth + 1))
+    case $name in
+    filter) variant box "$file" --filter box ;;
+    *) variant gaussian "$file" --filter gaussian ;;
+    esac
+    case $name in sky-map | two-skies)
+        for angle in 90 180 270; do
+            turned "Rotate $angle 0 0 1"
+            variant turned$angle "$work/$name.turned.pbrt"
+        done
+        turned "Scale -1 1 1"
+        variant mirrored "$work/$name.turned.pbrt"
+    esac
+    awk -v name="$name" '$1 == "mean" { mean = $2 } $1 == "mean_error" { error = $2 } $1 == "agreement" { p = $3 + 0 }
+        END { printf "%-14s mean %.6g  relative error %.2g  p of the agreement %.2g\n", name, mean, error, p }' "$work/$name.txt" \
+        >"$work/$name.made"
+done
+cat "$work"/*.made >"$out/made.txt"

@@ -1,0 +1,63 @@
+/* conform.h: do the pictures that some renderer made of a scene agree with a reference, and if not, which of the
+ * usual mistakes would explain it?
+ *
+ * The test is that of verify.h. Four things are added for pictures by strangers:
+ *
+ *     directions     a mistake that changes what is rendered has a reference of its own. How much of the difference
+ *                    between the two references is in a picture, by least squares, is one number a picture, 0 or 1 on
+ *                    average: Student's test of these sees what no tile shows, as another filter.
+ *     few pictures   fewer than four say little of their own variance. Pixels that lie alike in blocks of 4x4 pixels
+ *                    become batches instead: 16 of each picture. This takes errors of pixels for independent.
+ *     rounding       formats of few digits round all pixels of an even picture alike. Differences of CONFORM_ROUNDING,
+ *                    relative, are forgiven: a common factor so close to 1, and tiles that are so close and so exact.
+ *     doubt          where the pictures cannot decide the verdict is "cannot tell": the mean is known to 1 % at best,
+ *                    one tile of one picture has a third of all squared noise, or only rare samples that have been
+ *                    missed keep Welch's test from finding a difference.
+ *
+ * Tests: test_conform.c.
+ */
+#ifndef ASBDPT_LAB_CONFORM_H
+#define ASBDPT_LAB_CONFORM_H
+
+#include "lab/sides.h"
+
+static const double CONFORM_ROUNDING = 5e-4; /* a half has 11 bits */
+
+/* conform_tiles: the pictures' means over square tiles, as batches or, of fewer than CONFORM_FEW pictures, from blocks.
+ * conform_distinct: keep one of every picture that is there twice, as by a program that ignores its seed. Returns how
+ * many others there were. */
+enum { CONFORM_FEW = 4 };
+struct batches conform_tiles(const struct side *pictures, const struct side *reference, int tile);
+int conform_distinct(struct side *pictures);
+
+enum finding { FINDS_AGREEMENT, FINDS_DOUBT, FINDS_DIFFERENCE };
+
+struct judgement {
+    struct verdict verdict;
+    enum finding finding;
+    const char *why; /* of doubt and of what was found without a test; else "" */
+};
+
+/* A usual mistake: it shows another picture, of which NAMEvariant.pfm is the reference, or changes what it shows. */
+struct mistake {
+    const char *words, *variant; /* ".less"; "" for NAME.pfm itself */
+    bool flip_x, flip_y, srgb;
+    double factor; /* 0: none */
+};
+extern const struct mistake CONFORM_MISTAKES[]; /* ended by words NULL */
+
+/* What is known of a scene. */
+enum { CONFORM_MOST = 20 };
+struct conform_references {
+    struct side right, wrong[CONFORM_MOST]; /* of every mistake; without pixels where it has none in this scene */
+};
+
+/* conform_judge: at this level of false alarms. */
+struct judgement conform_judge(const struct side *pictures, const struct conform_references *r, double level,
+                               uint64_t seed);
+
+/* conform_fit_p: p-value of "these are pictures by a renderer that makes the mistake of this number"; -1 where that is
+ * not known. */
+double conform_fit_p(const struct side *pictures, const struct conform_references *r, int mistake);
+
+#endif
