@@ -60,10 +60,11 @@ END {
     for (i = 1; i <= n; i++) {
         print "| " scene[i] " | " cell("pt", "mse8", i) " | " bold(cell("subspaces", "mse8", i)) " | " \
             cell("subspaces", "relmse", i) " | " cell("subspaces", "8x8", i) " |"
-        q[i] = least(cell("subspaces", "mse8", i))
-        if (q[i] < q[best]) best = i
-        rest += log(q[i])
-        k = kind[scene[i]]; count[k]++; ours[k] += log(q[i])
+        k = kind[scene[i]]; count[k]++
+        q[i] = cell("subspaces", "mse8", i) ~ /^[0-9]/ ? least(cell("subspaces", "mse8", i)) : 0
+        if (q[i] > 0 && (!q[best] || q[i] < q[best])) best = i
+        take("bdpt", 1, scene[i], q[i])
+        take("bdpt " k, 1, scene[i], q[i])
         for (m = 1; m <= 3; m++) {
             take("all", m, scene[i], over(file, name[m], i))
             take(k, m, scene[i], over(file, name[m], i))
@@ -74,10 +75,12 @@ END {
     print "| **geometric mean** | " cell("pt", "summary", 4) " | " bold(all) " | " \
         cell("subspaces", "summary", 5) " | " cell("subspaces", "summary", 6) " |"
     sub(/ .*/, "", all)
-    printf "== mean\n%s\n== without\n%.2f without `%s`\n", all, exp((rest - log(q[best])) / (n - 1)), scene[best]
+    if (all == "-") all = sprintf("%.3f (%d of %d)", mean_of("bdpt", 1), number["bdpt", 1], n)
+    printf "== mean\n%s\n== without\n%.2f without `%s`\n", all, \
+        exp((logs["bdpt", 1] - log(q[best])) / (number["bdpt", 1] - 1)), scene[best]
     answers("all")
     if (file > 1) sizes()
     if (rows) halves()
     for (k in count) if (k != "") printf "== %s\n%.2f (%.2f with the better of `bdpt` and `pt`; %d scenes)\n", k,
-        exp(ours[k] / count[k]), mean_of(k, 1), count[k]
+        mean_of("bdpt " k, 1), mean_of(k, 1), count[k]
 }

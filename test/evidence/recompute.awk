@@ -28,6 +28,7 @@ function near(a, b, by) { # by: of a quotient of rounded numbers
 }
 # Is the cell of a row, "VALUE [LOW, HIGH]", what the runs say by measure k?
 function compare(half, method, k, text,    i, x, a, b, mean, squares, error, stored) {
+    if (gaps && text ~ /^[ *]*-[ *]*$/) return 1
     for (i = 1; i <= scenes; i++) {
         a = sum[half, method, scene[i], k]; b = sum[half, first, scene[i], k]
         if (a <= 0 || b <= 0) return text ~ /^ *[*]*-/ || wrong(half, method, k, text, "nothing")
@@ -45,6 +46,7 @@ function wrong(half, method, k, text, runs) {
     bad = 1
 }
 /^== / { section = substr($0, 4) }
+/^\| .*\*\*-\*\*/ { split($0, c, / *\| */); unknown[c[2]]; gaps++ } # against a reference whose noise is unknown
 section ~ /^(choice|services)$/ && /^\| / {
     split($0, c, / *\| */)
     for (k = 1; k <= 3; k++) if ((section, c[2], scene[1], 1) in sum) compare(section, c[2], k, " " c[3 + k])
@@ -57,7 +59,7 @@ section ~ /^(choice|services)$/ && /^\| / {
 # The default over the better of bdpt and pt, each measure with its own better one.
 function over_better(h, ours, s, k,    a, b, p) {
     a = sum[h, ours, s, k]; b = sum[h, "bdpt", s, k]; p = sum[h, "pt", s, k]
-    if (a <= 0 || b <= 0) return 0
+    if (a <= 0 || b <= 0 || s in unknown) return 0
     return a / (p > 0 && mark["pt", s] == "" && (p < b || mark["bdpt", s] != "") ? p : b)
 }
 section == "data" && split($0, c, " ") == 10 { # of structures.awk
