@@ -71,7 +71,8 @@ keep() {
     for runs in "$2/runs.csv" "$2/64/runs.csv"; do
         [ ! -f "$runs" ] || awk -F , '
             BEGIN {
-                n = split("scene label half seed spp seconds mse8 relmse relmse8x8 price_before price_each mark", name, " ")
+                n = split("scene label half seed spp seconds mse8 relmse relmse8x8 price_before price_each mark", name,
+                    " ")
             }
             NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
             { for (i = 1; i <= n; i++) printf "%s%s", $at[name[i]], i < n ? "," : "\n" }' "$runs" >"$stored/$1.csv"

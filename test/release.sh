@@ -1,7 +1,8 @@
 #!/bin/sh
-# release.sh DIR: what a release consists of, of the last commit and of the programs of this tree, into DIR: the sources,
-# the page that renders if it can be built, the man pages, and checksums of all. The tag is set by hand: the last line
-# says how. Exit status 1 if the tree has changes that no commit has, or CHANGELOG.md has no line for the estimator.
+# release.sh DIR: what a release consists of, of the last commit and the programs of this tree, into DIR: the sources,
+# the page that renders if it can be built, the man pages, and checksums of all. `make release` calls it. The tag is set
+# by hand: the last line says how. Exit status 1 if the tree has changes that no commit has, or CHANGELOG.md has no line
+# for the estimator.
 dir=$1
 version=$(sed -n 's/^#define VERSION "asbdpt \(.*\)"$/\1/p' src/base/version.h)
 estimator=$(sed -n 's/^#define ESTIMATOR \([0-9]*\)$/\1/p' src/base/version.h)
@@ -14,11 +15,12 @@ sum256() { if command -v sha256sum >/dev/null; then sha256sum; else shasum -a 25
 umask 022
 rm -rf "$dir" && mkdir -p "$dir" || exit
 git archive --prefix="$name/" HEAD >"$dir/$name.tar" && gzip -9n "$dir/$name.tar" || exit
-make -s install PREFIX=/ DESTDIR="$dir/root" MANDIR=/man >/dev/null && mv "$dir/root/man/"*.1 "$dir" && rm -rf "$dir/root" || exit
+make -s install PREFIX=/ DESTDIR="$dir/root" MANDIR=/man >/dev/null && mv "$dir/root/man/"*.1 "$dir" || exit
+rm -rf "$dir/root"
 sh doc/web/build.sh "$dir/$name.html" >"$dir/log" 2>&1 || rm -f "$dir/$name.html"
 [ -f "$dir/$name.html" ] || echo "release: no page that renders: $(tail -n 1 "$dir/log")"
 rm -f "$dir/log"
-(cd "$dir" && for file in *; do echo "$(sum256 <"$file" | cut -d ' ' -f 1)  $file"; done >../SHA256SUMS) &&
-    mv "$dir/../SHA256SUMS" "$dir/SHA256SUMS" || exit
+sums=$(cd "$dir" && for file in *; do echo "$(sum256 <"$file" | cut -d ' ' -f 1)  $file"; done) || exit
+echo "$sums" >"$dir/SHA256SUMS"
 ls -l "$dir"
 echo "then: git tag -a v$version -m '$name' && git push origin v$version"

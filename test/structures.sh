@@ -4,6 +4,7 @@
 # seeds. Into DIR, going on with what is there: what equal-time writes, and structures.txt and structures.svg
 # (structures.awk). Needs BUILD/test. Exit status 1 if asbdpt surely has more than WORST (1.15) of the squared error of
 # the better of the others in a scene, or more than MEAN (0.55) in the geometric mean, or no sample in that time.
+# If both are set to nothing, that is not asked.
 # structures.sh draw: structures.svg of structures.txt.
 draw() {
     awk '/^== / { on = $2 == "data" } on && NF == 10 { print $1, $2, $3, $4, "-" }' | sort -t - -k 2,2 -k 1,1n |
@@ -23,7 +24,7 @@ for number in $(seq "$first" $((first + ${COUNT:-40} - 1))); do
 done
 ./asbdpt-lab equal-time "$@" -o "$dir" --methods bdpt,pt,asbdpt --res "${RES:-128x96}" --spp "${SPP:-64}" \
     --seeds "${SEEDS:-3}" --quiet >"$dir/said" || exit 1
-awk -v worst="${WORST:-1.15}" -v mean="${MEAN:-0.55}" -f test/evidence/better.awk \
+awk -v worst="${WORST-1.15}" -v mean="${MEAN-0.55}" -f test/evidence/better.awk \
     -f test/evidence/structures.awk "$dir/equal-time.md" >"$dir/structures.txt"
 status=$?
 draw <"$dir/structures.txt" >"$dir/structures.svg"

@@ -48,7 +48,7 @@ static double used_from(const struct bin *b, int j, int bright, int born)
     return sum / 2;
 }
 
-/* The bins that a pixel visits in a block are those of van der Corput's sequence from a random start: mean over many. */
+/* In a block a pixel visits bins by van der Corput's sequence from a random start: mean over many starts. */
 static double predict(int bin_paths, int restart, int max_age, double p)
 {
     enum { STARTS = 16 };

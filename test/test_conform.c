@@ -60,7 +60,7 @@ static struct conform_references references(struct test *t, const char *name, do
 {
     struct conform_references r = {.right = reference(t, name, "", errors)};
     for (int i = 0; CONFORM_MISTAKES[i].words != NULL; i++)
-        if (CONFORM_MISTAKES[i].variant[0] != '\0')
+        if (CONFORM_MISTAKES[i].variant != NULL)
             r.wrong[i] = reference(t, name, CONFORM_MISTAKES[i].variant, 3);
     return r;
 }

@@ -81,18 +81,21 @@ static void check_time(struct test *t, struct results *r)
 {
     struct scene_results *s = &r->scene[1];
     struct plan *p = (struct plan *)r->plan;
-    CHECK(t, equal_samples(s, 0, 0) == 32 && equal_samples(s, 1, 0) == 16 && equal_samples(s, 2, 0) == 64, "%ld, %ld, %ld",
+    CHECK(t, equal_samples(s, 0, 0) == 32 && equal_samples(s, 1, 0) == 16 && equal_samples(s, 2, 0) == 64,
+          "%ld, %ld, %ld",
           equal_samples(s, 0, 0), equal_samples(s, 1, 0), equal_samples(s, 2, 0));
     CHECK(t, equal_samples(&r->scene[2], 1, 2) == 8 && equal_samples(&r->scene[2], 1, 1) == 16, "seeds' own prices");
     s->price[0][0].before = s->price[0][1].before = s->price[0][2].before = 4; /* which all are given, too */
-    CHECK(t, near(equal_afforded(s, 0, 0), 32) && near(equal_afforded(s, 1, 0), 28 / 1.5) && equal_samples(s, 1, 0) == 19,
+    CHECK(t, near(equal_afforded(s, 0, 0), 32) && near(equal_afforded(s, 1, 0), 28 / 1.5) &&
+          equal_samples(s, 1, 0) == 19,
           "%g, %g", equal_afforded(s, 0, 0), equal_afforded(s, 1, 0));
     /* 16 samples were rendered, 18.67 can be afforded: the squared error at T is less by their ratio. */
     CHECK(t, near(equal_ratio(s, 1, 0, SQUARE_RELMSE).value, 4 * 16 / (28 / 1.5)), "%g",
           equal_ratio(s, 1, 0, SQUARE_RELMSE).value);
     s->price[0][0].before = s->price[0][1].before = s->price[0][2].before = 0;
     p->seconds = 1.4; /* 14 samples of bdpt at 0.1 s */
-    CHECK(t, equal_samples(s, 0, 0) == 14 && equal_samples(s, 1, 0) == 4 && equal_samples(s, 2, 0) == 28, "%ld, %ld, %ld",
+    CHECK(t, equal_samples(s, 0, 0) == 14 && equal_samples(s, 1, 0) == 4 && equal_samples(s, 2, 0) == 28,
+          "%ld, %ld, %ld",
           equal_samples(s, 0, 0), equal_samples(s, 1, 0), equal_samples(s, 2, 0));
     p->seconds = 0.85; /* a third of a sample is left for asbdpt */
     CHECK(t, equal_samples(s, 1, 0) == 1 && isnan(equal_ratio(s, 1, 0, SQUARE_RELMSE).value) &&

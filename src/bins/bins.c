@@ -9,9 +9,9 @@
  * block) it discards all bins.
  *
  * Choices that the text leaves open: Algorithm 2 prints the comparison of the random number with p_e0 the other way
- * round. By default we follow the text (`order = text`: take e0 if u < p_e0); `order = printed` takes e0 if u > p_e0. An
- * empty sub-path has beta 0, and two zeros give 1/2. The method
- * visits bins in the order of the van der Corput sequence, from a random start for each pixel and block.
+ * round. By default we follow the text (`order = text`: take e0 if u < p_e0); `order = printed` exchanges the two. An
+ * empty sub-path has beta 0, and two zeros give 1/2. The method visits bins in the order of the van der Corput
+ * sequence, from a random start for each pixel and block.
  *
  * This estimator is BIASED. Every sub-path that is used counts once, whatever its probability of being used was. The
  * sub-paths that grow too old, are discarded at a restart or are left over at the end mostly have low beta. So the
@@ -98,9 +98,9 @@ static struct element *choose(const struct pixel *p, double shift, uint64_t step
     int bin = (int)((position - floor(position)) * (p->own->bin_paths / 2));
     struct element *e = &p->element[2 * bin];
     double p_e0 = first_probability(e);
-    bool first = p->own->order == ORDER_TEXT ? u < p_e0 : u > p_e0;
-    *pmf = (p->own->order == ORDER_TEXT) == first ? p_e0 : 1 - p_e0;
-    return first ? &e[0] : &e[1];
+    bool below = u < p_e0;
+    *pmf = below ? p_e0 : 1 - p_e0;
+    return below == (p->own->order == ORDER_TEXT) ? &e[0] : &e[1];
 }
 
 static void render_iteration(struct pixel *p, double shift, long iteration)
@@ -166,8 +166,8 @@ static const struct field OWN[] = {
      "iterations after which an unused sub-path is replaced, 0: never", NULL},
     {"restart", FIELD_INTEGER, AT(restart), 32, 0, INT_MAX,
      "iterations after which all bins are rebuilt, 0: never", NULL},
-    {"order", FIELD_WORD, AT(order), ORDER_TEXT, 0, 0, "take the first element if u < p_e0 (text) or u > p_e0 (printed)",
-     ORDERS},
+    {"order", FIELD_WORD, AT(order), ORDER_TEXT, 0, 0,
+     "take the first element if u < p_e0 (text) or otherwise (printed)", ORDERS},
     {.name = NULL}};
 
 /* The dissertation has no Russian roulette. Its selection uses the throughput at the last vertex, and roulette would

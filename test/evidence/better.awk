@@ -1,5 +1,5 @@
-# better.awk: functions for what is above it: the error of asbdpt over that of the better of bdpt and pt, by each measure.
-# awk -f test/evidence/better.awk -f test/evidence/equal.awk, say. Numbers are over those of bdpt.
+# better.awk: functions of equal.awk and structures.awk: the error of asbdpt over that of the better of bdpt and pt, by
+# each measure. awk -f test/evidence/better.awk -f test/evidence/equal.awk, say. What they are given is over bdpt.
 
 # over_better: of asbdpt's and pt's cells, "VALUE [LOW, HIGH] MARK". pt counts where it has no mark, bdpt where it has
 # none (blind: it has one). Each measure has its own better method. 0: not known.
@@ -22,7 +22,8 @@ function interval(group, m,    n, error) {
     n = number[group, m]
     if (n < 5) return n ? sprintf("%.2f", mean_of(group, m)) : "-"
     error = sqrt((squares[group, m] - logs[group, m] ^ 2 / n) / (n - 1) / n) * student(n - 1)
-    return sprintf("%.2f [%.2f, %.2f]", mean_of(group, m), mean_of(group, m) * exp(-error), mean_of(group, m) * exp(error))
+    n = mean_of(group, m)
+    return sprintf("%.2f [%.2f, %.2f]", n, n * exp(-error), n * exp(error))
 }
 # student: the quantile of Student's t that 2.5 % lie above: Cornish and Fisher's series, within .3 % from 4 on.
 function student(n,    z) {

@@ -4,12 +4,14 @@
 /^\| [0-9]+ \| .*bins/ {
     split($0, part, / *\| */)
     way = part[3] ~ /printed/ ? "printed" : "text"
-    if (part[2] == 32 || part[2] + 0 >= most + 0) { ratio[scene, way, part[2]] = part[5]; most = part[2] > most + 0 ? part[2] : most }
+    ratio[scene, way, part[2]] = part[5]
+    if (part[2] + 0 > most + 0) most = part[2]
     off[scene, way] = part[9]
 }
 END {
     print "== table"
-    print "| | u < p_0, 32 samples | u > p_0, 32 | u < p_0, " most " | u > p_0, " most " | mean off by, per cent: u < p_0 | u > p_0 |"
+    print "| | u < p_0, 32 samples | u > p_0, 32 | u < p_0, " most " | u > p_0, " most \
+        " | mean off by, per cent: u < p_0 | u > p_0 |"
     print "|---|---:|---:|---:|---:|---:|---:|"
     for (i = 1; i <= n; i++) {
         s = order[i]

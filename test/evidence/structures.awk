@@ -1,6 +1,7 @@
 # structures.awk, after better.awk: asbdpt over the better of bdpt and pt, by each measure, in scenes NUMBER-KIND, from
 # equal-time.md of `asbdpt-lab equal-time`. A method with a mark, like "misses light", is no better one. Sections: kinds,
-# a row for each; all, in words; mean, over bdpt by mse8; better-... and losses-..., see better.awk; data, lines "SCENE MSE8 LOW HIGH RELMSE LOW HIGH 8x8 LOW HIGH", "-" without a number.
+# a row for each; all, in words; mean, over bdpt by mse8; better-... and losses-..., see better.awk; data, lines
+# "SCENE MSE8 LOW HIGH RELMSE LOW HIGH 8x8 LOW HIGH", "-" without a number.
 # With -v worst= and -v mean=: exit status 1 beyond them by mse8, or where asbdpt has a mark.
 function over(s, measure,    v, part, a) { # and its interval
     a = ratio["asbdpt", measure, s]
@@ -46,11 +47,14 @@ END {
     for (j = 1; j <= kinds; j++) print "| " order[j] " | " scenes[order[j]] " |" cells(order[j], 0)
     print "\n![Squared error of asbdpt over the better of bdpt and pt, in each generated scene](structures.svg)"
     print "== all"
-    printf "`pt` misses light in %d, `asbdpt`%s. There is no number by mse8 in %d, by relmse in %d, by 8x8 in %d.\n", missed,
-        dark ? dark : " in 0", lost["**all**", 1], lost["**all**", 2], lost["**all**", 3]
+    printf "`pt` misses light in %d, `asbdpt`%s. There is no number by mse8 in %d, by relmse in %d, by 8x8 in %d.\n", \
+        missed, dark ? dark : " in 0", lost["**all**", 1], lost["**all**", 2], lost["**all**", 3]
     print "== mean\n" interval("over bdpt", 1)
     answers("**all**")
     printf "== data\n%s", data
-    if (mean && mean_of("**all**", 1) > mean) { bad = 1; print "structures: mean " mean_of("**all**", 1) >"/dev/stderr" }
+    if (mean && mean_of("**all**", 1) > mean) {
+        bad = 1
+        print "structures: mean " mean_of("**all**", 1) >"/dev/stderr"
+    }
     exit bad
 }

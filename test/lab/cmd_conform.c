@@ -123,7 +123,7 @@ static bool judge_scene(struct kit *kit, struct scene_entry *s, struct error *er
     struct conform_references *r = mem_alloc(1, sizeof *r);
     bool ok = read_reference(kit, s, "", &r->right, err);
     for (int i = 0; ok && CONFORM_MISTAKES[i].words != NULL; i++)
-        ok = CONFORM_MISTAKES[i].variant[0] == '\0' ||
+        ok = CONFORM_MISTAKES[i].variant == NULL ||
              read_reference(kit, s, CONFORM_MISTAKES[i].variant, &r->wrong[i], err);
     if (ok) {
         s->j = conform_judge(&s->pictures, r, kit->level, kit->o->seed);

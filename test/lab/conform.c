@@ -15,23 +15,23 @@ static const double MOST_ERROR = 0.01;  /* of the mean, relative, that still say
 static const double MOST_SHARE = 1 / 3.0; /* of all squared noise that one tile of one picture may have */
 
 const struct mistake CONFORM_MISTAKES[] = {
-    {"depth is counted one less", ".less", false, false, false, 0},
-    {"depth is counted one more", ".more", false, false, false, 0},
-    {"a Gaussian filter instead of a box", ".gaussian", false, false, false, 0},
-    {"a box filter instead of the Gaussian", ".box", false, false, false, 0},
-    {"sky map turned by 90 degrees", ".turned90", false, false, false, 0},
-    {"sky map turned by 180 degrees", ".turned180", false, false, false, 0},
-    {"sky map turned by 270 degrees", ".turned270", false, false, false, 0},
-    {"sky map mirrored", ".mirrored", false, false, false, 0},
-    {"left and right exchanged", "", true, false, false, 0},
-    {"upside down", "", false, true, false, 0},
-    {"turned by 180 degrees", "", true, true, false, 0},
-    {"sRGB instead of linear values", "", false, false, true, 0},
-    {"scaled by pi", "", false, false, false, PI},
-    {"scaled by 1/pi", "", false, false, false, 1 / PI},
-    {"scaled by 2", "", false, false, false, 2},
-    {"scaled by 1/2", "", false, false, false, 0.5},
-    {NULL, "", false, false, false, 0}};
+    {.words = "depth is counted one less", .variant = ".less"},
+    {.words = "depth is counted one more", .variant = ".more"},
+    {.words = "a Gaussian filter instead of a box", .variant = ".gaussian"},
+    {.words = "a box filter instead of the Gaussian", .variant = ".box"},
+    {.words = "sky map turned by 90 degrees", .variant = ".turned90"},
+    {.words = "sky map turned by 180 degrees", .variant = ".turned180"},
+    {.words = "sky map turned by 270 degrees", .variant = ".turned270"},
+    {.words = "sky map mirrored", .variant = ".mirrored"},
+    {.words = "left and right exchanged", .flip_x = true},
+    {.words = "upside down", .flip_y = true},
+    {.words = "turned by 180 degrees", .flip_x = true, .flip_y = true},
+    {.words = "sRGB instead of linear values", .srgb = true},
+    {.words = "scaled by pi", .factor = PI},
+    {.words = "scaled by 1/pi", .factor = 1 / PI},
+    {.words = "scaled by 2", .factor = 2},
+    {.words = "scaled by 1/2", .factor = 0.5},
+    {.words = NULL}};
 
 /* --- batches ----------------------------------------------------------------------------------------- */
 
@@ -210,7 +210,7 @@ static struct batches undone(const struct side *s, const struct mistake *m)
 double conform_fit_p(const struct side *pictures, const struct conform_references *r, int mistake)
 {
     const struct mistake *m = &CONFORM_MISTAKES[mistake];
-    const struct side *reference = m->variant[0] == '\0' ? &r->right : &r->wrong[mistake];
+    const struct side *reference = m->variant == NULL ? &r->right : &r->wrong[mistake];
     if (reference->pixels.n == 0)
         return -1;
     struct side mended = {pictures->name, pictures->width, pictures->height, undone(pictures, m)};
@@ -221,7 +221,7 @@ double conform_fit_p(const struct side *pictures, const struct conform_reference
     double mean_a = batches_mean(&a, &error[0]), mean_b = batches_mean(&b, &error[1]), n = a.n_batches;
     double mean = stats_welch_p(mean_a, sqr(error[0]) * n, n, mean_b, sqr(error[1]) * MANY, MANY);
     double smallest = batches_smallest_p(&a, &b); /* NaN: without noise */
-    double direction = m->variant[0] != '\0' ? direction_p(&mended, reference, &r->right) : 1;
+    double direction = m->variant != NULL ? direction_p(&mended, reference, &r->right) : 1;
     double p = isnan(smallest) ? 1 : stats_sidak(least_of(smallest, least_of(mean, direction)), 3);
     batches_free(&mended.pixels);
     batches_free(&a);

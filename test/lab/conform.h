@@ -40,7 +40,7 @@ struct judgement {
 
 /* A usual mistake: it shows another picture, of which NAMEvariant.pfm is the reference, or changes what it shows. */
 struct mistake {
-    const char *words, *variant; /* ".less"; "" for NAME.pfm itself */
+    const char *words, *variant; /* ".less"; NULL for NAME.pfm itself */
     bool flip_x, flip_y, srgb;
     double factor; /* 0: none */
 };

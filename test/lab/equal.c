@@ -85,9 +85,14 @@ double equal_spread(const struct results *r)
 {
     double spread = 0;
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++)
-        for (int v = 0; v < r->plan->methods.n; v++)
-            for (int i = 0; i < r->plan->n_seeds * r->plan->n_seeds; i++)
-                spread = fmax(spread, s->price[v][i / r->plan->n_seeds].each / s->price[v][i % r->plan->n_seeds].each - 1);
+        for (int v = 0; v < r->plan->methods.n; v++) {
+            double least = s->price[v][0].each, most = least;
+            for (int i = 1; i < r->plan->n_seeds; i++) {
+                least = fmin(least, s->price[v][i].each);
+                most = fmax(most, s->price[v][i].each);
+            }
+            spread = fmax(spread, most / least - 1);
+        }
     return spread;
 }
 

@@ -2,10 +2,10 @@
  *
  * The first method has N samples per pixel, or all have as many seconds as were asked for. Time is counted in samples
  * of the first method: T = before_1 + N. A method that with a seed prepares for `before` and spends `each` per sample
- * (struct price) can afford n = (T - before) / each, and is rendered with the nearest whole number of samples. The squared
- * error of an unbiased method falls as 1 / samples, so at T it is that of the render times samples / n: nothing but the
- * rounding. (A bias does not fall; half a sample of some dozen is not seen in it. At equal samples scenes do not count
- * where one of the two methods is marked.)
+ * (struct price) can afford n = (T - before) / each, and is rendered with the nearest whole number of samples. The
+ * squared error of an unbiased method falls as 1 / samples, so at T it is that of the render times samples / n: only the
+ * rounding. (A bias does not fall; half a sample of some dozen is not seen in it. At equal samples scenes do not
+ * count where one of the two methods is marked.)
  *
  * Tests: test_equal_time.c.
  */
@@ -14,10 +14,10 @@
 
 #include "lab/results.h"
 
-/* Intervals hold the truth 95 % of the time. That of one scene is results_ratio's, over seeds, whose
- * prices are part of what scatters. That of several is Student's, on the logarithms of the scenes' ratios, which scatter by their seeds, by their
- * prices and above all by their scenes. Logarithms far from normal make it too narrow: of 11 scenes as skewed as an
- * exponential distribution it holds the truth in 90 %. */
+/* Intervals hold the truth 95 % of the time. That of one scene is results_ratio's, over seeds, whose prices are part of
+ * what scatters. That of several is Student's, on the logarithms of the scenes' ratios, which scatter by seeds, by
+ * prices and above all by scenes. Logarithms far from normal make it too narrow: of 11 scenes as skewed as
+ * an exponential distribution it holds the truth in 90 %. */
 
 /* equal_afforded: n; equal_samples: as rendered, at least 1.  seed: from 0 */
 double equal_afforded(const struct scene_results *s, int method, int seed);
@@ -50,8 +50,9 @@ double equal_spread(const struct results *r);
 struct interval equal_mean(const struct results *r, int method, int over, enum square which, enum basis basis,
                            const char *wanted, int *n);
 
-/* equal_over_best: the same of a method over the best of several in each scene, of those that have no mark there. Which
- * is the best one for a seed the other seeds say: a method that is chosen for its luck has less error than it will have.
+/* equal_over_best: the same of a method over the best of several in each scene, of those that have no mark there. For
+ * each seed the other seeds say which is the best: a method that is chosen for its luck has less error than it will
+ * have.
  *   others  [n_others] */
 struct interval equal_over_best(const struct results *r, int method, const int *others, int n_others,
                                 enum square which);

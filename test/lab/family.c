@@ -85,8 +85,8 @@ static void summary_table(FILE *f, const struct results *e, enum half half)
     struct md_table t =
         md_begin(f, "Squared error over that of %s after the same CPU time: geometric mean over %d scene%s with "
                     "its 95 %% interval, and the ends of relmse. 0.59: the same noise in 59 %% of the time. Price: "
-                    "time of a sample over that of %s. Best rival: in each scene the unbiased method of others with the "
-                    "least error, which for each seed the other seeds say, and no mark",
+                    "time of a sample over that of %s. Best rival: in each scene the unbiased method of others without "
+                    "a mark that has the least error; for each seed the other seeds say which",
                     label(e, 0), e->plan->n_scenes, e->plan->n_scenes == 1 ? "" : "s", label(e, 0));
     md_column(&t, "method");
     md_column(&t, "price");

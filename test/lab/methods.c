@@ -23,10 +23,7 @@ static bool set_pairs(const char *text, struct settings *out, struct error *err)
 
 bool measured_biased(const struct measured *m)
 {
-    for (const struct method *const *row = method_rows; *row != NULL; row++)
-        if (strcmp((*row)->name, m->integrator) == 0 && (*row)->select == NULL)
-            return strstr((*row)->help, "; biased") != NULL;
-    return false;
+    return strstr(method_named(m->integrator)->help, "; biased") != NULL;
 }
 
 struct settings measured_settings(const struct measured *m, const struct settings *base)
