@@ -15,13 +15,13 @@ WARN    = -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wstrict-protot
 OPT     = -O3 $(LTO)
 FLAGS   = $(WARN) $(OPT) -Isrc -ffp-contract=off -fno-math-errno -pthread
 LIBS    = -lm -lpthread
-LTO     = $(eval LTO := $$(shell sh test/lto.sh $$(CC)))$(LTO)# asked of the compiler at the first use, once
+LTO     = $(eval LTO := $$(shell sh test/run/lto.sh $$(CC)))$(LTO)# asked of the compiler at the first use, once
 
 OBJECTS  = $(patsubst src/%.c,$(BUILD)/obj/%.o,$(wildcard src/*/*.c))
 LABS     = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/lab/*.c test/lab/*/*.c)) \
            $(filter-out %/cli/program.o %/render/rows.o,$(OBJECTS))
 TARGETS  = $(BUILD)/obj/test/fuzz/targets.o $(BUILD)/obj/test/fuzz/hostile.o
-TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/*.c)) $(TARGETS)
+TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/unit/*.c)) $(TARGETS)
 PROGRAMS = asbdpt asbdpt-lab $(addprefix $(BUILD)/,test fuzz inject inject-lab embree)
 
 .BEGIN: # which other makes do before anything else, and GNU make never
@@ -41,7 +41,7 @@ $(BUILD)/test: $(TESTS) $(filter-out %/main.o,$(LABS))
 $(BUILD)/fuzz: $(BUILD)/obj/test/fuzz/libfuzzer.o $(TARGETS) $(filter-out %/main.o,$(LABS))
 # both programs, except for functions that may fail: test/fuzz/inject.c has others in their place
 $(BUILD)/inject: $(OBJECTS) $(BUILD)/obj/test/fuzz/inject.o
-$(BUILD)/embree: $(BUILD)/obj/test/peers/embree.o $(filter-out %/main.o,$(LABS))
+$(BUILD)/embree: $(BUILD)/obj/test/measure/peers/embree.o $(filter-out %/main.o,$(LABS))
 $(BUILD)/embree: LIBS += -lembree3
 $(BUILD)/inject-lab: $(LABS) $(BUILD)/obj/test/fuzz/inject.o
 
@@ -50,7 +50,7 @@ $(PROGRAMS): $(BUILD)/files
 
 $(BUILD)/obj/test/%.o: test/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(SAY)$(CC) $(FLAGS) $(TESTED) -Itest -Itest/lab -MMD -MP $(CFLAGS) -c -o $@ $<
+	$(SAY)$(CC) $(FLAGS) $(TESTED) -Itest -Itest/lab -Itest/unit -I$(BUILD) -MMD -MP $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
@@ -59,6 +59,7 @@ $(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
 # Tests are built quickly: without optimisation of the whole, and what only tests with little of its own.
 NO_LTO = $(if $(LTO),-fno-lto)
 $(TESTS): TESTED = $(NO_LTO) -O1
+$(TESTS): | $(BUILD)/suites.h
 $(BUILD)/test: AT_LINK = $(NO_LTO)
 $(BUILD)/fuzz: AT_LINK = -fsanitize=fuzzer
 
@@ -68,6 +69,9 @@ $(BUILD)/files: export NOW = $(OBJECTS) $(LABS) $(TESTS)
 $(BUILD)/flags $(BUILD)/files: FORCE
 	@mkdir -p $(@D)
 	@echo "$$NOW" | cmp -s - $@ || echo "$$NOW" >$@
+$(BUILD)/suites.h: test/unit/suites.awk $(wildcard test/unit/*.c)
+	@mkdir -p $(@D)
+	@awk -f $^ | cmp -s - $@ || awk -f $^ >$@
 
 -include $(wildcard $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d $(BUILD)/obj/*/*/*/*.d)
 
@@ -98,11 +102,11 @@ gallery: asbdpt ## render the images of doc/gallery.md by the commands there, in
 	@sed -n 's/^    //p' doc/gallery.md | sh -ex
 
 experiments: asbdpt-lab ## chapter 4 of the dissertation, measured again, into out/experiments/report.html (five minutes on two cores; PUBLISHED=DIR: on its scenes)
-	sh test/experiments.sh out/experiments
+	sh test/measure/experiments.sh out/experiments
 
 web: asbdpt ## build and test the page that renders, out/asbdpt.html, where clang can compile for wasm32-wasi
 	sh doc/web/build.sh out/asbdpt.html
-	sh test/web.sh out/asbdpt.html
+	sh test/run/web.sh out/asbdpt.html
 
 bench: asbdpt-lab ## measure speed and memory on the scenes (or SCENES="...")
 	$(LAB) bench $(SCENES) scenes/test/many-lamps.pbrt
@@ -112,72 +116,75 @@ ref: asbdpt asbdpt-lab ## render the stored references of ref/ again (an hour; g
 
 # ---- what proves it ----
 # Checks are targets of their own; none of them builds anything while others run.
-CHECK = $(MAKE) -s -o asbdpt-lab
+FACTS = $(foreach name,layers standard references limits links measured faults,"$(MAKE) -s -o asbdpt-lab $(name)")
+check: asbdpt-lab ## facts about sources and documents, in ten seconds
+	@sh test/run/suites.sh $(FACTS)
+
 test: asbdpt asbdpt-lab $(BUILD)/test ## build and run the test suite (three minutes on two cores)
-	@sh test/suites.sh "sh test/mini.sh $(PROGRAM)" $(foreach name,cli keep build,"sh test/$(name).sh $(PROGRAM)") \
-	    $(foreach name,layers standard references limits links measured faults,"$(CHECK) $(name)") $(BUILD)/test \
-	    $(foreach name,outputs install suites_test words_test hashes_test hashes,"sh test/$(name).sh $(PROGRAM)") \
-	    "LIST=test/lab/hashes.txt sh test/hashes.sh $(LAB)" \
-	    "sh test/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
+	@sh test/run/suites.sh "sh test/run/mini.sh $(PROGRAM)" $(foreach name,cli keep build,"sh test/run/$(name).sh $(PROGRAM)") \
+	    $(FACTS) $(BUILD)/test \
+	    $(foreach name,outputs install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") "sh test/tree/words_test.sh" \
+	    "LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB)" \
+	    "sh test/run/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
 
 check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
-	@sh test/suites.sh "sh test/course.sh prove" "$(BUILD)/test --slow" "sh test/keep.sh $(PROGRAM) 100" \
-	    "sh test/readme.sh $(PROGRAM)" "PICTURES=all sh test/mini.sh $(PROGRAM)" "BUILD=$(BUILD) sh test/add_method.sh" \
+	@sh test/run/suites.sh "sh test/run/course.sh prove" "$(BUILD)/test --slow" "sh test/run/keep.sh $(PROGRAM) 100" \
+	    "sh test/run/readme.sh $(PROGRAM)" "PICTURES=all sh test/run/mini.sh $(PROGRAM)" "BUILD=$(BUILD) sh test/run/add_method.sh" \
 	    "sh doc/tour/figures.sh $(PROGRAM) out/figures && \
 	    diff -r -x equal.png -x gains.svg doc/tour/figures out/figures"
-	sh test/cluster.sh $(PROGRAM)
-	BUILD=$(BUILD) sh test/structures.sh out/structures
-	BUILD=$(BUILD) COUNT=10 SPP=16 sh test/predictions.sh out/race
+	sh test/run/cluster.sh $(PROGRAM)
+	BUILD=$(BUILD) sh test/measure/structures.sh out/structures
+	BUILD=$(BUILD) COUNT=10 SPP=16 sh test/measure/predictions.sh out/race
 
 check-ref: asbdpt asbdpt-lab ## check that the program still converges to the stored references
 	sh ref/check-ref.sh $(PROGRAM)
 
 portability: ## build by every compiler, and for every system, that is at hand or emulated; the images must be the same
-	sh test/portability.sh
+	sh test/run/portability.sh
 
 hashes: asbdpt asbdpt-lab ## write the checksums of images again, after a change that is meant to change images
-	sh test/hashes.sh $(PROGRAM) renew
-	LIST=test/lab/hashes.txt sh test/hashes.sh $(LAB) renew
+	sh test/run/hashes.sh $(PROGRAM) renew
+	LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB) renew
 
 mutants: ## apply small faults one by one; the tests must catch every one
-	sh test/mutants/run.sh 2
+	sh test/data/mutants/run.sh 2
 
 layers: ## check that no file includes a higher folder, that no includes go in a circle, that headers compile alone and offer what is used
-	@ABOVE="test/lab/caustics test/lab/rivals test/lab/chains test/lab" sh test/layers.sh src $(CC)
+	@ABOVE="test/lab/caustics test/lab/rivals test/lab/chains test/lab" sh test/tree/layers.sh src $(CC)
 
 standard: ## check that src calls and includes nothing that differs from machine to machine, except in base/os*.c
-	@sh test/standard.sh
+	@sh test/tree/standard.sh
 
 references: ## check that every source named in a comment is in doc/references.md, and that all there are used
-	@sh test/references.sh
+	@sh test/tree/references.sh
 
 faults: ## check that every fault of the list of mutants still applies, and every hole of the course
-	@sh test/mutants/apply.sh check test/mutants/list.txt test/lab/tune.txt test/course/plants.txt
-	@sh test/course.sh check
+	@sh test/data/mutants/apply.sh check test/data/mutants/list.txt test/lab/tune.txt test/course/plants.txt
+	@sh test/run/course.sh check
 
 evidence: ## measure again what is old or missing of the documents' numbers (NAMES="..."; hours), and fill it in
-	sh test/evidence.sh run $(NAMES)
+	sh test/measure/evidence.sh run $(NAMES)
 
 measured: ## check that the documents show the stored numbers, and mark old ones
-	@sh test/evidence.sh check
+	@sh test/measure/evidence.sh check
 
 .PHONY: limits
 limits: ## check that SECURITY.md says what the limits of the program are
-	@sh test/limits.sh
+	@sh test/tree/limits.sh
 
 links: asbdpt-lab ## check that links, functions, tests and mutants named in the documents exist, what these take from sources, and their HTML
-	@sh test/pages.sh
-	@sh test/html.sh
+	@sh test/tree/pages.sh
+	@sh test/tree/html.sh
 
 san: ## run the tests (or SUITES="...") under the address and undefined-behaviour sanitizers
 	$(MAKE) BUILD=build-san OPT="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all" build-san/test
-	sh test/suites.sh $(if $(SUITES),$(foreach suite,$(SUITES),"build-san/test $(suite)"),build-san/test)
+	sh test/run/suites.sh $(if $(SUITES),$(foreach suite,$(SUITES),"build-san/test $(suite)"),build-san/test)
 
 INJECTED = calloc realloc fwrite fprintf fputs fputc fclose fsync fdopen rename pthread_create
 .PHONY: inject
 inject: ## make every allocation, write, close, rename and thread fail once, and see what the program does
 	$(MAKE) BUILD=build-inject LTO= OPT="-O1 $(foreach name,$(INJECTED),-D$(name)=inject_$(name))" build-inject/inject build-inject/inject-lab
-	sh test/inject.sh build-inject/inject
+	sh test/run/inject.sh build-inject/inject
 
 .PHONY: fuzz
 fuzz: ## build build-fuzz/fuzz, which feeds every reader with damaged input (clang; sh test/fuzz/run.sh runs it)
@@ -189,7 +196,7 @@ tsan: ## run the threaded tests under the thread sanitizer
 
 # ---- about the tree ----
 release: all ## what a release consists of, into out/release: sources, the page that renders, man pages, checksums
-	sh test/release.sh out/release
+	sh test/tree/release.sh out/release
 
 doc: ## all documents as static HTML in out/html; begin with index.html
 	sh doc/html.sh out/html
@@ -198,11 +205,11 @@ figures: asbdpt asbdpt-lab ## make the figures of doc/tour again
 	sh doc/tour/figures.sh $(PROGRAM)
 
 stats: ## files, lines, code and comment of every part, and words of documents, beside their goals
-	@sh test/tree_stats.sh
+	@sh test/tree/tree_stats.sh
 
 tidy: stats ## the same, and what is long: lines, sentences and pages; and phrases that readers stumble over
-	@sh test/columns.sh || true
-	@sh test/words.sh || true
+	@sh test/tree/columns.sh || true
+	@sh test/tree/words.sh || true
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]*:.*## / { printf "%-11s %s\n", $$1, $$2 }' Makefile
@@ -210,5 +217,5 @@ help: ## list the targets
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt asbdpt-lab
 
-.PHONY: FORCE all install uninstall demo gallery experiments web release bench ref test check-long check-ref portability hashes faults mutants \
+.PHONY: FORCE all check install uninstall demo gallery experiments web release bench ref test check-long check-ref portability hashes faults mutants \
 	layers standard references links evidence measured doc figures san tsan stats tidy help clean

@@ -4,7 +4,7 @@
  *
  * It is the last of eight programs, each a little longer than the one before (README.md). The program in `src` does
  * the same for any scene, on all cores, and has tests; headings name the file of `src` that has the same idea.
- * rooms.pbrt is the same scene, and test/mini.sh compares the images.
+ * rooms.pbrt is the same scene, and test/run/mini.sh compares the images.
  *
  * The question. Light leaves a light source, surfaces scatter it, and some enters the camera: a path x_0 x_1 ... x_k,
  * x_0 on the light, x_k the lens. The colour of a pixel is the sum of what all such paths carry, an integral over all

@@ -3,7 +3,7 @@
 # a line that names a function, with a block of C behind it, which is replaced:
 #   [`FILE: FUNCTION`](PATH):                            the whole function
 #   [`FILE: FUNCTION`](PATH), N lines from `TEXT`:       of these, the first holds TEXT
-# With DIR the pages are written there, and the tour's stay as they are. Run from the top; test/pages.sh tells when to.
+# With DIR the pages are written there, and the tour's stay as they are. Run from the top; test/tree/pages.sh tells when to.
 for page in doc/tour/[01]*.md; do
     LC_ALL=C awk -v page="$page" '
         function ask(line) {

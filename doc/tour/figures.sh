@@ -1,6 +1,6 @@
 #!/bin/sh
 # figures.sh PROGRAM [DIR]: makes every figure of the tour in doc/tour/figures or DIR (about four minutes of CPU), except
-# those of measured numbers, which test/evidence.sh makes. `make figures` calls it.
+# those of measured numbers, which test/measure/evidence.sh makes. `make figures` calls it.
 program=$1
 case $program in /*) ;; *) program=$PWD/$program ;; esac
 lab=$program-lab

@@ -1,6 +1,6 @@
 /* field.h: the parameters of a method, a material, a shape or any other object of a scene as one table, from which
  * help, scene files, -P and tests take all they know. Defaults are given nowhere else.
- * Tests: test_options.c, test_parser.c, test_format.c, test_asbdpt.c, test/cli.sh. */
+ * Tests: test_options.c, test_parser.c, test_format.c, test_asbdpt.c, test/run/cli.sh. */
 #ifndef ASBDPT_FIELD_H
 #define ASBDPT_FIELD_H
 

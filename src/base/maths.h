@@ -3,7 +3,7 @@
  * IEEE 754 prescribes the last bit of + - * / and sqrt, not that of sin or exp: every libm rounds them in its own way,
  * and one bit at the start of a path is another picture. These use nothing that is not prescribed, so that pictures
  * have the same bytes on every machine whose doubles are doubles. Elsewhere `src` does not call functions of libm that
- * round as they please; test/standard.sh looks for them.
+ * round as they please; test/tree/standard.sh looks for them.
  *
  * Errors are bounds in units of the last place of the result (ulp), where it is a normal number. A result too large
  * is infinite, one too small is 0 or subnormal, NaN gives NaN. Cannot fail, thread-safe.

@@ -2,7 +2,7 @@
  * system's headers. os.c and os_thread.c are written for POSIX, Windows and WASI; with -DASBDPT_SERIAL, or where there
  * are no threads, there is one, and locks do nothing.
  *
- * Paths: '/' separates directories everywhere, on Windows '\' too. Tests: test_threads.c, test_file.c, test/cli.sh;
+ * Paths: '/' separates directories everywhere, on Windows '\' too. Tests: test_threads.c, test_file.c, test/run/cli.sh;
  * `make portability` builds and runs it on other systems. */
 #ifndef ASBDPT_OS_H
 #define ASBDPT_OS_H

@@ -1,5 +1,5 @@
 /* cmd_render.h: the steps of `asbdpt render`, which the laboratory's program takes, too, and looks on.
- * Tests: test/cli.sh, test/outputs.sh, test/keep.sh. */
+ * Tests: test/run/cli.sh, test/run/outputs.sh, test/run/keep.sh. */
 #ifndef ASBDPT_CMD_RENDER_H
 #define ASBDPT_CMD_RENDER_H
 

@@ -4,7 +4,7 @@
  * samples is complete. If its method is still learning, learning ends and one block is rendered. At a signal
  * (base/interrupt.h), or half a second after the time is over, the render ends with the tile passes that are complete.
  * Pixels may then have different numbers of samples. The film is saved at intervals (render/part.h); a resumed render
- * ends with the same bytes. The image so far is written after 1, 2, 4 ... seconds. Tests: test/keep.sh.
+ * ends with the same bytes. The image so far is written after 1, 2, 4 ... seconds. Tests: test/run/keep.sh.
  */
 #ifndef ASBDPT_KEEP_H
 #define ASBDPT_KEEP_H

@@ -8,7 +8,7 @@
  *     WORD                                             an operand: a row whose name has no dash in front
  *
  * An empty value is always a mistake, of a script for example whose variable is not set.
- * Tests: test_options.c, test/cli.sh. */
+ * Tests: test_options.c, test/run/cli.sh. */
 #ifndef ASBDPT_OPTIONS_H
 #define ASBDPT_OPTIONS_H
 

@@ -1,7 +1,7 @@
 /* outputs.h: the pictures that a subcommand is to write, opened before the work begins.
  *
  * What is wrong with a name, a directory or its rights is thus said at once. Files that the work does not come to
- * write are removed. Tests: test/cli.sh. */
+ * write are removed. Tests: test/run/cli.sh. */
 #ifndef ASBDPT_OUTPUTS_H
 #define ASBDPT_OUTPUTS_H
 

@@ -5,7 +5,7 @@
  * reads its parameters and is prepared: tables are learnt, a race may decide on the numbers of samples, and the counts
  * in the weights follow. Then it renders tile passes (tile_pass.h) on all threads.
  *
- * doc/add-a-method.md adds one. Tests: test_render.c, test_options.c, test/add_method.sh.
+ * doc/add-a-method.md adds one. Tests: test_render.c, test_options.c, test/run/add_method.sh.
  */
 #ifndef ASBDPT_METHOD_H
 #define ASBDPT_METHOD_H

@@ -6,7 +6,7 @@
  * Settings of a scene file are for pbrt-v3, whose integrators have others than ours: what has no effect here is taken
  * out, with a warning. Those of -P must be right.
  *
- * Tests: test_render.c, test_options.c, test/cli.sh, test/add_method.sh.
+ * Tests: test_render.c, test_options.c, test/run/cli.sh, test/run/add_method.sh.
  */
 #ifndef ASBDPT_JOB_H
 #define ASBDPT_JOB_H

@@ -26,7 +26,7 @@
  * The same film gives the same bytes, and sums are exact, so parts added up in any order give the bytes of the whole.
  * Parts are read as a stream: adding them needs the memory of one film. Files appear whole or not at all.
  *
- * Tests: test_part.c, test/keep.sh.
+ * Tests: test_part.c, test/run/keep.sh.
  */
 #ifndef ASBDPT_PART_H
 #define ASBDPT_PART_H

@@ -21,7 +21,7 @@ check() {
         done
     done
     for name in $(names exercise); do
-        grep -q "^$name " test/mutants/list.txt || wrong "there is no mutant $name"
+        grep -q "^$name " test/data/mutants/list.txt || wrong "there is no mutant $name"
     done
     for name in $(asked); do
         [ -n "$(get "$name" answer)" ] || wrong "the exercise with the mutant $name has no answer"
@@ -76,7 +76,7 @@ prove() {
         case $1 in *-*) ;; *) prove_whole "$n" "$tree" ;; esac
         for plant in $(planted | grep "^${n%%-*}-" | grep "^$1"); do
             filled "$n" "$tree"
-            sh test/mutants/apply.sh $plants "$plant" "$tree" || exit
+            sh test/data/mutants/apply.sh $plants "$plant" "$tree" || exit
             step=$(awk -v plant="$plant" '$1 == plant { print $3 }' $plants)
             if (QUICK=1; grade "$n" "$tree") >"$tree/$plant.txt" 2>&1; then
                 say "course: $plant is not found"

@@ -1,5 +1,5 @@
 /* inject.c: functions that fail when they are told to. `make inject` compiles the program with -Dcalloc=inject_calloc
- * and so on, and test/inject.sh runs it again and again:
+ * and so on, and test/run/inject.sh runs it again and again:
  *
  *     INJECT=count ./asbdpt-inject ...      prints how often each kind is called
  *     INJECT=close:3 ./asbdpt-inject ...    the third file that is closed cannot be

@@ -327,7 +327,7 @@ void fuzz_prepare(const char *directory)
     char here[4096], *parts = path_in(directory, "parts");
     if (getcwd(here, sizeof here) == NULL)
         broken("there is no working directory");
-    char *fixtures = path_in(here, "test/fixtures/parts");
+    char *fixtures = path_in(here, "test/data/fixtures/parts");
     if (symlink(fixtures, parts) != 0)
         broken("the files of the fixtures cannot be linked");
     free(fixtures);

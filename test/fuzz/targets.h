@@ -25,7 +25,7 @@ struct fuzz_target {
 extern const struct fuzz_target fuzz_targets[];
 const struct fuzz_target *fuzz_find(const char *name);
 
-/* fuzz_prepare: put into the directory what scenes may name: test/fixtures/parts. */
+/* fuzz_prepare: put into the directory what scenes may name: test/data/fixtures/parts. */
 void fuzz_prepare(const char *directory);
 
 #endif

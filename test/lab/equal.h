@@ -3,8 +3,8 @@
  * The first method has N samples per pixel, or all have as many seconds as were asked for. Time is counted in samples
  * of the first method: T = before_1 + N. A method that with a seed prepares for `before` and spends `each` per sample
  * (struct price) can afford n = (T - before) / each, and is rendered with the nearest whole number of samples. The
- * squared error of an unbiased method falls as 1 / samples, so at T it is that of the render times samples / n: only the
- * rounding. (A bias does not fall; half a sample of some dozen is not seen in it. At equal samples scenes do not
+ * squared error of an unbiased method falls as 1 / samples, so at T it is that of the render times samples / n: only
+ * the rounding. (A bias does not fall; half a sample of some dozen is not seen in it. At equal samples scenes do not
  * count where one of the two methods is marked.)
  *
  * Tests: test_equal_time.c.

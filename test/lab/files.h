@@ -1,6 +1,6 @@
 /* files.h: whole files of the laboratory: a picture, and a directory for many.
  *
- * Tests: test/cli.sh.
+ * Tests: test/run/cli.sh.
  */
 #ifndef ASBDPT_LAB_FILES_H
 #define ASBDPT_LAB_FILES_H

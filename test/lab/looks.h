@@ -5,7 +5,7 @@
  * albedo.R, .G, .B, normal.X, .Y, .Z, depth.Z and so on, as compositors name them. Layers and alpha are in the
  * picture's own files, which are written again when these are made.
  *
- * Tests: test/cli.sh, test/outputs.sh. */
+ * Tests: test/run/cli.sh, test/run/outputs.sh. */
 #ifndef ASBDPT_LAB_LOOKS_H
 #define ASBDPT_LAB_LOOKS_H
 

@@ -5,7 +5,7 @@
  * pixels. The heat maps share one scale, so that they can be compared: dark is no error, bright is the 99th percentile
  * of all their errors, and more. Errors are those of the displayed 8-bit values, as in the tables.
  *
- * Tests: test_report.c, test/cli.sh.
+ * Tests: test_report.c, test/run/cli.sh.
  */
 #ifndef ASBDPT_PICTURES_H
 #define ASBDPT_PICTURES_H

@@ -1,6 +1,6 @@
 /* race_table.h: what the race before a render (integrators/race.h) has predicted, and who has won.
  *
- * Tests: test/cli.sh.
+ * Tests: test/run/cli.sh.
  */
 #ifndef ASBDPT_LAB_RACE_TABLE_H
 #define ASBDPT_LAB_RACE_TABLE_H

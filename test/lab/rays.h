@@ -1,5 +1,5 @@
-/* rays.h: incoherent rays of a scene, by which traversal is timed (bench, test/peers/embree.c): cosine-distributed
- * directions from points all over the scene, found by following a camera ray one bounce.
+/* rays.h: incoherent rays of a scene, by which traversal is timed (bench, test/measure/peers/embree.c):
+ * cosine-distributed directions from points all over the scene, found by following a camera ray one bounce.
  */
 #ifndef ASBDPT_LAB_RAYS_H
 #define ASBDPT_LAB_RAYS_H

@@ -1,7 +1,7 @@
 /* sides.h: the two sides of a verification, rendered in batches or read from pictures, and the reference that is stored
  * once they agree.
  *
- * Tests: test_verify.c, test_reference.c, test/cli.sh.
+ * Tests: test_verify.c, test_reference.c, test/run/cli.sh.
  */
 #ifndef ASBDPT_SIDES_H
 #define ASBDPT_SIDES_H

@@ -1,6 +1,6 @@
 /* trace_report.h: what the witness of a pixel sample (trace.h) has to tell.
  *
- * Tests: test_trace.c, test/cli.sh.
+ * Tests: test_trace.c, test/run/cli.sh.
  */
 #ifndef ASBDPT_TRACE_REPORT_H
 #define ASBDPT_TRACE_REPORT_H

@@ -20,7 +20,7 @@ REFERENCES=${REFERENCES:-$dir/reference}
 build() {
     file=$(awk -v name="$1" '$1 == name && NF > 3 { print $2 }' $list) program=asbdpt
     [ "$1" != asbdpt-lab ] || program=asbdpt-lab
-    [ -z "$file" ] || sh test/mutants/apply.sh $list "$1" "$dir/tree" || return
+    [ -z "$file" ] || sh test/data/mutants/apply.sh $list "$1" "$dir/tree" || return
     make -s -C "$dir/tree" LTO= $program >"$dir/log.txt" 2>&1 &&
         mv "$dir/tree/$program" "$dir/programs/$1"
     built=$?

@@ -15,10 +15,10 @@
  * Kolmogorov's distribution is stretched until its 90 % quantile is the one found that way.
  *
  * Welch's test takes the means of batches for nearly normal. Where rare samples have most of the light they are not:
- * all batches may miss them alike, look sure, and be too dark; or too bright where rare samples are dark, as at the edge
- * of a shadow. Let a side of a tile be off the other's mean by D. Let a rare sample be as large as the largest step from
- * the mean, c, that a batch of this side has made in this tile or one near it. Then D n / c samples are missing of n
- * batches, and all of them are with the probability
+ * all batches may miss them alike, look sure, and be too dark; or too bright where rare samples are dark, as at the
+ * edge of a shadow. Let a side of a tile be off the other's mean by D. Let a rare sample be as large as the largest
+ * step from the mean, c, that a batch of this side has made in this tile or one near it. Then D n / c samples are
+ * missing of n batches, and all of them are with the probability
  *
  *     exp(-D n / c).
  *

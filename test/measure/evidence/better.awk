@@ -1,0 +1,47 @@
+# better.awk: functions of equal.awk and structures.awk: the error of asbdpt over that of the better of bdpt and pt, by
+# each measure. awk -f test/measure/evidence/better.awk -f test/measure/evidence/equal.awk, say. What they are given is over bdpt.
+
+# over_better: of asbdpt's and pt's cells, "VALUE [LOW, HIGH] MARK". pt counts where it has no mark, bdpt where it has
+# none (blind: it has one). Each measure has its own better method. 0: not known.
+function over_better(asbdpt, pt, blind) {
+    if (asbdpt !~ /^[0-9]/) return 0
+    if (pt ~ /[a-z]/ || pt !~ /^[0-9]/ || (pt + 0 >= 1 && !blind)) return least(asbdpt)
+    return least(asbdpt) / least(pt)
+}
+function least(v) { return v + 0 > 0 ? v + 0 : 0.0005 } # what is printed as 0.000 is taken for half of the last digit
+
+# take: a ratio of a scene, among those of a group and measure; 0 is counted as not known.
+function take(group, m, where, v) {
+    if (v <= 0) { lost[group, m]++; return }
+    logs[group, m] += log(v); squares[group, m] += log(v) ^ 2; number[group, m]++; above[group, m] += v > 1
+    if (v > most[group, m]) { most[group, m] = v; where_most[group, m] = where }
+}
+function mean_of(group, m) { return number[group, m] ? exp(logs[group, m] / number[group, m]) : 0 }
+# interval: geometric mean with its 95 % interval, Student's on the logarithms, if there are five scenes.
+function interval(group, m,    n, error) {
+    n = number[group, m]
+    if (n < 5) return n ? sprintf("%.2f", mean_of(group, m)) : "-"
+    error = sqrt((squares[group, m] - logs[group, m] ^ 2 / n) / (n - 1) / n) * student(n - 1)
+    n = mean_of(group, m)
+    return sprintf("%.2f [%.2f, %.2f]", n, n * exp(-error), n * exp(error))
+}
+# student: the quantile of Student's t that 2.5 % lie above: Cornish and Fisher's series, within .3 % from 4 on.
+function student(n,    z) {
+    z = 1.959964
+    return z + (z ^ 3 + z) / (4 * n) + (5 * z ^ 5 + 16 * z ^ 3 + 3 * z) / (96 * n ^ 2) + \
+        (3 * z ^ 7 + 19 * z ^ 5 + 17 * z ^ 3 - 15 * z) / (384 * n ^ 3)
+}
+# cells: of a group: for each measure the mean with its interval, the worst scene, and in how many scenes it is above 1.
+function cells(group, names,    m, text) {
+    for (m = 1; m <= 3; m++)
+        text = text sprintf(" %s | %.2f%s | %d |", interval(group, m), most[group, m],
+            names ? " `" where_most[group, m] "`" : "", above[group, m])
+    return text
+}
+# answers: of all scenes the sections better-MEASURE and losses-MEASURE.
+function answers(group,    m, name) {
+    split("mse8 relmse 8x8", name, " ")
+    for (m = 1; m <= 3; m++)
+        printf "== better-%s\n%s\n== losses-%s\n%d of %d\n", name[m], interval(group, m), name[m], above[group, m],
+            number[group, m]
+}

@@ -1,0 +1,72 @@
+#!/bin/sh
+# build.sh: what make leaves is never older than what it is made of: sources, headers, the list of files, the compiler
+# and its flags. The real Makefile builds programs that say a number, which comes from all of these.
+. test/run/expect.sh
+unset MAKEFLAGS MAKELEVEL
+cc=${CC:-cc}
+mkdir -p src/base src/cli test/lab test/fuzz test/unit test/run
+cp "$top/Makefile" . && cp "$top/test/run/lto.sh" test/run && cp "$top/test/unit/suites.awk" test/unit
+program() {
+    printf '#include <stdio.h>\n#include "base/word.h"\nint main(void) { return printf("%%d\\n", word()) < 0; }\n'
+}
+for file in src/cli/program.c test/lab/main.c test/unit/main.c; do program >$file; done
+for file in test/fuzz/targets.c test/fuzz/hostile.c; do echo 'typedef int none;' >$file; done
+# header NUMBER, source NUMBER: what is said is their sum, and what the compiler defines.
+header() { printf 'enum { HEADER = %s };\nint word(void);\n' "$1" >src/base/word.h; }
+source() {
+    printf '#include "base/word.h"\n#ifndef FLAG\n#define FLAG 0\n#endif\n' >src/base/word.c
+    echo "int word(void) { return HEADER + $1 + FLAG; }" >>src/base/word.c
+}
+# builds NUMBER OPTION...: make does, and the tests are not older than the programs.
+builds() {
+    number=$1
+    shift
+    expect 0 '' "${MAKE:-make}" "$@"
+    for made in ./asbdpt ./asbdpt-lab build/test; do
+        [ "$($made)" = "$number" ] || fault "after $what, make $*: $made says $($made), not $number"
+    done
+}
+
+header 100 && source 1
+what="nothing was built"
+expect 0 '' "${MAKE:-make}" CC="$cc"
+check [ ! -e build/test ]
+expect 0 '' "${MAKE:-make}" CC="$cc" build/test
+builds 101 CC="$cc"
+check [ "$(grep -c '^  ' stdout.txt)" = 0 ] # nothing is built again
+what="an edit of a source"
+source 2
+builds 102 CC="$cc"
+check [ "$(grep -c 'obj/' stdout.txt)" = 1 ] # no other is compiled again
+what="an edit of a header"
+header 200
+builds 202 CC="$cc"
+what="other flags"
+builds 212 CC="$cc" CFLAGS=-DFLAG=10
+builds 202 CC="$cc"
+what="another compiler"
+printf '#!/bin/sh\nexec %s -DFLAG=20 "$@"\n' "$cc" >compiler
+chmod +x compiler
+builds 222 CC=./compiler
+what="another version of the compiler"
+printf '#!/bin/sh\n[ "$1" != --version ] || { echo 2; exit; }\nexec %s -DFLAG=30 "$@"\n' "$cc" >compiler
+builds 232 CC=./compiler
+what="the other of two compilers"
+for other in gcc clang gcc; do
+    ! command -v $other >/dev/null || builds 202 CC=$other
+done
+what="no optimisation of the whole"
+builds 202 LTO=
+what="such optimisation"
+builds 202 CC="$cc" V=1
+[ -z "$(sh test/run/lto.sh $cc)" ] || says '-fno-lto.* -o build/test '
+what="a file that is gone"
+mv src/base/word.c word.c
+expect 2 'word' "${MAKE:-make}" CC="$cc"
+mv word.c src/base
+
+# How long lines, pages and the tree are is told by make tidy, which is no test.
+expect 0 '' "${MAKE:-make}" -n test
+check [ -z "$(grep -E 'tree_stats|words\.sh|columns' stdout.txt)" ]
+[ $failures -eq 0 ] && echo "build: all as expected"
+exit $((failures > 0))

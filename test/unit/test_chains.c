@@ -1,0 +1,224 @@
+/* test_chains.c: Markov chains: their steps are as wide and as large as they must be, and their images are those of
+ * bdpt. test_balance.c has what they accept, to the digit. */
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "chains/mlt.h"
+#include "lab/stats.h"
+#include "render/render.h"
+#include "agree.h"
+#include "bench.h"
+#include "helpers.h"
+#include "suites.h"
+
+/* --- numbers ----------------------------------------------------------------------------------------- */
+
+/* Are all numbers of `next` as near to those of `now` as those of a small step are? */
+static bool is_near(const struct chain *c)
+{
+    for (int i = 0; i < CHAIN_STREAMS; i++)
+        for (size_t k = 0; k < c->now.number[i].n && k < c->next.number[i].n; k++) {
+            double d = fabs(c->next.number[i].number[k] - c->now.number[i].number[k]);
+            if (fmin(d, 1 - d) > 8 * c->all->sigma)
+                return false;
+        }
+    return true;
+}
+
+/* Small steps are normal, around the ends; after many of them, all accepted, a number may be anywhere. */
+static void test_steps(struct test *t)
+{
+    enum { NUMBERS = 50, STEPS = 4000, CELLS = 20, EVERY = 40 };
+    double where[CELLS] = {0}, how[CELLS] = {0}, even_where[CELLS], even_how[CELLS];
+    struct scene scene;
+    struct bench b;
+    if (!chain_room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "pssmlt", CHAIN_DEPTH, 0, &b))
+        return;
+    struct chain *c = b.chain;
+    const struct chains *all = b.prepared.own;
+    struct primary p;
+    double sigma = all->sigma;
+    primary_begin(&p, c, false);
+    for (int i = 0; i < NUMBERS; i++)
+        sampler_number(&p.sampler[EYE_NUMBERS], DRAW_LOBE);
+    primary_end(&p);
+    chain_swap(c);
+    long large = 0;
+    for (int k = 0; k < STEPS; k++) {
+        primary_begin(&p, c, true);
+        for (int i = 0; i < NUMBERS; i++) {
+            double u = sampler_number(&p.sampler[EYE_NUMBERS], DRAW_LOBE);
+            double d = u - c->now.number[EYE_NUMBERS].number[i];
+            d = (d > 0.5 ? d - 1 : d < -0.5 ? d + 1 : d) / sigma;
+            double below = 0.5 * (1 + copysign(1 - stats_normal_p(d), d)); /* normal distribution function */
+            CHECK(t, u >= 0 && u < 1, "a number is %g", u);
+            how[(int)(below * CELLS) % CELLS]++;
+            if (k % EVERY == EVERY - 1)
+                where[(int)(u * CELLS)]++;
+        }
+        primary_end(&p);
+        chain_swap(c);
+    }
+    for (int i = 0; i < CELLS; i++) {
+        even_where[i] = (double)NUMBERS * (STEPS / EVERY) / CELLS;
+        even_how[i] = (double)NUMBERS * STEPS / CELLS;
+    }
+    chain_candidate(c, 1);
+    chain_swap(c);
+    for (int k = 0; k < STEPS; k++) {
+        chain_propose(c);
+        large += !is_near(c);
+    }
+    double z = ((double)large - all->large_step * STEPS) / sqrt(STEPS * all->large_step * (1 - all->large_step));
+    TEST_ACCEPT(t, stats_chi2_test(how, even_how, CELLS), "steps are normal");
+    /* numbers EVERY steps apart are not independent: the bound is wide, and far below what a wall at the ends makes */
+    double chi = 0;
+    for (int i = 0; i < CELLS; i++)
+        chi += (where[i] - even_where[i]) * (where[i] - even_where[i]) / even_where[i];
+    CHECK(t, chi < 6 * CELLS, "numbers are not uniform: chi-square %g of %d cells", chi, CELLS);
+    TEST_ACCEPT(t, stats_normal_p(z), "large steps are as frequent as wanted: %ld of %d", large, STEPS);
+    bench_free(&b);
+    scene_free(&scene);
+}
+
+/* --- sub-paths walked again --------------------------------------------------------------------------- */
+
+static bool near_to(double a, double b) { return fabs(a - b) <= 1e-9 * fabs(b); }
+
+/* A light sub-path that goes again through the vertices of one that was walked is that one, whatever its stops know. */
+static void test_follow(struct test *t)
+{
+    enum { PATHS = 500 };
+    struct scene scene;
+    struct bench b;
+    int met = 0;
+    if (!chain_room(t, 4, 4, "", "box", &scene) || !bench_new(t, &scene, "mlt", CHAIN_DEPTH, 0, &b))
+        return;
+    for (uint64_t i = 0; i < PATHS; i++) {
+        struct vertex walked[CHAIN_DEPTH + 1], again[CHAIN_DEPTH + 1];
+        struct path_stop stop[CHAIN_DEPTH + 1];
+        struct sampler sampler = sampler_start(test_seed(t), RNG_TEST, 17, i);
+        struct walk w = {&scene, &b.chain->all->counts, &b.work->arena, &sampler, 0};
+        int n = path_light(&w, walked, CHAIN_DEPTH + 1), smooth = n > 0;
+        while (smooth < n && !walked[smooth].prev_delta && walked[smooth].kind == VERTEX_SURFACE)
+            smooth++;
+        for (int k = 0; k < smooth; k++) {
+            stop[k] = (struct path_stop){.v = walked[k]};
+            if (k > 0) {
+                stop[k].v.mis = stop[k].v.pdf_fwd = -1;
+                stop[k].v.beta = rgb_grey(-1);
+            }
+        }
+        if (smooth == 0 || !CHECK(t, follow_light(&w, stop, smooth, again) == smooth, "light does not come again"))
+            continue;
+        for (int k = 1; k < smooth; k++, met++) {
+            CHECK(t, near_to(again[k].mis, walked[k].mis) && near_to(again[k].back, walked[k].back),
+                  "vertex %d: weights %g, not %g", k, again[k].mis, walked[k].mis);
+            CHECK(t, near_to(again[k].pdf_fwd, walked[k].pdf_fwd) && near_to(again[k].mis_c, walked[k].mis_c),
+                  "vertex %d: density %g, not %g", k, again[k].pdf_fwd, walked[k].pdf_fwd);
+            CHECK(t, near_to(again[k].beta.r, walked[k].beta.r) && near_to(again[k].beta.b, walked[k].beta.b),
+                  "vertex %d: throughput %g, not %g", k, again[k].beta.r, walked[k].beta.r);
+        }
+    }
+    CHECK(t, met > PATHS / 2, "only %d vertices met again", met);
+    bench_free(&b);
+    scene_free(&scene);
+}
+
+/* --- no start ----------------------------------------------------------------------------------------- */
+
+/* A chain that is told to stop while it looks for its start does not begin. */
+static bool at_once(void *context)
+{
+    ++*(int *)context;
+    return true;
+}
+
+static void test_no_start(struct test *t)
+{
+    struct scene scene;
+    struct bench b;
+    int asked = 0;
+    if (!chain_room(t, 1, 1, "", "box", &scene) || !bench_new(t, &scene, "mmlt", CHAIN_DEPTH, 0, &b))
+        return;
+    CHECK(t, chain_start(b.chain, 0) > 0, "a chain does not begin");
+    b.job.enough = at_once;
+    b.job.enough_context = &asked;
+    CHECK(t, chain_start(b.chain, 0) == 0 && asked == 1, "it begins after %d questions", asked);
+    bench_free(&b);
+    scene_free(&scene);
+}
+
+/* --- pictures ---------------------------------------------------------------------------------------- */
+
+/* The luminance of a picture of so many samples, over bdpt's. */
+static double luminance(struct test *t, const struct scene *scene, const char *integrator, long spp)
+{
+    struct film film;
+    double sum = 0;
+    struct render_options o = {.integrator = method_of(scene, integrator), .end = spp, .max_depth = CHAIN_DEPTH,
+                               .n_threads = 2,
+                               .seed = test_seed(t)};
+    render_film(t, scene, &o, &film);
+    for (size_t i = 0; i < (size_t)scene->width * (size_t)scene->height; i++)
+        sum += rgb_luminance(rgb_make(film_value(&film, 3 * i), film_value(&film, 3 * i + 1),
+                                      film_value(&film, 3 * i + 2)));
+    film_free(&film);
+    return sum / (double)spp;
+}
+
+/* Every chain begins anew: a lamp of which one state in some thousand sees anything is bright enough for a third of the
+ * light. A picture of 2048 samples has found it and converges, as a pool of the states of one chain never could. */
+static void test_converges(struct test *t, const char *const *methods, long spp)
+{
+    static const char room[] =
+        "LookAt 0 0 -.9 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 80\n"
+        "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8\nPixelFilter \"box\"\n"
+        "WorldBegin\nMaterial \"matte\" \"rgb Kd\" [.5 .5 .5]\n"
+        "ReverseOrientation\nShape \"sphere\" \"float radius\" 1\nReverseOrientation\n"
+        "AttributeBegin\nTranslate .4 .4 .3\nAreaLightSource \"diffuse\" \"rgb L\" [6 6 6]\n"
+        "Shape \"sphere\" \"float radius\" .1\nAttributeEnd\n"
+        "LightSource \"spot\" \"point from\" [0 .9 0] \"point to\" [0 -1 .1] \"rgb I\" [3e3 3e3 3e3]\n"
+        "\"float coneangle\" 1 \"float conedeltaangle\" .1\nWorldEnd\n";
+    struct scene scene;
+    if (!scene_from_text(t, room, &scene))
+        return;
+    double truth = luminance(t, &scene, "bdpt", 1024);
+    for (; *methods != NULL; methods++) {
+        double found = luminance(t, &scene, *methods, spp);
+        CHECK(t, fabs(found / truth - 1) < 0.05, "%s: after %ld samples the picture has %g, bdpt's %g", *methods, spp,
+              found, truth);
+    }
+    scene_free(&scene);
+}
+
+static void test_means(struct test *t, const char *methods, int more)
+{
+    struct scene scene;
+    struct agreement a = {"room", 16, 16, CHAIN_DEPTH, "bdpt", methods, 16, 64, 20, 8, false, 0.3};
+    if (chain_room(t, 16, 16, "\"float lensradius\" .05 \"float focaldistance\" 4", "gaussian", &scene)) {
+        check_agreement_in(t, &scene, &a, more);
+        scene_free(&scene);
+    }
+    a.scene = "scenes/cornell-box";
+    check_agreements(t, &a, more > 1, more);
+}
+
+static const char *const METHODS[] = {"pssmlt", "mmlt", "mlt", NULL};
+static const char *const QUICK[] = {"mmlt", NULL}; /* they all share chain.c, which makes pictures of states */
+
+void test_chains(struct test *t)
+{
+    test_steps(t);
+    test_follow(t);
+    test_no_start(t);
+    test_converges(t, QUICK, 2048);
+    test_means(t, "mmlt starts=512", 1);
+}
+
+void test_chains_long(struct test *t)
+{
+    test_converges(t, METHODS, 16384);
+    test_means(t, "pssmlt starts=512, mmlt starts=512, mlt starts=512", 8);
+}

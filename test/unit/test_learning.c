@@ -1,0 +1,276 @@
+/* test_learning.c: the contract of learning (learn.h): a budget that does not depend on the number of samples, an end
+ * at any time, and grids that cover the vertices. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "base/os.h"
+#include "helpers.h"
+#include "integrators/prepare.h"
+#include "learning/learn.h"
+#include "integrators/race.h"
+#include "render/job.h"
+#include "render/render.h"
+#include "suites.h"
+
+static const struct learn_options ALL = {.use = true, .direct = true, .pairs = true, .emission = 0.2, .delta = 0.1};
+
+/* Who watches: how much was traced, and when to say stop; how often that may be asked, 0: at will; how long an answer
+ * takes. */
+struct watcher {
+    double traced, patience;
+    int most, asked;
+    double seconds;
+};
+
+static bool watch(void *context, double traced)
+{
+    struct watcher *w = context;
+    double begun = os_wall_seconds();
+    while (w->seconds > 0 && os_wall_seconds() - begun < w->seconds)
+        continue;
+    w->traced = traced;
+    return traced < w->patience && (++w->asked < w->most || w->most == 0);
+}
+
+static struct render_job job_of(const struct scene *scene, struct watcher *w, int n_threads)
+{
+    struct render_job job = {.scene = scene, .film_rect = render_crop(scene), .seed = 3, .eye_seed = 3, .max_depth = 4,
+                             .n_threads = n_threads, .rr_threshold = 0.5, .spatial_lights = true,
+                             .watch = w != NULL ? watch : NULL, .watch_context = w};
+    return job;
+}
+
+static struct tables *learn_scene(const struct scene *scene, struct watcher *w, int n_threads)
+{
+    struct tables *l = mem_alloc(1, sizeof *l);
+    struct render_job job = job_of(scene, w, n_threads);
+    learn(&job, &ALL, l);
+    return l;
+}
+
+static void drop(struct tables *l)
+{
+    tables_free(l);
+    free(l);
+}
+
+static bool same(const double *a, const double *b, int n) { return memcmp(a, b, (size_t)n * sizeof *a) == 0; }
+
+static bool same_table(const struct table *a, const struct table *b)
+{
+    return a->rows == b->rows && a->columns == b->columns && same(a->ratio, b->ratio, a->rows * a->columns);
+}
+
+static bool same_learnt(const struct tables *a, const struct tables *b)
+{
+    return a->regions.n == b->regions.n && same(a->use, b->use, a->regions.n) &&
+           same(a->vertices, b->vertices, a->regions.n) && same_table(&a->direct, &b->direct) &&
+           same_table(&a->pairs, &b->pairs) && same_table(&a->emission, &b->emission);
+}
+
+/* --- budget, threads, end ----------------------------------------------------------------------------- */
+
+static void test_budget(struct test *t)
+{
+    struct scene small, large;
+    if (!scene_from_file(t, "scenes/many-lights.pbrt", 24, 16, &small) ||
+        !scene_from_file(t, "scenes/many-lights.pbrt", 96, 64, &large))
+        return;
+    struct watcher w[4] = {{.patience = INFINITY}, {.patience = INFINITY}, {.patience = INFINITY}, {.patience = 300}};
+    struct tables *l[4] = {learn_scene(&small, &w[0], 1), learn_scene(&small, &w[1], 3), learn_scene(&large, &w[2], 2),
+                           learn_scene(&large, &w[3], 2)};
+    CHECK(t, w[0].traced > 1000 && w[0].traced < 8000, "%g sub-paths for a small picture", w[0].traced);
+    CHECK(t, w[2].traced > 4 * w[0].traced && w[2].traced < 16 * w[0].traced,
+          "%g sub-paths for 16 times as many pixels",
+          w[2].traced);
+    CHECK(t, w[3].traced < 1000 && l[3]->regions.n >= 1, "it goes on when told to stop: %g sub-paths", w[3].traced);
+    CHECK(t, same_learnt(l[0], l[1]), "what is learnt depends on the number of threads");
+    CHECK(t, !same_learnt(l[2], l[3]), "no difference would be seen");
+    CHECK(t, l[0]->direct.rows > 0 && l[0]->pairs.rows > 0 && l[0]->emission.rows > 0, "nothing was learnt");
+    for (int i = 0; i < 4; i++)
+        drop(l[i]);
+    scene_free(&small);
+    scene_free(&large);
+}
+
+/* A picture of one pixel is looked at, too, and one of a million no longer than one of 32768: by 48
+ * times 1024 eye sub-paths and 16 times 1024 light sub-paths. */
+static void test_bounds(struct test *t)
+{
+    static const int sides[] = {1, 182, 1024};
+    double traced[3];
+    for (int i = 0; i < 3; i++) {
+        struct scene scene;
+        struct watcher w = {.patience = INFINITY};
+        if (!scene_from_text(t, "Camera \"perspective\" WorldBegin LightSource \"point\" WorldEnd", &scene))
+            return;
+        scene.width = scene.height = sides[i];
+        camera_prepare(&scene.camera, sides[i], sides[i]);
+        drop(learn_scene(&scene, &w, 2));
+        traced[i] = w.traced;
+        scene_free(&scene);
+    }
+    CHECK(t, traced[0] > 4000 && traced[2] == traced[1], "%g sub-paths for one pixel, %g for 182^2, %g for 1024^2",
+          traced[0], traced[1], traced[2]);
+    CHECK(t, traced[2] == 64 * 1024, "the budget is %g sub-paths at most", traced[2]);
+}
+
+/* Where paths take long somebody is asked between any two, and not only when many are traced: while tables are filled,
+ * and by a race. Here it is the answer that takes long, so nothing depends on the machine. */
+static void test_dear_paths(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
+        return;
+    struct watcher w[2] = {{.patience = INFINITY, .most = 4, .seconds = 0.03},
+                           {.patience = INFINITY, .most = 4, .seconds = 0.03}};
+    struct render_job job = job_of(&scene, NULL, 1);
+    struct prepared p;
+    struct error err = {.text = ""};
+    drop(learn_scene(&scene, &w[0], 1));
+    CHECK(t, w[0].traced == 0, "filling tables asks every %g paths", w[0].traced / (w[0].asked - 1));
+    settings_set(&scene.settings, "race", "off", "test");
+    if (CHECK(t, method_read(method_find("asbdpt", &scene.settings, &err), &scene, &p, &err), "%s", err.text)) {
+        method_prepare(&job, &p);
+        job.watch = watch;
+        job.watch_context = &w[1];
+        race(&job, &p);
+        CHECK(t, w[1].asked == 4 && w[1].traced == 0 && p.winner == 0, "a race has traced %g when asked %d times",
+              w[1].traced, w[1].asked);
+        method_release(&p);
+    }
+    scene_free(&scene);
+}
+
+/* A render whose time is over while it learns has a picture of one block all the same. */
+static enum render_wish impatient(void *context, double done)
+{
+    double *asked_first = context;
+    *asked_first = *asked_first < 0 ? done : *asked_first;
+    return RENDER_END_BLOCK;
+}
+
+static void test_early_end(struct test *t)
+{
+    struct scene scene;
+    struct film film;
+    struct error err = {.text = ""};
+    double asked_first = -1; /* at what share of all work */
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 48, 32, &scene)) /* two tiles */
+        return;
+    struct render_options o = {.integrator = method_named("asbdpt"), .end = 1000000, .n_threads = 2, .max_depth = 4,
+                               .progress = impatient, .progress_context = &asked_first};
+    film_init(&film, render_crop(&scene), 48, 32);
+    CHECK(t, render_by(&scene, &o, &film, &err), "%s", err.text);
+    CHECK(t, film.iterations > 0 && film.iterations <= LONGEST_BLOCK && film_value(&film, 3 * (16 * 48 + 24)) > 0,
+          "%ld samples of a render that was stopped at once", film.iterations);
+    CHECK(t, asked_first >= 0 && asked_first * 1e6 * 48 * 32 < 1000, "asked first after %g of the work", asked_first);
+    film_free(&film);
+    scene_free(&scene);
+}
+
+/* Of fewer light sub-paths the mean number of vertices is about the same, wherever learning ends. */
+static void test_cut_short(struct test *t)
+{
+    struct scene scene;
+    struct watcher whole = {.patience = INFINITY};
+    int in_part = 0;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 48, 32, &scene))
+        return;
+    struct tables *all = learn_scene(&scene, &whole, 1);
+    for (int i = 1; i < 64; i++) {
+        struct watcher w = {.patience = whole.traced * i / 64};
+        struct tables *l = learn_scene(&scene, &w, 1);
+        if (l->light_vertices > 0) {
+            double ratio = l->light_vertices / all->light_vertices;
+            CHECK(t, ratio > 0.8 && ratio < 1.2, "of %d/64 of all sub-paths: %.3f times as many vertices", i, ratio);
+            in_part += l->light_vertices != all->light_vertices;
+        }
+        drop(l);
+    }
+    CHECK(t, in_part > 2, "learning has ended among light sub-paths %d times", in_part);
+    drop(all);
+    scene_free(&scene);
+}
+
+/* --- grids -------------------------------------------------------------------------------------------- */
+
+/* One triangle far away moves no region, be it black or seen by few. */
+static void test_far_triangle(struct test *t)
+{
+    static const char scene_text[] =
+        "LookAt 0 1 -3.4  0 1 0  0 1 0 Camera \"perspective\" \"float fov\" 40 WorldBegin\n"
+        "Material \"matte\" " QUAD("-2 0 -2  2 0 -2  2 0 2  -2 0 2")
+        "Shape \"sphere\" AttributeBegin AreaLightSource \"diffuse\" Translate 0 3 0 Shape \"disk\" AttributeEnd\n"
+        "%s WorldEnd";
+    static const char *const far[] = {
+        "", "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
+            "\"point P\" [1000 0 0  1001 0 0  1000 0 1]",
+        "Material \"matte\" Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
+            "\"point P\" [0 200 1000  50 200 1000  0 250 1000]"};
+    enum { WAYS = sizeof far / sizeof far[0] };
+    int regions[WAYS];
+    for (int i = 0; i < WAYS; i++) {
+        char text[1024];
+        struct scene scene;
+        struct watcher w = {.patience = INFINITY};
+        snprintf(text, sizeof text, scene_text, far[i]);
+        if (!scene_from_text(t, text, &scene))
+            return;
+        scene.width = scene.height = 32;
+        camera_prepare(&scene.camera, 32, 32);
+        struct tables *l = learn_scene(&scene, &w, 2);
+        regions[i] = l->regions.n;
+        drop(l);
+        scene_free(&scene);
+    }
+    CHECK(t, regions[0] > 50, "%d regions", regions[0]);
+    for (int i = 1; i < WAYS; i++)
+        CHECK(t, regions[i] > 0.8 * regions[0], "a far triangle leaves %d regions of %d", regions[i], regions[0]);
+}
+
+/* --- figures ------------------------------------------------------------------------------------------ */
+
+/* How far the worth of pairs of regions is from even, the mean square of the ratios over the square of their mean, is
+ * what it was when these numbers were written down: a change that is meant to move them writes them again. */
+static void test_unevenness(struct test *t)
+{
+    static const struct {
+        const char *path;
+        double unevenness;
+    } cases[] = {{"scenes/veach-ajar.pbrt", 8.394}, {"scenes/corridor.pbrt", 5.7}};
+    for (int i = 0; i < 2; i++) {
+        struct scene scene;
+        struct watcher w = {.patience = INFINITY};
+        double sum = 0, square = 0;
+        if (!scene_from_file(t, cases[i].path, 32, 24, &scene))
+            continue;
+        struct render_job job = job_of(&scene, &w, 2);
+        job.max_depth = 5;
+        struct tables l = NO_TABLES;
+        learn(&job, &ALL, &l);
+        double n = l.pairs.rows * l.pairs.columns;
+        for (int k = 0; k < l.pairs.rows * l.pairs.columns; k++) {
+            sum += l.pairs.ratio[k] / n;
+            square += sqr(l.pairs.ratio[k]) / n;
+        }
+        CHECK(t, fabs(square / sqr(sum) / cases[i].unevenness - 1) <= 0.03, "%s: %.4g, but it was %.4g", cases[i].path,
+              square / sqr(sum), cases[i].unevenness);
+        tables_free(&l);
+        scene_free(&scene);
+    }
+}
+
+void test_learning(struct test *t)
+{
+    test_budget(t);
+    test_bounds(t);
+    test_dear_paths(t);
+    test_early_end(t);
+    test_cut_short(t);
+    test_far_triangle(t);
+    test_unevenness(t);
+}

@@ -1,0 +1,232 @@
+/* test_rivals.c: other methods of choosing what to connect (test/lab/rivals): each has the expectation of path
+ * tracing. Pools of one, two and four light sub-paths are tested too, where a fault of 1/K is as large as what is
+ * measured. Where a method must equal another one, it does. test_asbdpt.c has lvc and cbdpt. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "agree.h"
+#include "helpers.h"
+#include "suites.h"
+
+/* --- expectation ------------------------------------------------------------------------------------- */
+
+/* A slope beside the wall that lights it, and behind a low fence, from above: what comes from there, and the density of
+ * what is taken over, differs by more than ten from the first to the last of the pixels, and they are all alike. */
+static const char SLOPE[] =
+    "LookAt .5 10 0  .5 0 0  0 0 1 Camera \"perspective\" \"float fov\" .72\n"
+    "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 1 PixelFilter \"box\" WorldBegin\n"
+    "LightSource \"spot\" \"point from\" [1 1.6 0] \"point to\" [0 .1 0] \"rgb I\" [9 9 9]\n"
+    "\"float coneangle\" 15 Material \"matte\" \"rgb Kd\" [.6 .6 .6]\n"
+    QUAD(".5 .5 -2  .5 .5 2  .5 .6 2  .5 .6 -2")
+    QUAD("0 0 -2  0 0 2  2 2 2  2 2 -2")
+    "Material \"uber\" \"rgb Kd\" [.5 .5 .5] \"rgb Kr\" [.4 .4 .4] \"rgb Ks\" [0 0 0]\n"
+    QUAD("0 0 -2  0 0 2  0 1 2  0 1 -2") "WorldEnd\n";
+
+/* A floor that scatters and mirrors, a wall, and a lamp as large as both, which s = 0 and s = 1 find alike. A guide
+ * that has learnt where the lamp is draws other directions than the BSDF. */
+static const char LAMP[] =
+    "LookAt 0 -2 1.8  0 -.4 0  0 0 1 Camera \"perspective\" \"float fov\" 40\n"
+    "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 32 PixelFilter \"box\" WorldBegin\n"
+    "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] Shape \"trianglemesh\"\n"
+    "\"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 -1 1.2  -1 1 1.2  1 1 1.2  1 -1 1.2] AttributeEnd\n"
+    "Material \"uber\" \"rgb Kd\" [.5 .5 .5] \"rgb Kr\" [.4 .4 .4] \"rgb Ks\" [0 0 0]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 -1 0  1 -1 0  1 1 0  -1 1 0]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [-1 1 0  1 1 0  1 1 1  -1 1 1]\n"
+    "WorldEnd\n";
+
+/* Two rooms, where connections matter most, as one tile of 3x3 pixels, with one, two and four or five light sub-paths;
+ * a third of the pixels have records. Every kind of scene; paths that pt does not make, of delta lights behind specular
+ * surfaces, those that share its eye sub-paths do not. */
+#define EVERY                                                                                                          \
+    "mbdpt, pcbdpt connections=2, ris, ris subpaths=20 records=.01, ris2 presampled=20 records=.01, spcbpt,"           \
+    "spcbpt heuristic=power guide=on, restir neighbours=20"
+#define SHARED "restirgi, restirgi neighbours=20, ppg cell=100"
+static const struct agreement EXPECTATIONS[] = {
+    {"doc/mini/rooms", 3, 3, 4, "bdpt",
+     "mbdpt pathpixels=9, mbdpt pathpixels=5 key=throughput, lvc connections=0, pcbdpt records=.3 subpaths=1,"
+     "pcbdpt records=.3 subpaths=4 connections=2, ris records=.3 subpaths=1, ris records=.3 subpaths=2,"
+     "ris records=.3 subpaths=4, ris2 records=.3 presampled=2 subpaths=2, spcbpt pathpixels=9,"
+     "spcbpt pathpixels=5 subspaces=3 connections=1, spcbpt pathpixels=2 guide=on emission=.2,"
+     "restir candidates=1 neighbours=2,"
+     "restir candidates=4 neighbours=8, restirgi neighbours=8", 64, 64, 32, 1, true, 0},
+    {"scenes/test/light-kinds", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0},
+    {"scenes/test/mirror-glass", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0},
+    {"scenes/test/all-materials", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0},
+    {"scenes/test/light-kinds", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0},
+    {"scenes/test/mirror-glass", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0},
+    {"scenes/test/all-materials", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0},
+    {SLOPE, 0, 0, 4, "pt", "restirgi neighbours=8", 1024, 1024, 16, 1, false, 0},
+    {LAMP, 0, 0, 4, "pt", "ppg cell=50, ppg cell=1000 heuristic=power", 16, 16, 16, 32, false, 0}};
+enum { N_EXPECTATIONS = sizeof EXPECTATIONS / sizeof EXPECTATIONS[0] };
+
+/* In three pixels, where sub-paths of a rank would meet too often if the lattice were not shifted at random. */
+static const struct agreement THREE_PIXELS = {"doc/mini/rooms", 3, 1, 4, "bdpt", "mbdpt pathpixels=1",
+                                              1024, 1024, 32, 3, true, 0};
+
+/* The two rooms with pools of a hundred light vertices, in which records differ. */
+static const struct agreement ROOMS = {
+    "doc/mini/rooms", 16, 16, 4, "bdpt",
+    "pcbdpt records=.02, ris records=.02 subpaths=30, ris2 records=.02 presampled=30, spcbpt, restir neighbours=20,"
+    "restirgi neighbours=20 heuristic=power, ppg cell=300", 8, 8, 16, 8, true, 0};
+
+/* The bias of pathgraph falls with the radius: it is seen where vertices share across half a room, and not with the
+ * same samples where they share nearby. */
+static void test_bias(struct test *t, int more)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "doc/mini/rooms.pbrt", 16, 16, &scene))
+        return;
+    struct batches pt = render_batches(t, &scene, "pt", 4, 48 * more, 16, 4, 211);
+    struct batches near = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.1"), 4, 48 * more, 16, 4,
+                                         212);
+    struct batches far = render_batches(t, &scene, set_method(&scene, "pathgraph radius=.5 cluster=64"), 4, 48 * more,
+                                        16, 4, 212);
+    check_agree(t, &near, &pt, false, 0, "rooms: pathgraph radius=.1 against pt");
+    double ratio, p = batches_p(&far, &pt, &ratio);
+    TEST_REJECT(t, p, "pathgraph shares across the room, ratio %.4f", ratio);
+    batches_free(&far);
+    batches_free(&pt);
+    scene_free(&scene);
+}
+
+/* Under an even sky all that is white shines like it: nothing is wrong with a neighbour's light. White ends no walk but
+ * by a threshold of roulette above 1. */
+static const char CORNER[] =
+    "LookAt 1 2 3  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 20\n"
+    "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16 WorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [1 1 1] Material \"matte\" \"rgb Kd\" [1 1 1]\n"
+    QUAD("-4 0 0  4 0 0  4 0 4  -4 0 4")
+    QUAD("-4 0 0  4 0 0  4 4 0  -4 4 0") "WorldEnd\n";
+
+/* In a sphere that shines every point receives the same: merging moves nothing. */
+static const char SHINING[] =
+    "LookAt 0 0 0  0 0 1  0 1 0 Camera \"perspective\" \"float fov\" 60\n"
+    "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16 PixelFilter \"box\" WorldBegin\n"
+    "Material \"matte\" \"rgb Kd\" [.5 .5 .5] AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n"
+    "ReverseOrientation Shape \"sphere\" \"float radius\" 1 WorldEnd\n";
+
+static void test_furnace(struct test *t, int more)
+{
+    static const struct {
+        const char *text, *way;
+        int depth;
+        double light;
+    } cases[] = {{CORNER, "pathgraph radius=1 cluster=64", 30, 1},
+                 {CORNER, "pathgraph radius=.1 heuristic=power", 30, 1},
+                 {CORNER, "restirgi neighbours=20 rrthreshold=1.5", 30, 1},
+                 {SHINING, "vcm radius=.05 alpha=1", 5, 2 - 1 / 32.0}}; /* 1 + 1/2 + ... */
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        struct scene scene;
+        if (!scene_from_text(t, cases[k].text, &scene))
+            return;
+        const char *integrator = set_method(&scene, cases[k].way);
+        struct batches b = render_batches(t, &scene, integrator, cases[k].depth, 24 * more, 16, 16, 221);
+        double error, mean = batches_mean(&b, &error);
+        TEST_ACCEPT(t, mean_p(&b, cases[k].light), "furnace by %s: %.5f +- %.5f", cases[k].way, mean, error);
+        batches_scale(&b, 1.01);
+        TEST_REJECT(t, mean_p(&b, cases[k].light), "furnace by %s made 1 %% brighter", cases[k].way);
+        batches_free(&b);
+        scene_free(&scene);
+    }
+}
+
+/* --- limits ------------------------------------------------------------------------------------------ */
+
+enum { SIDE = 16 };
+
+static void render_image(struct test *t, struct scene *scene, const char *method, int depth, float *image)
+{
+    struct render_options o = {.integrator = set_row(scene, method), .end = 4, .n_threads = 2, .max_depth = depth};
+    render_pixels(t, scene, &o, image);
+}
+
+/* Largest difference of two methods, relative. */
+static double differ(struct test *t, struct scene *scene, const char *a, const char *b, int depth)
+{
+    static float x[SIDE * SIDE * 3], y[SIDE * SIDE * 3];
+    double worst = 0;
+    render_image(t, scene, a, depth, x);
+    render_image(t, scene, b, depth, y);
+    for (int i = 0; i < scene->width * scene->height * 3; i++)
+        worst = fmax(worst, fabs((double)x[i] - (double)y[i]) / (fabs((double)x[i]) + 1e-6));
+    return worst;
+}
+
+/* A light in a closed white ball. */
+static const char WHITE[] =
+    "Camera \"perspective\" Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+    "WorldBegin LightSource \"point\" Material \"matte\" \"rgb Kd\" [1 1 1] Shape \"sphere\" \"float radius\" 2\n"
+    "WorldEnd\n";
+
+/* Where one method is another: with the same random numbers they make the same picture, up to `bound`: where the same
+ * sums are added in another order that is not to the byte. Beside each stands one that is near, and is not. */
+static void test_limits(struct test *t)
+{
+    static const struct {
+        const char *scene;
+        int side, depth;
+        const char *a, *b, *other;
+        double bound;
+    } cases[] = {
+        {"light-kinds", 1, 4, "mbdpt pathpixels=1", "bdpt", "cbdpt connections=2", 0},
+        {"mirror-glass", SIDE, 4, "restir candidates=1 neighbours=0 worth=1", "bdpt",
+         "restir candidates=1 neighbours=9 worth=1", 1e-6},
+        {"light-kinds", SIDE, 4, "restir candidates=1 neighbours=0 worth=1", "bdpt",
+         "restir candidates=2 neighbours=0 worth=1", 1e-6},
+        /* without records the choice is uniform; where light sub-paths have two vertices, two draws count like one */
+        {"white", SIDE, 2, "pcbdpt records=0 connections=2 subpaths=256", "lvc connections=2",
+         "pcbdpt records=.1 connections=2 subpaths=256", 0},
+        {"all-materials", SIDE, 4, "ris weights=counts records=.02 subpaths=200",
+         "pcbdpt normals=0 records=.02 connections=1", "pcbdpt records=.02 connections=1", 0},
+        /* of one light sub-path every draw counts like one: the arrays of the path give what the recursion does */
+        {"light-kinds", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
+         "ris records=0 subpaths=2", 1e-5},
+        {"mirror-glass", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
+         "ris records=.1 subpaths=1", 1e-5},
+        {"all-materials", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
+         "ris records=0 subpaths=100", 1e-5},
+        /* in one subspace there is nothing to learn; where all L are equal, draws are uniform */
+        {"light-kinds", SIDE, 4, "spcbpt subspaces=1 steps=9", "spcbpt subspaces=1 steps=0",
+         "spcbpt subspaces=4 steps=9", 0},
+        {"all-materials", SIDE, 4, "spcbpt delta=1 steps=9", "spcbpt delta=1 steps=0", "spcbpt delta=.5 steps=0", 1e-9},
+        {"white", SIDE, 2, "spcbpt subspaces=1", "lvc connections=3", "spcbpt subspaces=1 connections=1", 0.01},
+        {"all-materials", SIDE, 4, "vcm radius=1e-7", "bdpt", "vcm radius=.6 alpha=1", 1e-6},
+        {"mirror-glass", SIDE, 4, "restirgi neighbours=0", "pt", "restirgi neighbours=5", 0},
+        {"mirror-glass", SIDE, 4, "ppg training=0", "pt", "ppg training=1", 0},
+        {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph cluster=2", 1e-6},
+        {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph radius=.2", 1e-6},
+        {"white", SIDE, 4, "pathgraph radius=.1", "pt", "pathgraph radius=1", 0.1}, /* the same light everywhere */
+        {"light-kinds", SIDE, 6, "pathgraph cluster=1 heuristic=power", "pt heuristic=power", "pt", 1e-6},
+        {"all-materials", SIDE, 4, "pathgraph radius=1e-6", "pt", "pathgraph radius=.2", 1e-6},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char path[256];
+        struct scene scene;
+        snprintf(path, sizeof path, "scenes/test/%s.pbrt", cases[i].scene);
+        if (!(strcmp(cases[i].scene, "white") == 0 ? scene_from_text(t, WHITE, &scene)
+                                                    : scene_from_file(t, path, cases[i].side, cases[i].side, &scene)))
+            continue;
+        double same = differ(t, &scene, cases[i].a, cases[i].b, cases[i].depth);
+        double other = differ(t, &scene, cases[i].other, cases[i].b, cases[i].depth);
+        CHECK(t, same <= cases[i].bound, "%s: %s is not %s: %g", cases[i].scene, cases[i].a, cases[i].b, same);
+        CHECK(t, other > 1e-3, "%s: %s is %s: %g", cases[i].scene, cases[i].other, cases[i].b, other);
+        scene_free(&scene);
+    }
+}
+
+void test_rivals_long(struct test *t)
+{
+    check_agreements(t, EXPECTATIONS, N_EXPECTATIONS, 8);
+    test_furnace(t, 8);
+    check_agreements(t, &ROOMS, 1, 8);
+    test_bias(t, 8);
+}
+
+void test_rivals(struct test *t)
+{
+    check_agreements(t, EXPECTATIONS, N_EXPECTATIONS, 1);
+    test_furnace(t, 1);
+    check_agreements(t, &THREE_PIXELS, 1, 1);
+    test_limits(t);
+}

@@ -1,0 +1,269 @@
+/* test_scenes.c: the scenes of scenes/test: known radiance, pairs of light kinds, all integrators. */
+#include <math.h>
+#include <stdio.h>
+
+#include "agree.h"
+#include "helpers.h"
+#include "suites.h"
+
+/* p-value of "the expectation lies between low and high". */
+static double within_p(const struct batches *b, double low, double high)
+{
+    double error, mean = batches_mean(b, &error);
+    return mean >= low && mean <= high ? 1 : mean_p(b, mean < low ? low : high);
+}
+
+/* Expected radiance, as the comments of the scene files derive it; `low` to `high` where the depth limit cuts a little
+ * off. */
+static void test_analytic(struct test *t)
+{
+    static const struct {
+        const char *name;
+        double low, high;
+        int spp;
+    } cases[] = {
+        {"furnace-sphere", 2 * (1 - 0.5 / 4096), 2 * (1 - 0.5 / 4096), 4},
+        {"furnace-open", 0.998, 1, 2},
+        {"disk-light", 0.4, 0.4, 16},
+        {"two-sided-lamp", 0.25, 0.25, 16},
+        {"lamp-in-lamp", 0.4, 0.4, 16},
+        {"glass-sheets", 1.6 - 2e-6, 1.6, 32},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char path[256];
+        struct scene scene;
+        snprintf(path, sizeof path, "scenes/test/%s.pbrt", cases[i].name);
+        if (!scene_from_file(t, path, 0, 0, &scene))
+            continue;
+        static const char *const methods[] = {"pt", "bdpt", "asbdpt"};
+        for (int m = 0; m < 3; m++) {
+            struct batches b = render_batches(t, &scene, methods[m], 0, cases[i].spp, 8, 64, 820 + (uint64_t)m);
+            double error, mean = batches_mean(&b, &error);
+            TEST_ACCEPT(t, within_p(&b, cases[i].low, cases[i].high), "%s by %s: %.5f +- %.5f, expected %.5f",
+                        cases[i].name, methods[m], mean, error, cases[i].high);
+            batches_scale(&b, 1.15);
+            TEST_REJECT(t, within_p(&b, cases[i].low, cases[i].high), "%s by %s made 15 %% brighter", cases[i].name,
+                        methods[m]);
+            batches_free(&b);
+        }
+        scene_free(&scene);
+    }
+}
+
+/* What all methods see in the first pixel, to the last digit. */
+static void check_shown(struct test *t, const struct scene *scene, uint64_t seed, double expected, const char *what)
+{
+    static const char *const methods[] = {"pt", "lt", "bdpt", "asbdpt"};
+    for (int m = 0; m < 4; m++) {
+        struct batches b = render_batches(t, scene, methods[m], 2, 4, 2, 4, seed);
+        CHECK(t, fabs(b.value[0] - expected) < 1e-9, "%s: %s: %g, not %g", methods[m], what, b.value[0], expected);
+        batches_free(&b);
+    }
+}
+
+/* Two centimetres above a ground of 2000 km, flat or round, and twenty metres from the origin, something casts its
+ * shadow; beside it the ground is lit and not in its own. */
+static void test_contact(struct test *t)
+{
+    static const char *const grounds[] = {
+        QUAD("-1e6 0 -1e6  1e6 0 -1e6  1e6 0 1e6  -1e6 0 1e6"),
+        "AttributeBegin Translate 0 -1e6 0 Shape \"sphere\" \"float radius\" 1e6 AttributeEnd"};
+    for (int i = 0; i < 4; i++) {
+        struct scene scene;
+        if (!scene_from_format(t, &scene,
+                               "LookAt 20.1 .01 0  20.1 0 0  1 0 0 Camera \"perspective\" \"float fov\" 10\n"
+                               "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
+                               "LightSource \"point\" \"point from\" [20 5 0] %s\n"
+                               "Translate %d .02 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" .5 WorldEnd\n",
+                               grounds[i / 2], 20 + i % 2 * 5))
+            continue;
+        if (i % 2 == 0)
+            check_shown(t, &scene, 835, 0, "the ground under a disk");
+        struct batches b = render_batches(t, &scene, "pt", 1, 4, 2, 4, 836);
+        double lit = i % 2 * 0.5 * INV_PI * 5 / pow(25.01, 1.5);
+        CHECK(t, fabs(b.value[0] - lit) < 1e-5, "ground %d is lit with %g, not %g", i, b.value[0], lit);
+        batches_free(&b);
+        scene_free(&scene);
+    }
+}
+
+/* A surface without material is not there. If it shines, the first on the way is seen, to the last digit, on each of
+ * its sides that shines, but no light behind it: neither a lamp nor the sky. */
+static void test_lamps(struct test *t)
+{
+    static const char text[] =
+        "LookAt 0 0 %g  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
+        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin %s\n"
+        "Material \"none\" Shape \"sphere\" Translate 0 0 .5 Shape \"disk\" \"float radius\" 2\n"
+        "AreaLightSource \"diffuse\" \"rgb L\" [3 3 3] Shape \"disk\" \"float radius\" 2\n"
+        "AreaLightSource \"diffuse\" \"rgb L\" [.5 .5 .5] \"bool twosided\" \"true\" Translate 0 0 -1\n"
+        QUAD("-2 -2 0  2 -2 0  2 2 0  -2 2 0") "WorldEnd\n";
+    static const char sky[] = "LightSource \"infinite\" \"rgb L\" [.25 .25 .25]";
+    static const char wall[] = "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"disk\" \"float radius\" 9";
+    static const char touching[] =
+        "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"disk\" \"float radius\" 9 \"float height\" -.5";
+    static const struct {
+        double z;
+        const char *behind;
+        double expected;
+    } cases[] = {{5, "", 3},    {-5, "", .5},   {.2, "", .5},  {-.2, "", 0},     {5, sky, 3},     {-5, sky, .5},
+                 {-.2, sky, 0}, {5, wall, 3},   {-5, wall, .5}, {.2, wall, 0},    {.2, touching, .5}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char filled[1024];
+        struct scene scene;
+        snprintf(filled, sizeof filled, text, cases[i].z, cases[i].behind);
+        if (!scene_from_text(t, filled, &scene))
+            continue;
+        check_shown(t, &scene, 830, cases[i].expected, filled);
+        scene_free(&scene);
+    }
+}
+
+/* Alpha 0 is a hole, to the eye and to light, and so is shadowalpha 0; any other alpha is solid, as in pbrt. */
+static void test_holes(struct test *t)
+{
+    static const char text[] =
+        "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
+        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin\n"
+        "Texture \"a\" \"float\" \"checkerboard\" \"float tex1\" %s \"float tex2\" %s\n"
+        "LightSource \"point\" \"point from\" [0 0 -3] \"rgb I\" [9 9 9]\n"
+        "Material \"matte\" \"rgb Kd\" [1 1 1] " QUAD("-3 -3 0  3 -3 0  3 3 0  -3 3 0")
+        "Material \"matte\" \"rgb Kd\" [0 0 0] "
+        QUAD("-3 -3 %s  3 -3 %s  3 3 %s  -3 3 %s") "\"texture %s\" \"a\" WorldEnd\n";
+    static const struct {
+        const char *value, *z, *name;
+        bool lit;
+    } cases[] = {{"0", "-1", "alpha", true},  {"0.5", "-1", "alpha", false}, {"1", "-1", "alpha", false},
+                 {"0", "-1", "shadowalpha", true}, {"1", "-1", "shadowalpha", false}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct scene scene;
+        const char *z = cases[i].z;
+        if (!scene_from_format(t, &scene, text, cases[i].value, cases[i].value, z, z, z, z, cases[i].name))
+            continue;
+        struct batches b = render_batches(t, &scene, "bdpt", 2, 4, 2, 4, 829);
+        CHECK(t, (b.value[0] > 0.1) == cases[i].lit, "behind %s %s the wall shows %g", cases[i].name, cases[i].value,
+              b.value[0]);
+        batches_free(&b);
+        scene_free(&scene);
+    }
+}
+
+/* Partial derivatives are there where a material may read them, and left out elsewhere: a row of triangles along x,
+ * with and without vertex normals. */
+static void test_partials(struct test *t)
+{
+    static const char start[] =
+        "Camera \"perspective\" WorldBegin Texture \"b\" \"float\" \"constant\" \"float value\" 1\n"
+        "MakeNamedMaterial \"m\" \"string type\" \"matte\" MakeNamedMaterial \"n\" \"string type\" \"matte\"\n";
+    static const struct {
+        const char *material;
+        bool read;
+    } cases[] = {
+        {"\"matte\"", false},
+        {"\"matte\" \"texture bumpmap\" \"b\"", true},
+        {"\"plastic\" \"float roughness\" 0.2", false},
+        {"\"metal\" \"float uroughness\" 0.1 \"float vroughness\" 0.3", true},
+        {"\"glass\" \"float uroughness\" 0.2 \"float vroughness\" 0.2", false},
+        {"\"glass\" \"float uroughness\" 0.2 \"texture vroughness\" \"b\"", true},
+        {"\"mix\" \"string namedmaterial1\" \"m\" \"string namedmaterial2\" \"n\"", true},
+    };
+    enum { N = sizeof cases / sizeof cases[0] };
+    char text[8192];
+    int used = snprintf(text, sizeof text, "%s", start);
+    for (int i = 0; i < 2 * N; i++)
+        used += snprintf(
+            text + used, sizeof text - (size_t)used,
+            "Material %s Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [%d 0 0  %d 0 0  %d 1 0]%s\n",
+            cases[i % N].material, 2 * i, 2 * i + 1, 2 * i, i < N ? "" : " \"normal N\" [0 0 1  0.1 0 1  0 0.1 1]");
+    snprintf(text + used, sizeof text - (size_t)used, "WorldEnd");
+    struct scene scene;
+    if (!scene_from_text(t, text, &scene))
+        return;
+    for (int i = 0; i < 2 * N; i++) {
+        struct ray ray = {vec(2 * i + 0.25, 0.25, 1), vec(0, 0, -1), 0, INFINITY, 0, 0};
+        struct surface at = {.u = 0};
+        bool read = cases[i % N].read;
+        if (!CHECK(t, scene_intersect(&scene, &ray, &at), "triangle %d is there", i))
+            continue;
+        CHECK(t, read == (length(at.dpdu) > 0.5 && length(at.dpdv) > 0.5), "%s: partials %g %g", cases[i % N].material,
+              length(at.dpdu), length(at.dpdv));
+        CHECK(t, (read && i >= N) == (length(at.dndu) > 0), "%s: change of normal %g", cases[i % N].material,
+              length(at.dndu));
+    }
+    scene_free(&scene);
+}
+
+/* A spot of light two pixels wide through filters with negative parts: eye paths draw from the filter and carry its
+ * weight, light paths are spread by it; pixel by pixel they agree. (At an edge a pixel's mean would count a few
+ * samples: batches that count alike seem to have no variance, and Welch's test raises false alarms.) */
+static void test_filter_spot(struct test *t)
+{
+    static const char text[] =
+        "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 20\n"
+        "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 PixelFilter \"%s\"\n"
+        "WorldBegin LightSource \"point\" \"point from\" [.03 .05 -.25] \"rgb I\" [.1 .1 .1]\n"
+        "Material \"matte\" \"rgb Kd\" [.8 .8 .8] " QUAD("-3 -3 0  3 -3 0  3 3 0  -3 3 0") "WorldEnd\n";
+    static const char *const filters[] = {"mitchell", "sinc"};
+    for (int i = 0; i < 2; i++) {
+        struct scene scene;
+        if (!scene_from_format(t, &scene, text, filters[i]))
+            continue;
+        double ratio;
+        struct batches pt = render_batches(t, &scene, "pt", 1, 64, 16, 1, 826);
+        struct batches lt = render_batches(t, &scene, "lt", 1, 96, 16, 1, 827);
+        double p = batches_p(&pt, &lt, &ratio);
+        TEST_ACCEPT(t, p, "a spot through the %s filter: pt against lt, ratio %.4f", filters[i], ratio);
+        scene.filter = filter_of("triangle");
+        struct batches other = render_batches(t, &scene, "pt", 1, 64, 16, 1, 828);
+        TEST_REJECT(t, batches_p(&other, &lt, &ratio), "a spot through the triangle instead of the %s filter",
+                    filters[i]);
+        batches_free(&pt);
+        batches_free(&lt);
+        batches_free(&other);
+        scene_free(&scene);
+    }
+}
+
+/* Two kinds of light in one room: the density with which a light is chosen is where integrators differ. Every second
+ * pair has all kinds. */
+static void test_light_pairs(struct test *t, int spp, size_t step)
+{
+    static const char *const pairs[] = {"area-infinite", "area-point",     "distant-area", "distant-infinite",
+                                        "distant-point", "point-infinite", "spot-area",    "spot-distant",
+                                        "spot-infinite", "spot-point"};
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i += step) {
+        char name[64];
+        snprintf(name, sizeof name, "scenes/test/light-%s", pairs[i]);
+        const struct agreement a = {name, 16, 16, 4, "pt", "bdpt, asbdpt", 2 * spp, spp, 12, 8, false, 0.2};
+        check_agreements(t, &a, 1, 1);
+    }
+}
+
+/* A scene by four integrators: were a strategy lost in one of them, their weights would no longer add up to 1 for
+ * all. */
+static void test_four(struct test *t, const char *name, int spp)
+{
+    const struct agreement a = {name, 24, 24, 4, "pt", "lt, bdpt, asbdpt", 2 * spp, spp, 12, 12, false, 0.05};
+    check_agreements(t, &a, 1, 1);
+}
+
+void test_scenes(struct test *t)
+{
+    test_analytic(t);
+    test_contact(t);
+    test_lamps(t);
+    test_holes(t);
+    test_partials(t);
+    test_filter_spot(t);
+    test_light_pairs(t, 4, 2);
+    test_four(t, "scenes/test/pass-through", 16); /* see-through lamps, one of them around a ball */
+}
+
+/* Other cameras, too, which test_strategies.c has for the quick suite. */
+void test_scenes_long(struct test *t)
+{
+    test_light_pairs(t, 200, 1);
+    test_four(t, "scenes/test/pass-through", 400);
+    test_four(t, "scenes/test/orthographic", 400);
+    test_four(t, "scenes/test/environment", 400);
+}
