@@ -1,8 +1,8 @@
 #!/bin/sh
 # release.sh DIR: what a release consists of, of the last commit and the programs of this tree, into DIR: the sources,
 # the page that renders if it can be built, the man pages, and checksums of all. `make release` calls it. The tag is set
-# by hand: the last line says how. Exit status 1 if the tree has changes that no commit has, or CHANGELOG.md has no line
-# for the estimator.
+# by hand: the last line says how. Exit status 1 if the tree has changes that no commit has, CHANGELOG.md has no line for
+# the estimator, or doc/asbdpt.html, which is stored anew with a release only, is of older sources.
 dir=$1
 version=$(sed -n 's/^#define VERSION "asbdpt \(.*\)"$/\1/p' src/base/version.h)
 estimator=$(sed -n 's/^#define ESTIMATOR \([0-9]*\)$/\1/p' src/base/version.h)
@@ -18,7 +18,11 @@ git archive --prefix="$name/" HEAD >"$dir/$name.tar" && gzip -9n "$dir/$name.tar
 make -s install PREFIX=/ DESTDIR="$dir/root" MANDIR=/man >/dev/null && mv "$dir/root/man/"*.1 "$dir" || exit
 rm -rf "$dir/root"
 sh doc/web/build.sh "$dir/$name.html" >"$dir/log" 2>&1 || rm -f "$dir/$name.html"
-[ -f "$dir/$name.html" ] || echo "release: no page that renders: $(tail -n 1 "$dir/log")"
+if [ ! -f "$dir/$name.html" ]; then
+    echo "release: no page that renders: $(tail -n 1 "$dir/log")"
+elif ! cmp -s "$dir/$name.html" doc/asbdpt.html; then
+    die "doc/asbdpt.html is of older sources: cp $dir/$name.html doc/asbdpt.html, commit it, and again"
+fi
 rm -f "$dir/log"
 sums=$(cd "$dir" && for file in *; do echo "$(sum256 <"$file" | cut -d ' ' -f 1)  $file"; done) || exit
 echo "$sums" >"$dir/SHA256SUMS"
