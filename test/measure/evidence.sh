@@ -1,16 +1,14 @@
 #!/bin/sh
 # evidence.sh: the measured numbers of the documents, from one list, doc/measured/list.txt, whose head says how an
 # entry is written. Run from the top.
-#   sh test/measure/evidence.sh list               what there is, of which estimator, and what is old or missing
-#   sh test/measure/evidence.sh run [NAME...]      measure, store and show (no names: all that is old or missing and
-# can be
-#                                          made); one that was stopped goes on: its output is in out/evidence/NAME
-#   sh test/measure/evidence.sh take NAME DIR      store and show what the entry's command has left in DIR, wherever
-# it ran;
-#                                          MINUTES=, COMMIT=, ESTIMATOR= and MACHINE= say what is not as it is here
-#   sh test/measure/evidence.sh fill               put what is stored into the documents
-#   sh test/measure/evidence.sh check              do the documents show what is stored, and say so where it is old? Are
-#                                          means and intervals those of the stored runs, NAME.csv?
+#   sh test/measure/evidence.sh list           what there is, of which estimator, and what is old or missing
+#   sh test/measure/evidence.sh run [NAME...]  measure, store and show (no names: all that is old or missing and can be
+#                                              made); one that was stopped goes on: its output is in out/evidence/NAME
+#   sh test/measure/evidence.sh take NAME DIR  store and show what the entry's command has left in DIR, wherever it ran;
+#                                              MINUTES=, COMMIT=, ESTIMATOR=, MACHINE= say what is not as it is here
+#   sh test/measure/evidence.sh fill           put what is stored into the documents
+#   sh test/measure/evidence.sh check          do the documents show what is stored, and say so where it is old? Are
+#                                              means and intervals those of the stored runs, NAME.csv?
 # What is stored, doc/measured/NAME.txt, has a head of lines "key: value" and sections "== SECTION". A document shows
 # one between <!-- measured: NAME.SECTION --> and <!-- end -->: both on lines of their own, or both in a line of text.
 set -u
