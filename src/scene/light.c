@@ -130,9 +130,11 @@ static int sky_cells(const struct light_set *set)
     return set->n_layers == 0 ? 0 : sky_map(set) != NULL ? envmap_blocks(sky_map(set)) : SKY_BANDS * SKY_SECTORS;
 }
 
-/* The map of several layers: the luminance of their sum, with a little everywhere. */
+/* The map of several layers: the luminance of their sum, with a little everywhere. It is coarser than their pictures
+ * where there are so many that making it would take LOOKUPS (seconds). */
 static struct envmap *sum_of_layers(const struct light_set *set)
 {
+    enum { LOOKUPS = 1 << 26 };
     int width = 64, height = 32;
     double mean = 0;
     for (int i = 0; i < set->n_layers; i++) {
@@ -140,6 +142,8 @@ static struct envmap *sum_of_layers(const struct light_set *set)
         width = env != NULL && env->image.width > width ? env->image.width : width;
         height = env != NULL && env->image.height > height ? env->image.height : height;
     }
+    for (; (double)width * height * set->n_layers > LOOKUPS && width > 1; width = (width + 1) / 2)
+        height = (height + 1) / 2;
     double *luminance = mem_alloc((size_t)width * (size_t)height, sizeof *luminance);
     for (int i = 0; i < width * height; i++) {
         vec3 w = envmap_direction((i % width + 0.5) / width, (i / width + 0.5) / height);
