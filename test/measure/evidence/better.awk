@@ -1,11 +1,12 @@
 # better.awk: functions of equal.awk and structures.awk: the error of asbdpt over that of the better of bdpt and pt, by
-# each measure. awk -f test/measure/evidence/better.awk -f test/measure/evidence/equal.awk, say. What they are given is over bdpt.
+# each measure. awk -f test/measure/evidence/better.awk -f test/measure/evidence/equal.awk, say. What they are given
+# is over bdpt.
 
-# over_better: of asbdpt's and pt's cells, "VALUE [LOW, HIGH] MARK". pt counts where it has no mark, bdpt where it has
-# none (blind: it has one). Each measure has its own better method. 0: not known.
-function over_better(asbdpt, pt, blind) {
+# over_better: of asbdpt's and pt's cells, "VALUE [LOW, HIGH] MARK". bdpt always counts, and pt, unless it alone has a
+# mark. Each measure has its own better method. 0: not known.
+function over_better(asbdpt, pt) {
     if (asbdpt !~ /^[0-9]/) return 0
-    if (pt ~ /[a-z]/ || pt !~ /^[0-9]/ || (pt + 0 >= 1 && !blind)) return least(asbdpt)
+    if (pt !~ /^[0-9]/ || pt + 0 >= 1 || (pt ~ /[a-z]/ && asbdpt !~ /[a-z]/)) return least(asbdpt)
     return least(asbdpt) / least(pt)
 }
 function least(v) { return v + 0 > 0 ? v + 0 : 0.0005 } # what is printed as 0.000 is taken for half of the last digit
@@ -38,10 +39,10 @@ function cells(group, names,    m, text) {
             names ? " `" where_most[group, m] "`" : "", above[group, m])
     return text
 }
-# answers: of all scenes the sections better-MEASURE and losses-MEASURE.
-function answers(group,    m, name) {
+# answers: of a group the sections better-MEASURE and losses-MEASURE, their names after `before`.
+function answers(group, before,    m, name) {
     split("mse8 relmse 8x8", name, " ")
     for (m = 1; m <= 3; m++)
-        printf "== better-%s\n%s\n== losses-%s\n%d of %d\n", name[m], interval(group, m), name[m], above[group, m],
-            number[group, m]
+        printf "== %sbetter-%s\n%s\n== %slosses-%s\n%d of %d\n", before, name[m], interval(group, m), before, name[m],
+            above[group, m], number[group, m]
 }

@@ -1,9 +1,9 @@
 # equal.awk, after better.awk: sections of doc/measured from family.md of `asbdpt-lab family`, where the default is
 # called subspaces. Of the last file: table, a row for each scene; mean: that alone; without: the mean without the best
-# scene; better, of the default over the better of bdpt and pt: the mean of each measure, the worst, and where that is
-# above 1, as cells of a table. Of two files, with 16 and 64 samples: sizes, the same by scenes, a line where learning
-# left no time for a sample. With -v kinds=, a file of scenes and their kinds, a section for each kind: both means; and
-# halves, of the scenes that nothing was chosen on, every second of the file from the first, and of the others.
+# scene; better-... and losses-..., see better.awk. Of two files, with 16 and 64 samples: sizes, the same by scenes, a
+# line where learning left no time for a sample; and first-better-..., first-losses-... of the first. With -v kinds=,
+# a file of scenes and their kinds, a section for each kind: both means; and halves, of the scenes that nothing was
+# chosen on, every second of the file from the first, and of the others.
 BEGIN {
     while (kinds != "" && (getline < kinds) > 0) {
         kind[$1] = $2
@@ -18,7 +18,7 @@ function halves(    h, of) {
 }
 function cell(method, m, i) { return value[file, method, m, i] }
 # What the default of a file makes of the better one in a scene; 0: not known.
-function over(f, m, i) { return over_better(value[f, "subspaces", m, i], value[f, "pt", m, i], blind[f, m, i]) }
+function over(f, m, i) { return over_better(value[f, "subspaces", m, i], value[f, "pt", m, i]) }
 FNR == 1 { file++; measure = "" }
 /^(mse8|relmse|8x8): squared/ { measure = $1; sub(/:/, "", measure) }
 /^\| method \|.*price/ { measure = "summary" }
@@ -27,7 +27,6 @@ measure == "" { next }
     n = split($0, scene, / *\| */) - 3
     for (i = 1; i <= n; i++) {
         scene[i] = scene[i + 2]
-        blind[file, measure, i] = scene[i] ~ /\(bdpt: /
         sub(/,.*/, "", scene[i])
     }
 }
@@ -45,6 +44,7 @@ function sizes(    i, f, m, q, line, mean, sum, count) {
         for (f = 1; f <= 2; f++) for (m = 1; m <= 3; m++) {
             q = over(f, name[m], i)
             if (q > 0) { sum[f, m] += log(q); count[f, m]++ }
+            if (f == 1) take("first", m, scene[i], q)
             line = line (q > 0 ? sprintf(q > 1 ? " **%.2f** |" : " %.2f |", q) : " **-** |")
         }
         print line
@@ -71,16 +71,13 @@ END {
             take(half[scene[i]], m, scene[i], over(file, name[m], i))
         }
     }
-    all = cell("subspaces", "summary", 4)
-    print "| **geometric mean** | " cell("pt", "summary", 4) " | " bold(all) " | " \
+    print "| **geometric mean** | " cell("pt", "summary", 4) " | " bold(cell("subspaces", "summary", 4)) " | " \
         cell("subspaces", "summary", 5) " | " cell("subspaces", "summary", 6) " |"
-    sub(/ .*/, "", all)
-    if (all == "-") all = sprintf("%.3f (%d of %d)", mean_of("bdpt", 1), number["bdpt", 1], n)
-    printf "== mean\n%s\n== without\n%.2f without `%s`\n", all, \
+    printf "== mean\n%s\n== without\n%.2f without `%s`\n", interval("bdpt", 1), \
         exp((logs["bdpt", 1] - log(q[best])) / (number["bdpt", 1] - 1)), scene[best]
-    answers("all")
-    if (file > 1) sizes()
+    answers("all", "")
+    if (file > 1) { sizes(); answers("first", "first-") }
     if (rows) halves()
     for (k in count) if (k != "") printf "== %s\n%.2f (%.2f with the better of `bdpt` and `pt`; %d scenes)\n", k,
-        mean_of("bdpt " k, 1), mean_of(k, 1), count[k]
+        mean_of("bdpt " k, 1), mean_of(k, 1), number[k, 1]
 }

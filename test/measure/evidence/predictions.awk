@@ -1,7 +1,7 @@
-# predictions.awk: predictions of a race (predictions.sh) against what was measured: its files predicted, runs.csv and equal-time.md.
-# Sections: prices, the root of the mean square of log(predicted / measured), each scene in a unit of its own; winners,
-# how often the predicted runner was the best and the mean and the worst of its error over that of the best; scenes, a
-# row each. Exit status 1 if prices are wrong by more than `most`.
+# predictions.awk: predictions of a race (predictions.sh) against what was measured: its files predicted, runs.csv and
+# equal-time.md. Sections: prices, the root of the mean square of log(predicted / measured), each scene in a unit of
+# its own; winners, how often the predicted runner was the best and the mean and the worst of its error over that of
+# the best; scenes, a row each. Exit status 1 if prices are wrong by more than `most`.
 function runner_of(label) {
     few = label ~ /later=0/
     return label == "pt" ? "plain" : label ~ /pathpixels=0/ ? "guided" : \

@@ -1,11 +1,11 @@
 # structures.awk, after better.awk: asbdpt over the better of bdpt and pt, by each measure, in scenes NUMBER-KIND, from
-# equal-time.md of `asbdpt-lab equal-time`. A method with a mark, like "misses light", is no better one. Sections: kinds,
-# a row for each; all, in words; mean, over bdpt by mse8; better-... and losses-..., see better.awk; data, lines
+# equal-time.md of `asbdpt-lab equal-time`. Sections: kinds, a row for each; all, in words; mean, over bdpt by mse8;
+# better-... and losses-..., see better.awk; sure, in how many scenes intervals tell; data, lines
 # "SCENE MSE8 LOW HIGH RELMSE LOW HIGH 8x8 LOW HIGH", "-" without a number.
 # With -v worst= and -v mean=: exit status 1 beyond them by mse8, or where asbdpt has a mark.
 function over(s, measure,    v, part, a) { # and its interval
     a = ratio["asbdpt", measure, s]
-    v = over_better(a, ratio["pt", measure, s], blind[s])
+    v = over_better(a, ratio["pt", measure, s])
     if (!v) return "- - -"
     split(a, part, /[][, ]+/)
     return sprintf("%.3f %.3f %.3f", v, part[2] * v / least(a), part[3] * v / least(a))
@@ -13,7 +13,8 @@ function over(s, measure,    v, part, a) { # and its interval
 /^(mse8|relmse|8x8): squared/ { measure = $1 }
 /^\| method \|/ {
     columns = split($0, name, / *\| */) - 1
-    for (i in name) { marked = name[i] ~ /\(bdpt: /; sub(/,.*/, "", name[i]); blind[name[i]] = marked }
+    if (measure == "mse8:") for (i = 3; i <= columns; i++) first_marked += name[i] ~ /\(bdpt: /
+    for (i in name) sub(/,.*/, "", name[i])
 }
 /^\| (pt|asbdpt) \|/ && measure != "" {
     split($0, c, / *\| */)
@@ -34,6 +35,8 @@ END {
         for (m = 1; m <= 3; m++) {
             take(kind, m, s, part[3 * m - 1] + 0)
             take("**all**", m, s, part[3 * m - 1] + 0)
+            better[m] += part[3 * m + 1] + 0 > 0 && part[3 * m + 1] + 0 < 1
+            worse[m] += part[3 * m] + 0 > 1
         }
         if (worst && (part[2] == "-" || part[3] > worst + 0 || ratio["asbdpt", "mse8:", s] ~ /[a-z]/)) {
             bad = 1
@@ -47,10 +50,12 @@ END {
     for (j = 1; j <= kinds; j++) print "| " order[j] " | " scenes[order[j]] " |" cells(order[j], 0)
     print "\n![Squared error of asbdpt over the better of bdpt and pt, in each generated scene](structures.svg)"
     print "== all"
-    printf "`pt` misses light in %d, `asbdpt`%s. There is no number by mse8 in %d, by relmse in %d, by 8x8 in %d.\n", \
-        missed, dark ? dark : " in 0", lost["**all**", 1], lost["**all**", 2], lost["**all**", 3]
+    printf "Marks: `bdpt` in %d, `pt` in %d, `asbdpt`%s. No number: by mse8 in %d, by relmse in %d, by 8x8 in %d.\n", \
+        first_marked, missed, dark ? dark : " in none", lost["**all**", 1], lost["**all**", 2], lost["**all**", 3]
     print "== mean\n" interval("over bdpt", 1)
-    answers("**all**")
+    printf "== sure\nis below 1 in %d scenes by mse8, %d by relmse, %d by 8x8; above 1 in %d, %d, %d.\n", better[1], better[2], \
+        better[3], worse[1], worse[2], worse[3]
+    answers("**all**", "")
     printf "== data\n%s", data
     if (mean && mean_of("**all**", 1) > mean) {
         bad = 1
