@@ -48,9 +48,8 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
         q[k] = (delta < 1 ? (1 - delta) * q[k] / sum : 0) + delta / pool->n;
     alias_build(&pool->alias, q, pool->n);
     pool_shuffle(pool, pass, iteration, order);
-    for (int i = 0; i < pass->tile->n_pixels; i++) {
-        const int *pixel = pass->tile->pixel[i];
-        struct sampler choice = sample_stream(pass, RNG_SELECT, pixel[0], pixel[1], (uint64_t)iteration);
+    for (int i = 0, x, y; pixels_get(pass->tile->pixels, i, &x, &y); i++) {
+        struct sampler choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
         double pmf, u = sampler_number(&choice, DRAW_LIGHT_END);
         int k = alias_sample_bin(&pool->alias, order[i % pool->n], u, &pmf, NULL);
         index->drawn[i] = (struct drawn){pool_path(pool, k), 1, pool->length[k], pmf};
