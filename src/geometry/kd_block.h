@@ -40,7 +40,7 @@ enum { KD_LANES = 4 };
 /* Up to four triangles, or up to four quadrics. */
 struct kd_block {
     float v[3][3][KD_LANES]; /* corner, axis, lane; zeros for a quadric, NaN for an unused lane */
-    float reach[KD_LANES];   /* 12 times the longest of the triangle's edges, by its largest coordinate, or KD_TINY */
+    float reach[KD_LANES];   /* 8 times the longest of the triangle's edges, by its largest coordinate, or KD_TINY */
     uint32_t prim[KD_LANES]; /* primitive number, with KD_ALPHA added if its group has an alpha texture */
 };
 

@@ -191,7 +191,7 @@ static void fill_block(struct kd_block *b, const struct geometry *geo, const int
         }
         b->reach[lane] = KD_TINY;
         for (int i = 0; i < 9; i++)
-            b->reach[lane] = fmaxf(b->reach[lane], 12 * fabsf(v[i] - v[(i + 3) % 9]));
+            b->reach[lane] = fmaxf(b->reach[lane], 8 * fabsf(v[i] - v[(i + 3) % 9]));
         for (int i = 0; i < 9; i++)
             b->v[i / 3][i % 3][lane] = lane < n ? v[i] : NAN;
     }

@@ -34,11 +34,12 @@ void kd_free(struct kdtree *kd)
 /* One loop tests up to four triangles, and a compiler can do its arithmetic on all lanes at once. The loop computes in
  * float and only sorts out: a triangle stays in unless the ray certainly misses it. triangle_hit then tests those that
  * stay in double, and alone decides. Let s be the largest coordinate of scene and origin and u = 2^-24. A sheared
- * coordinate in float is off by at most 14 u s, and an edge function by at most 64 u s times the sum S of the six
- * coordinates' absolute values (were S itself below 16 u s, the edge function would be smaller than that). If the ray
- * hits the triangle, the origin of the sheared plane is within it, so that no coordinate exceeds the longest difference
- * of two corners, and S is at most kd_block.reach. So 64 u s times that is the slack that an edge function is given,
- * and as much again covers what underflows: neither factor is below KD_TINY. */
+ * coordinate in float is at most 4 s, and off by at most 14 u s. Let S be the sum of the absolute values of the four
+ * coordinates in an edge function: this is off by 14 u s S and 2 (14 u s)^2 because of the coordinates, and by
+ * 4 u s (S + 4 * 14 u s) because of its own rounding. That is below 24 u s (S + 28 u s), and what is left of the 24
+ * covers what underflows: neither factor of the slack is below KD_TINY. If the ray hits the triangle, the origin of the
+ * sheared plane is within it. Then two coordinates on one axis are together at most twice the triangle's extent there,
+ * which is at most twice the longest difference of two corners, so that S is at most kd_block.reach. */
 
 /* What fmax and fmin do, except for NaN, without a call. */
 static inline double larger(double a, double b) { return a > b ? a : b; }
@@ -48,8 +49,8 @@ static inline double smaller(double a, double b) { return a < b ? a : b; }
 struct block_ray {
     float ox, oy, oz, sx, sy;
     int kx, ky, kz;
-    float slack;       /* 128 u s */
-    uint32_t from, to; /* primitive numbers of the triangles it begins and ends on, KD_NONE: on none */
+    float slack, least; /* 24 u s; that times 28 u s */
+    uint32_t from, to;  /* primitive numbers of the triangles it begins and ends on, KD_NONE: on none */
 };
 
 /* The number of a primitive that is a triangle, KD_NONE of another: quadrics see to themselves. */
@@ -58,9 +59,11 @@ static uint32_t own_triangle(uint64_t id) { return id <= FIRST_QUADRIC ? (uint32
 /* For the scene whose largest absolute coordinate, or the ray's origin's, is `size`. */
 static struct block_ray block_ray(const struct triangle_ray *r, double size)
 {
+    double slack = 24 * 0x1p-24 * size;
     return (struct block_ray){
         (float)r->ox, (float)r->oy, (float)r->oz, (float)r->sx, (float)r->sy, r->kx, r->ky, r->kz,
-        (float)larger(128 * 0x1p-24 * size, KD_TINY), own_triangle(r->ray->from), own_triangle(r->ray->to)};
+        (float)larger(slack, KD_TINY), (float)(slack * 28 * 0x1p-24 * size),
+        own_triangle(r->ray->from), own_triangle(r->ray->to)};
 }
 
 /* Lanes by twos, the first of which is the low half. */
@@ -68,7 +71,7 @@ struct lanes {
     uint64_t pair[KD_LANES / 2];
 };
 
-/* Which lanes may the ray hit? 1 for those that may, else 0. A quadric's zeros always may, the NaNs of an unused lane
+/* Which lanes may the ray hit? 0 for those that it misses. A quadric's zeros always may, the NaNs of an unused lane
  * never. The names are those of triangle_hit. */
 static inline struct lanes block_near(const struct kd_block *b, const struct block_ray *r)
 {
@@ -78,7 +81,8 @@ static inline struct lanes block_near(const struct kd_block *b, const struct blo
     const float *a_x = b->v[0][r->kx], *a_y = b->v[0][r->ky], *a_z = b->v[0][r->kz];
     const float *b_x = b->v[1][r->kx], *b_y = b->v[1][r->ky], *b_z = b->v[1][r->kz];
     const float *c_x = b->v[2][r->kx], *c_y = b->v[2][r->ky], *c_z = b->v[2][r->kz];
-    const float ox = r->ox, oy = r->oy, oz = r->oz, sx = r->sx, sy = r->sy, factor = r->slack, *reach = b->reach;
+    const float ox = r->ox, oy = r->oy, oz = r->oz, sx = r->sx, sy = r->sy, *reach = b->reach;
+    const float slack = r->slack, least_slack = r->least;
 #pragma GCC unroll 1 /* else gcc writes the lanes one after the other, and does not put them side by side again */
     for (int i = 0; i < KD_LANES; i++) {
         float az = a_z[i] - oz, bz = b_z[i] - oz, cz = c_z[i] - oz;
@@ -90,7 +94,8 @@ static inline struct lanes block_near(const struct kd_block *b, const struct blo
         least = ec < least ? ec : least;
         most = ec > most ? ec : most;
         float outside = -least < most ? -least : most;
-        near[i] = (outside <= factor * reach[i]) & (prim[i] != from) & (prim[i] != to);
+        near[i] = outside <= slack * reach[i] + least_slack ? prim[i] ^ from : 0;
+        near[i] = prim[i] != to ? near[i] : 0;
     }
     memcpy(&out, near, sizeof out);
     return out;

@@ -21,9 +21,8 @@ void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iter
 /* Fisher and Yates, from the inside out. [Durstenfeld 1964] */
 void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long iteration, int *order)
 {
-    int x, y;
-    pixels_get(pass->tile->pixels, 0, &x, &y);
-    struct sampler sampler = sample_stream(pass, RNG_SHUFFLE, x, y, (uint64_t)iteration);
+    const int *first = pass->tile->pixel[0];
+    struct sampler sampler = sample_stream(pass, RNG_SHUFFLE, first[0], first[1], (uint64_t)iteration);
     for (int i = 0; i < pool->n; i++) {
         /* at most i, since what is drawn is below 1 by more than rounding can add */
         int j = (int)(sampler_number(&sampler, DRAW_ORDER) * (i + 1));
@@ -95,7 +94,7 @@ void loop_splat(const struct prepared *p, struct sample *sample, int number)
     if (each == 0 || number % each != 0)
         return;
     int k = shared ? number / each : 0;
-    double pixels = shared ? pixels_count(sample->pass->tile->pixels) : 1;
+    double pixels = shared ? sample->pass->tile->n_pixels : 1;
     sample_lens(sample, pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * each));
 }
 

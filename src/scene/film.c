@@ -30,11 +30,15 @@ bool pixels_get(struct tile_pixels p, int i, int *x, int *y)
 
 void tile_start(struct tile *t, struct tile_pixels pixels, struct pixel_rect film_rect, const struct filter *filter)
 {
-    size_t n = (size_t)pixels_count(pixels) * 3;
+    size_t n_pixels = (size_t)pixels_count(pixels), n = 3 * n_pixels;
     t->pixels = pixels;
+    t->n_pixels = (int)n_pixels;
+    t->pixel = mem_grow(t->pixel, &t->pixel_capacity, n_pixels, sizeof *t->pixel);
+    for (int i = 0; i < t->n_pixels; i++)
+        pixels_get(pixels, i, &t->pixel[i][0], &t->pixel[i][1]);
     t->film_rect = film_rect;
     t->filter = filter;
-    t->sum = mem_grow(t->sum, &t->capacity, n, sizeof *t->sum);
+    t->sum = mem_grow(t->sum, &t->sum_capacity, n, sizeof *t->sum);
     memset(t->sum, 0, n * sizeof *t->sum);
     t->n_splats = 0;
     t->first_half = false;
@@ -43,6 +47,7 @@ void tile_start(struct tile *t, struct tile_pixels pixels, struct pixel_rect fil
 
 void tile_free(struct tile *t)
 {
+    free(t->pixel);
     free(t->sum);
     free(t->splat);
     memset(t, 0, sizeof *t);
@@ -178,16 +183,17 @@ void film_take_splats(struct film *f, struct tile *t)
 void film_merge_tile(struct film *f, struct tile *t)
 {
     size_t from = 0;
-    for (int i = 0, x, y; pixels_get(t->pixels, i, &x, &y); i++) {
-        f->block.in[pixel_of(f, x, y)] = true;
-        for (size_t to = 3 * pixel_of(f, x, y), c = 0; c < 3; c++, to++, from++) {
+    for (int i = 0; i < t->n_pixels; i++) {
+        size_t at = pixel_of(f, t->pixel[i][0], t->pixel[i][1]);
+        f->block.in[at] = true;
+        for (size_t to = 3 * at, c = 0; c < 3; c++, to++, from++) {
             f->nonfinite += !exact_join(&f->sum[to], &t->sum[from]);
             if (f->half != NULL && t->first_half) /* part of the sum: it cannot overflow before it */
                 exact_join(&f->half[to], &t->sum[from]);
         }
     }
     film_take_splats(f, t);
-    f->block.n_in += (size_t)pixels_count(t->pixels);
+    f->block.n_in += (size_t)t->n_pixels;
     f->nonfinite += t->nonfinite;
 }
 

@@ -76,10 +76,12 @@ enum { TILE_FULL = 1 << 18 };
 /* What a tile pass produces. Reused from pass to pass. */
 struct tile {
     struct tile_pixels pixels;
+    int (*pixel)[2]; /* [n_pixels] x and y, in the order of their cells; owned */
+    int n_pixels;
     struct pixel_rect film_rect; /* of the film: splats land anywhere in it */
     const struct filter *filter;
-    struct exact_sum *sum; /* [pixels * 3], sum over the iterations of the pass; owned */
-    size_t capacity;
+    struct exact_sum *sum; /* [n_pixels * 3], sum over the iterations of the pass; owned */
+    size_t pixel_capacity, sum_capacity;
     struct splat *splat; /* [n_splats], owned */
     size_t n_splats, splat_capacity;
     bool first_half; /* its iterations belong to the first of two halves; tile_start: no */

@@ -58,7 +58,7 @@ struct tile_pass {
 
 /* pass_enough: should the tile pass stop early? Every method asks before each of its samples. After the first yes the
  * answer stays yes, and the tile is discarded.
- * pass_pixel: pixels_get of the tile; false also if the pass should stop, except for pixel 0. */
+ * pass_pixel: pixel i of the tile; false if there are not so many, and if the pass should stop, except for pixel 0. */
 static inline bool pass_enough(const struct render_job *job)
 {
     return job->enough != NULL && job->enough(job->enough_context);
@@ -66,7 +66,12 @@ static inline bool pass_enough(const struct render_job *job)
 
 static inline bool pass_pixel(const struct tile_pass *pass, int i, int *x, int *y)
 {
-    return pixels_get(pass->tile->pixels, i, x, y) && !(i > 0 && pass_enough(pass->job));
+    const struct tile *tile = pass->tile;
+    if (i >= tile->n_pixels || (i > 0 && pass_enough(pass->job)))
+        return false;
+    *x = tile->pixel[i][0];
+    *y = tile->pixel[i][1];
+    return true;
 }
 
 #endif

@@ -275,6 +275,31 @@ static void check_costs(struct test *t)
     }
 }
 
+/* Triangles far smaller than a float's step at the ray's origin are hit where they are. */
+static void check_tiny(struct test *t, struct rng *r)
+{
+    struct mesh s = {0};
+    struct kdtree kd;
+    struct hit a, b;
+    int wrong = 0, hits = 0;
+    make_random(&s, r, 500, 5e-7, vec(0, 0, 0));
+    struct geometry geo = geometry_of(t, &s);
+    kd_build(&kd, &geo, KD_SURFACES);
+    for (int i = 0; i < 20000; i++) {
+        float v[9];
+        bool want;
+        shape_vertices(&geo, (int)(rng_uniform(r) * 500), v);
+        vec3 p = add(load3(v, 0), mul(add(sub(load3(v, 1), load3(v, 0)), sub(load3(v, 2), load3(v, 0))), 0.3));
+        vec3 o = mul(in_cube(r), 3000);
+        struct ray ray = {o, normalize(sub(p, o)), 0, INFINITY, 0, 0};
+        wrong += !same_as_brute(&kd, &geo, false, &ray, &want, &a, &b);
+        hits += want;
+    }
+    CHECK(t, wrong == 0 && hits > 10000, "tiny triangles: %d of %d hits wrong", wrong, hits);
+    kd_free(&kd);
+    geometry_free(&geo);
+}
+
 void test_kdtree(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 101, 0);
@@ -283,5 +308,6 @@ void test_kdtree(struct test *t)
     check_against_brute_force(t, &r);
     check_nonsense_rays(t, &r);
     check_watertight(t, &r);
+    check_tiny(t, &r);
     check_alpha(t, &r);
 }
