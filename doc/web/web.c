@@ -18,7 +18,7 @@
 #include "cli/command.h"
 #include "cli/job_options.h"
 #include "lab/commands.h"
-#include "image/picture.h"
+#include "image/image.h"
 #include "lab/compare.h"
 #include "lab/sheet.h"
 #include "learning/learn.h"
