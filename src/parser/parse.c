@@ -5,6 +5,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+
+/* --- names that are none ------------------------------------------------------------------------------ */
+
+struct near parse_near(struct parser *p, const char *name)
+{
+    return near_start(p->n_sought++ < MOST_SOUGHT ? name : "");
+}
+
+struct near parse_near_symbol(struct parser *p, const char *name, const struct symbols *table)
+{
+    struct near near = parse_near(p, name);
+    for (int i = table->n - 1; i >= 0 && i >= table->n - MOST_COMPARED; i--)
+        near_try(&near, table->entry[i].name);
+    return near;
+}
+
 const char *parse_foreign(const char *name)
 {
     static const char *const NAMES[] = {
@@ -52,7 +68,8 @@ int parse_named(struct parser *p, struct token *name, const struct symbols *tabl
         return -1;
     int i = symbols_find(table, name->text);
     if (i < 0)
-        source_warn(&p->messages, name->position, "there is no %s \"%.60s\"; %s", what, name->text, instead);
+        source_warn(&p->messages, name->position, "there is no %s \"%.60s\"; %s%s", what, name->text, instead,
+                    parse_near_symbol(p, name->text, table).text);
     return i;
 }
 
@@ -77,9 +94,12 @@ bool parse_type(struct parser *p, const struct object_type *types)
 static void warn_of_unused(struct parser *p, const struct param *item)
 {
     bool same = field_find(p->type.fields, item->name) != NULL;
+    struct near near = parse_near(p, same ? "" : item->name);
+    for (const struct field *f = p->type.fields; !same && f->name != NULL; f++)
+        near_try(&near, f->name);
     source_warn(&p->messages, item->position, "parameter \"%s %.40s\" of %s \"%s\" is not used%s",
                 params_type_name(item->type), item->name, p->params.directive, p->params.type,
-                same ? "; that has another type, or no meaning here" : "");
+                same ? "; that has another type, or no meaning here" : near.text);
 }
 
 bool parse_done(struct parser *p)
@@ -104,8 +124,8 @@ int parse_named_texture(struct parser *p, const char *name, bool is_float)
         return -1;
     int id = symbols_find(table, texture);
     if (id < 0)
-        source_warn(&p->messages, at, "there is no %s texture \"%.60s\"; the default is taken",
-                    is_float ? "float" : "spectrum", texture);
+        source_warn(&p->messages, at, "there is no %s texture \"%.60s\"; the default is taken%s",
+                    is_float ? "float" : "spectrum", texture, parse_near_symbol(p, texture, table).text);
     return id;
 }
 

@@ -136,9 +136,16 @@ struct parser {
     int64_t n_copied;    /* triangles and quadrics of all instances that are copies */
 
     bool texture_is_float; /* of the Texture directive being carried out */
+    int n_sought;          /* names that were none, for which near ones were looked for */
 };
 
-/* parse_foreign: what is to be said of a name that only pbrt-v4 has, else "". */
+/* parse_near: a name that is none is about to be compared with those that there are, unless that has been done for
+ * MOST_SOUGHT names already. parse_near_symbol: compared with the newest MOST_COMPARED of a table. Files of nothing but
+ * mistakes are read as fast as others.
+ * parse_foreign: what is to be said of a name that only pbrt-v4 has, else "". */
+enum { MOST_SOUGHT = 100, MOST_COMPARED = 1000 };
+struct near parse_near(struct parser *p, const char *name);
+struct near parse_near_symbol(struct parser *p, const char *name, const struct symbols *table);
 const char *parse_foreign(const char *name);
 
 /* parse_type: find params.type in a table and set p->type. False with a message.

@@ -12,7 +12,8 @@ int parse_part(struct parser *p, const char *field)
     const char *name = params_text(&p->params, field, PARAM_STRING, &at);
     int k = name != NULL ? symbols_find(&p->materials, name) : -1;
     if (k < 0 && !p->params.failed)
-        source_warn(&p->messages, at, "\"%s\" of a %s names no material; a matte one is taken", field, p->params.type);
+        source_warn(&p->messages, at, "\"%s\" of a %s names no material; a matte one is taken%s", field,
+                    p->params.type, parse_near_symbol(p, name != NULL ? name : "", &p->materials).text);
     else if (k >= 0 && p->material[k].id == MATERIAL_NONE)
         params_fail(&p->params, at, "\"%s\" of a %s must not be \"none\"", field, p->params.type);
     return k >= 0 ? p->material[k].id : MATERIAL_MATTE;

@@ -77,7 +77,8 @@ int parse_medium(struct parser *p, int side)
         source_error(&p->messages, name->position, "medium \"%.60s\" is not \"homogeneous\": others are not known",
                      name->text);
     if (medium < 0)
-        source_error(&p->messages, name->position, "there is no medium \"%.60s\"", name->text);
+        source_error(&p->messages, name->position, "there is no medium \"%.60s\"%s", name->text,
+                     parse_near_symbol(p, name->text, &p->media.known).text);
     return medium < 0 || medium == MEDIUM_UNKNOWN ? 0 : medium;
 }
 

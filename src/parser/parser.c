@@ -51,15 +51,23 @@ static const struct directive *find_directive(const char *name)
     return NULL;
 }
 
-static bool unknown_directive(struct parser *p)
+/* No directive: an error. Returns the one that was meant, if there is one that is near. */
+static const struct directive *unknown_directive(struct parser *p)
 {
     const struct token *t = &p->directive;
     char found[64];
     token_text(t, found, sizeof found);
-    if (t->kind != TOKEN_WORD)
-        return source_error(&p->messages, t->position, "here should be a directive like Shape, not %s", found);
-    return source_error(&p->messages, t->position, "unknown directive %s%s; doc/scene-format.md lists those of pbrt-v3",
-                        found, parse_foreign(t->text));
+    if (t->kind != TOKEN_WORD) {
+        source_error(&p->messages, t->position, "here should be a directive like Shape, not %s", found);
+        return NULL;
+    }
+    struct near near = parse_near(p, t->text);
+    for (const struct directive *const *table = TABLES; *table != NULL; table++)
+        for (const struct directive *d = *table; d->name != NULL; d++)
+            near_try(&near, d->name);
+    source_error(&p->messages, t->position, "unknown directive %s%s; doc/scene-format.md lists those of pbrt-v3%s",
+                 found, parse_foreign(t->text), near.text);
+    return near.name != NULL ? find_directive(near.name) : NULL;
 }
 
 static bool wrong_phase(struct parser *p, const struct directive *d)
@@ -74,9 +82,13 @@ static bool run_directive(struct parser *p)
 {
     const struct token *t = &p->directive;
     const struct directive *d = t->kind == TOKEN_WORD ? find_directive(t->text) : NULL;
-    if (d == NULL)
-        return unknown_directive(p);
-    p->lexer.file->is_scene = true;
+    struct source_file *source = p->lexer.file;
+    bool known = d != NULL;
+    if (!known) /* goes on as if the one that was meant stood there, so that this is the only error */
+        d = unknown_directive(p);
+    if (d == NULL || !(known || source->is_scene))
+        return false;
+    source->is_scene = true;
     if ((d->phase & p->phase) == 0)
         return wrong_phase(p, d);
     if (d->types != NULL && !(parse_typed(p) && parse_type(p, d->types)))

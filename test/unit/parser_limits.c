@@ -194,7 +194,44 @@ static void check_twice(struct test *t)
     free(text);
 }
 
-/* Megabytes of names, and of others that are none, take no longer than any others. */
+/* Letters by which a differs from b, by the definition: case apart, one that is changed, left out or put in. */
+static int letters(const char *a, const char *b)
+{
+    if (*a == '\0' || *b == '\0')
+        return (int)(strlen(a) + strlen(b));
+    int changed = letters(a + 1, b + 1) + ((*a | 32) != (*b | 32)), left_out = letters(a + 1, b) + 1;
+    int put_in = letters(a, b + 1) + 1, least = left_out < put_in ? left_out : put_in;
+    return changed < least ? changed : least;
+}
+
+/* The nearest of random names, of few letters, is found where it is near enough. */
+static void check_near(struct test *t, struct rng *r)
+{
+    enum { NAMES = 4, LONGEST = 8 };
+    int found = 0;
+    for (int round = 0; round < 2000; round++) {
+        char name[NAMES + 1][LONGEST + 1] = {""};
+        struct near near;
+        int best = 0;
+        for (int i = 0; i <= NAMES; i++)
+            for (int n = 1 + (int)(rng_uniform(r) * LONGEST), k = 0; k < n; k++)
+                name[i][k] = "abA"[(int)(3 * rng_uniform(r))];
+        near = near_start(name[NAMES]);
+        for (int i = 0; i < NAMES; i++) {
+            best = letters(name[NAMES], name[i]) < letters(name[NAMES], name[best]) ? i : best;
+            near_try(&near, name[i]);
+        }
+        size_t n = strlen(name[NAMES]);
+        bool close = letters(name[NAMES], name[best]) <= (n < 3 ? 0 : n < 6 ? 1 : 2);
+        const char *wanted = close ? name[best] : NULL;
+        found += close;
+        CHECK(t, near.name == wanted, "of %s, %s, %s, %s near %s is %s", name[0], name[1], name[2], name[3],
+              name[NAMES], near.name != NULL ? near.name : "none");
+    }
+    CHECK(t, found > 200 && found < 1800, "%d of 2000 names were found", found);
+}
+
+/* Megabytes of names, and of others that are near, take no longer than any others. */
 static void check_mistakes(struct test *t)
 {
     enum { NAMES = 15000, ROOM = 1 << 22 };
@@ -322,6 +359,7 @@ void check_parser_limits(struct test *t)
     check_memory(t);
     check_large_file(t);
     check_twice(t);
+    check_near(t, &r);
     check_mistakes(t);
     check_many_errors(t);
     check_no_files(t);
