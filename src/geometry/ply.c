@@ -12,12 +12,13 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "geometry/mesh.h"
+#include "geometry/polygon.h"
 
 enum encoding { NO_ENCODING, ENCODING_ASCII, ENCODING_LITTLE, ENCODING_BIG };
 enum scalar { INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64, N_SCALARS };
 
 /* What a property means to us; NO_ROLE: nothing. */
-enum role { X, Y, Z, NX, NY, NZ, U, V, NO_ROLE, FACE };
+enum role { X, Y, Z, NX, NY, NZ, U, V, NO_ROLE, POLYGON, STRIP };
 
 struct ply_property {
     enum scalar type, count_type; /* count_type: of lists only */
@@ -29,7 +30,13 @@ struct ply_element {
     char name[64];
     int count;
     int first, n; /* its properties */
-    bool has[FACE + 1]; /* which roles these have */
+    bool has[STRIP + 1]; /* which roles these have */
+};
+
+/* A face of more than three corners, and its first triangle's place in the indices. */
+struct ply_polygon {
+    size_t first;
+    int n;
 };
 
 struct ply {
@@ -43,7 +50,8 @@ struct ply {
     struct ply_property *property;                /* [n_properties] */
     size_t n_elements, n_properties;
     struct mesh *mesh;
-    size_t n_indices;
+    struct ply_polygon *polygon; /* [n_polygons] */
+    size_t n_indices, n_polygons;
     char line_end;               /* of the header: CR where no LF follows the first one, else LF */
     struct error *err;
 };
@@ -105,8 +113,10 @@ static enum role role_of(const char *element, const struct ply_property *p, cons
     static const char *const lists[] = {"vertex_indices", "vertex_index"};
     static const char *const numbers[] = {"x", "y", "z", "nx", "ny", "nz", "u", "v", "s", "t", "texture_u", "texture_v",
                                           "texture_s", "texture_t"};
+    if (p->is_list && p->type < FLOAT32 && index_of(name, lists, 2) >= 0)
+        return strcmp(element, "face") == 0 ? POLYGON : strcmp(element, "tristrips") == 0 ? STRIP : NO_ROLE;
     if (p->is_list)
-        return strcmp(element, "face") == 0 && p->type < FLOAT32 && index_of(name, lists, 2) >= 0 ? FACE : NO_ROLE;
+        return NO_ROLE;
     int i = strcmp(element, "vertex") == 0 ? index_of(name, numbers, 14) : -1;
     return i < 0 ? NO_ROLE : i < U ? (enum role)i : i % 2 == 0 ? U : V;
 }
@@ -260,31 +270,47 @@ static void add_triangle(struct ply *r, uint32_t a, uint32_t b, uint32_t c)
     }
 }
 
-/* A list. Those of faces have three corners, or four, of which pbrt-v3 makes the triangles (0,1,2) and (3,0,2). */
+/* A corner behind n others of its face or strip. A face becomes a fan around its first corner, (0,1,2), (3,0,2) ..., as
+ * pbrt-v3 cuts quadrilaterals; a strip turns at every corner. */
+static void add_corner(struct ply *r, const struct ply_property *p, int n, uint32_t *first, uint32_t *last,
+                       uint32_t corner)
+{
+    bool strip = p->role == STRIP;
+    if (n > 2 && !strip)
+        add_triangle(r, corner, *first, *last);
+    else if (n > 2 && n % 2 != 0)
+        add_triangle(r, *last, *first, corner);
+    else if (n >= 2)
+        add_triangle(r, *first, *last, corner);
+    *first = n == 0 ? corner : strip ? *last : *first;
+    *last = corner;
+}
+
+/* A list. In a strip's, -1 begins another. */
 static bool read_list(struct ply *r, const struct ply_property *p)
 {
-    enum { MOST_CORNERS = 4 };
     double count, value;
-    uint32_t corner[MOST_CORNERS];
+    uint32_t first = 0, last = 0;
+    int n = 0;
     if (!next_number(r, p->count_type, &count))
         return false;
     if (!(count >= 0 && count <= FIRST_QUADRIC) || count != floor(count))
         return fail(r, "not a list length", "");
-    if (p->role == FACE && count > MOST_CORNERS)
-        return fail(r, "more than four corners, which pbrt-v3 does not read either; cut faces into triangles", "");
-    for (int k = 0; k < count; k++) {
+    r->mesh->n_thin += p->role == POLYGON && count < 3;
+    if (p->role == POLYGON && count > 3) {
+        r->polygon = mem_append(r->polygon, r->n_polygons, sizeof *r->polygon);
+        r->polygon[r->n_polygons++] = (struct ply_polygon){r->n_indices, (int)count};
+    }
+    for (double k = 0; k < count; k++, n++) {
         if (!next_number(r, p->type, &value))
             return false;
-        if (p->role == FACE && (!(value >= 0 && value < FIRST_QUADRIC) || value != floor(value)))
+        if (p->role == STRIP && value == -1)
+            n = -1;
+        else if (p->role != NO_ROLE && (!(value >= 0 && value < FIRST_QUADRIC) || value != floor(value)))
             return fail(r, "not a vertex index", "");
-        if (p->role == FACE)
-            corner[k] = (uint32_t)value;
+        else if (p->role != NO_ROLE)
+            add_corner(r, p, n, &first, &last, (uint32_t)value);
     }
-    r->mesh->n_thin += p->role == FACE && count < 3;
-    if (p->role == FACE && count > 2)
-        add_triangle(r, corner[0], corner[1], corner[2]);
-    if (p->role == FACE && count > 3)
-        add_triangle(r, corner[3], corner[0], corner[2]);
     return true;
 }
 
@@ -346,10 +372,8 @@ static bool read_body(struct ply *r)
         const struct ply_element *e = &r->element[i];
         if (strcmp(e->name, "vertex") == 0 && !start_vertices(r, e))
             return false;
-        if (strcmp(e->name, "face") == 0 && !e->has[FACE])
+        if (strcmp(e->name, "face") == 0 && !e->has[POLYGON])
             return fail(r, "faces have no integer list vertex_indices (or vertex_index)", "");
-        if (strcmp(e->name, "tristrips") == 0)
-            return fail(r, "strips of triangles are not read, as in pbrt-v3; make them faces", "");
         if (!read_rows(r, e))
             return false;
     }
@@ -363,8 +387,8 @@ static bool check_mesh(struct ply *r)
     size_t n_triangles = r->n_indices / 3;
     if (n_triangles == 0 && m->n_thin == 0)
         return fail(r, "no faces", "");
-    if (n_triangles > FIRST_QUADRIC)
-        return fail(r, "more than 2^30 triangles", "");
+    if (n_triangles > FIRST_QUADRIC || n_triangles * PLY_BYTES_PER_TRIANGLE > r->size)
+        return fail(r, "more than 2^30 triangles, or less than two bytes for each", "");
     for (size_t i = 0; i < r->n_indices; i++)
         if (m->index[i] >= (uint32_t)m->n_vertices)
             return error_set(r->err, "%s: a face refers to vertex %lu, but there are only %d", r->path,
@@ -373,16 +397,26 @@ static bool check_mesh(struct ply *r)
     return true;
 }
 
+static bool cut_polygons(struct ply *r)
+{
+    double room = PLY_TESTS_PER_BYTE * (double)r->size;
+    for (size_t i = 0; i < r->n_polygons; i++)
+        if (!polygon_cut(r->mesh->P, r->mesh->index + r->polygon[i].first, r->polygon[i].n, &room))
+            return fail(r, "its faces that are not convex have too many corners; cut them into triangles", "");
+    return true;
+}
+
 bool ply_read(const char *path, struct mesh *out, struct error *err)
 {
     struct ply r = {.path = path, .mesh = out, .err = err};
     memset(out, 0, sizeof *out);
     bool ok = file_read(path, &r.data, &r.size, err) && read_header(&r) && check_counts(&r) && read_body(&r) &&
-              check_mesh(&r);
+              check_mesh(&r) && cut_polygons(&r);
     out->content = hash_content(r.data, r.size);
     out->file_size = r.size;
     free(r.data);
     free(r.property);
+    free(r.polygon);
     if (!ok)
         mesh_free(out);
     return ok;

@@ -1,9 +1,10 @@
 /* ply.h: triangle meshes from PLY files (ascii, binary little and big endian; header lines end in LF, CR LF or CR).
  *
  * Vertex: x y z [nx ny nz] [u v | s t | texture_u texture_v | texture_s texture_t], any scalar type. Faces:
- * a list property vertex_indices (or vertex_index) of any integer types; those of 4 corners are two triangles, of fewer
- * than 3 left out, of more refused. Other properties and elements are read over, except tristrips, which are refused.
- * Normals and texture coordinates that are not finite become 0.
+ * a list property vertex_indices (or vertex_index) of any integer types; polygons are cut into triangles (polygon.h),
+ * and those of fewer than 3 corners left out. Tristrips: such a list of strips of triangles, between which -1 stands.
+ * Other properties and elements are read over. Normals and texture coordinates that
+ * are not finite become 0.
  *
  * Tests: test_ply.c.
  */
@@ -13,7 +14,9 @@
 #include "base/error.h"
 #include "geometry/shape.h"
 
-enum { PLY_MAX_ELEMENTS = 64 }; /* of which few are of use */
+/* Elements of a file, of which few are of use; its bytes for a triangle, which takes some 1000 as a light; and the
+ * tests for each byte that cutting polygons may take. */
+enum { PLY_MAX_ELEMENTS = 64, PLY_BYTES_PER_TRIANGLE = 2, PLY_TESTS_PER_BYTE = 256 };
 
 /* ply_read: read a mesh. Returns false with a message "PATH: ..." (a line of the header, or a row of an element) on a
  * missing, truncated or malformed file, an index out of range, a non-finite position, or counts the file is

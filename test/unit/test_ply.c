@@ -11,6 +11,8 @@
 #include <string.h>
 
 #include "base/bits.h"
+#include "base/mem.h"
+#include "base/rng.h"
 #include "helpers.h"
 #include "suites.h"
 
@@ -204,6 +206,8 @@ static void check_variants(struct test *t)
 /* --- what is refused ---------------------------------------------------------------------------------- */
 
 #define XYZ   "property float x\nproperty float y\nproperty float z\n"
+#define BYTES_10  "~~~~~~~~~~"
+#define BYTES_100 "d" BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10 BYTES_10
 #define HEAD  "ply\nformat ascii 1.0\nelement vertex 3\n" XYZ
 #define FACE  "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
 #define THREE "0 0 0\n1 0 0\n0 1 0\n"
@@ -239,16 +243,15 @@ static void check_refused(struct test *t)
         {HEAD FACE THREE "3 0 1 1.5\n", "not a vertex index"},
         {HEAD FACE THREE "-3 0 1 2\n", "not a list length"},
         {HEAD FACE THREE "3.5 0 1 2\n", "not a list length"},
-        {HEAD "element tags 1\nproperty list int int tag\n" FACE THREE "99999999 0 1 2\n", "ends"},
-        {HEAD FACE THREE "5 0 1 2 0 1\n", ": face 0: more than four corners"},
-        {HEAD "element tristrips 1\nproperty list int int vertex_indices\n" FACE THREE "3 0 1 2\n3 0 1 2\n",
-         "strips of triangles are not read"},
+        {HEAD FACE THREE "99999999 0 1 2\n", "ends"},
         {HEAD "element face 0\nproperty list uchar int vertex_indices\nend_header\n" THREE, "no faces"},
         {HEAD "end_header\n" THREE, "no faces"},
         {HEAD "element face 1\nproperty list uchar float vertex_indices\nend_header\n" THREE "3 0 1 2\n",
          "integer list"},
         {HEAD "element face 1\nproperty list uchar int corners\nend_header\n" THREE "3 0 1 2\n", "integer list"},
         {"ply\nformat ascii 1.0\n" FACE "3 0 1 2\n", "there are only 0"},
+        {"ply\nformat binary_little_endian 1.0\nelement vertex 0\n" XYZ "element face 3\n"
+         "property list char char vertex_indices\nend_header\n" BYTES_100 BYTES_100 BYTES_100, "less than two bytes"},
         {"ply\nformat binary_little_endian 1.0\nelement vertex 3\n" XYZ "element face 1000000\n"
          "property list uchar int vertex_indices\nend_header\n" THREE, "truncated"},
     };
@@ -263,18 +266,162 @@ static void check_refused(struct test *t)
     CHECK(t, !ply_read(test_tmp(t), &m, &err), "a directory is read");
 }
 
-/* Odd but legal: what is not finite beside the position, faces that are none, meshes without normals. */
+/* Odd but legal: what is not finite beside the position, polygons, faces that are none, meshes without normals. */
 static void check_odd(struct test *t)
 {
     static const char text[] =
         "ply\nformat ascii 1.0\nelement vertex 5\n" XYZ "property float u\nproperty float v\nproperty float nx\n"
         "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
-        "0 0 0 nan 0 9\n1 0 0 0 0 9\n2 1 0 0 0 9\n1 2 0 0 0 9\n0 1 0 0 0 9\n4 0 1 2 3\n0\n2 0 1\n3 0 0 0";
+        "0 0 0 nan 0 9\n1 0 0 0 0 9\n2 1 0 0 0 9\n1 2 0 0 0 9\n0 1 0 0 0 9\n5 0 1 2 3 4\n0\n2 0 1\n3 0 0 0";
     struct mesh m;
     struct error err;
     bool ok = read_bytes(t, text, strlen(text), &m, &err);
-    CHECK(t, ok && m.n_triangles == 3 && m.N == NULL && m.UV != NULL && m.UV[0] == 0, "odd faces: %s", err.text);
+    CHECK(t, ok && m.n_triangles == 4 && m.N == NULL && m.UV != NULL && m.UV[0] == 0, "pentagon: %s", err.text);
     CHECK(t, m.n_thin == 2, "%d faces of few corners", m.n_thin);
+    CHECK(t, !ok || (m.index[6] == 4 && m.index[7] == 0 && m.index[8] == 3), "the last triangle of the fan");
+    mesh_free(&m);
+}
+
+/* --- polygons ------------------------------------------------------------------------------------------- */
+
+enum { MOST_CORNERS = 60, POINTS = 200 };
+
+/* A polygon in a plane, and which of its points is which corner. */
+struct polygon {
+    double point[MOST_CORNERS][2];
+    int corner[MOST_CORNERS], n, n_points;
+};
+
+static void put_point(struct polygon *p, double x, double y)
+{
+    p->point[p->n_points][0] = x;
+    p->point[p->n_points][1] = y;
+    p->corner[p->n++] = p->n_points++;
+}
+
+/* A star, a comb, a spiral, or a square whose hole a bridge joins to the outside. */
+static struct polygon random_polygon(struct rng *r, int kind)
+{
+    struct polygon p = {.n = 0};
+    int n = 4 + (int)(rng_uniform(r) * 24);
+    for (int i = 0; i < n && kind < 3; i++) {
+        double angle = 2 * PI * i / n, radius = 0.2 + 0.8 * rng_uniform(r);
+        if (kind == 0)
+            put_point(&p, radius * cos(angle), radius * sin(angle));
+        else if (kind == 1)
+            put_point(&p, i, i % 2 == 0 ? rng_uniform(r) : 5 + rng_uniform(r));
+        else
+            put_point(&p, (1 + i) * cos(0.7 * i), (1 + i) * sin(0.7 * i));
+    }
+    for (int i = n - 1; i >= 0 && kind == 2; i--)
+        put_point(&p, (1.6 + i) * cos(0.7 * i), (1.6 + i) * sin(0.7 * i));
+    if (kind == 1) { /* the comb's back */
+        put_point(&p, n, 8);
+        put_point(&p, -1, 8);
+    }
+    if (kind == 3) {
+        static const double hole[8][2] = {{0, 0}, {9, 0}, {9, 9}, {0, 9}, {3, 3}, {3, 6}, {6, 6}, {6, 3}};
+        static const int corners[10] = {0, 1, 2, 3, 0, 4, 5, 6, 7, 4};
+        for (int i = 0; i < 8; i++)
+            put_point(&p, hole[i][0], hole[i][1]);
+        memcpy(p.corner, corners, sizeof corners);
+        p.n = 10;
+    }
+    int first = (int)(rng_uniform(r) * p.n), step = rng_uniform(r) < 0.5 ? 1 : p.n - 1;
+    struct polygon turned = p;
+    for (int i = 0; i < p.n; i++)
+        turned.corner[i] = p.corner[(first + i * step) % p.n];
+    return turned;
+}
+
+/* Which side of the line from a to b is c on? */
+static double side(const double *a, const double *b, const double *c)
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/* How often do these corners go round a point? */
+static int winding(const double (*point)[2], const int *corner, int n, const double *at)
+{
+    int turns = 0;
+    for (int i = 0; i < n; i++) {
+        const double *a = point[corner[i]], *b = point[corner[(i + 1) % n]];
+        bool up = a[1] <= at[1];
+        if (up != (b[1] <= at[1]) && (side(a, b, at) > 0) == up)
+            turns += up ? 1 : -1;
+    }
+    return turns;
+}
+
+/* The triangles of a polygon, which lies anywhere in space, go round all points as often as the polygon does. */
+static void check_polygon(struct test *t, struct rng *r, int kind)
+{
+    struct polygon p = random_polygon(r, kind);
+    struct transform place = random_affine(r);
+    struct text f = {.n = 0};
+    struct mesh m;
+    struct error err;
+    put(&f, "ply\nformat ascii 1.0\nelement vertex %d\n" XYZ FACE, p.n_points);
+    for (int i = 0; i < p.n_points; i++) {
+        vec3 at = transform_point(&place, vec(p.point[i][0], p.point[i][1], 1));
+        put(&f, "%.9g %.9g %.9g\n", at.x, at.y, at.z);
+    }
+    put(&f, "%d", p.n);
+    for (int i = 0; i < p.n; i++)
+        put(&f, " %d", p.corner[i]);
+    bool ok = read_bytes(t, f.data, f.n, &m, &err);
+    CHECK(t, ok && m.n_triangles == p.n - 2, "polygon of kind %d: %s", kind, err.text);
+    double lo[2] = {HUGE_VAL, HUGE_VAL}, hi[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < 2 * p.n_points; i++) {
+        lo[i % 2] = fmin(lo[i % 2], p.point[i / 2][i % 2]);
+        hi[i % 2] = fmax(hi[i % 2], p.point[i / 2][i % 2]);
+    }
+    int wrong = 0;
+    for (int i = 0; ok && i < POINTS; i++) {
+        double x = rng_uniform(r), at[2] = {lo[0] + x * (hi[0] - lo[0]), lo[1] + rng_uniform(r) * (hi[1] - lo[1])};
+        int sum = 0;
+        bool over = false; /* parts of the same sign alone */
+        for (int k = 0; k < m.n_triangles; k++) {
+            const int corner[3] = {(int)m.index[3 * k], (int)m.index[3 * k + 1], (int)m.index[3 * k + 2]};
+            int turns = winding((const double(*)[2])p.point, corner, 3, at);
+            over |= turns * sum != 0;
+            sum += turns;
+        }
+        wrong += over || sum != winding((const double(*)[2])p.point, p.corner, p.n, at);
+    }
+    CHECK(t, wrong == 0, "polygon of kind %d and %d corners: %d of %d points are wrong", kind, p.n, wrong, (int)POINTS);
+    mesh_free(&m);
+}
+
+/* Strips of triangles, which turn the same way. */
+static void check_strips(struct test *t)
+{
+    static const char text[] = "ply\nformat ascii 1.0\nelement vertex 6\n" XYZ
+                               "element tristrips 2\nproperty list int int vertex_indices\nend_header\n"
+                               "0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 1 2 0\n9 0 1 2 3 4 -1 3 5 4\n2 0 1\n";
+    static const uint32_t want[12] = {0, 1, 2, 2, 1, 3, 2, 3, 4, 3, 5, 4};
+    struct mesh m;
+    struct error err;
+    bool ok = read_bytes(t, text, strlen(text), &m, &err);
+    CHECK(t, ok && m.n_triangles == 4 && memcmp(m.index, want, sizeof want) == 0, "strips: %s", err.text);
+    mesh_free(&m);
+}
+
+/* A face whose corners go round five points, or are all but four in one place, costs the square of their number. */
+static void check_many_corners(struct test *t, bool round)
+{
+    enum { CORNERS = 100000 };
+    char *text = mem_alloc(1, 400 + 2 * CORNERS);
+    size_t n = (size_t)sprintf(text, "ply\nformat ascii 1.0\nelement vertex 5\n" XYZ
+                               "element face 1\nproperty list int uchar vertex_indices\nend_header\n"
+                               "0 0 0 4 0 0 4 4 0 3 1 0 0 4 0\n%d", CORNERS);
+    for (int i = 0; i < CORNERS; i++)
+        n += (size_t)sprintf(text + n, " %d", round ? i % 5 : i < CORNERS - 4 ? 0 : i - CORNERS + 5);
+    struct mesh m;
+    struct error err;
+    CHECK(t, !read_bytes(t, text, n, &m, &err) && strstr(err.text, "not convex have too many corners") != NULL,
+          "a face of many corners: %s", err.text);
+    free(text);
     mesh_free(&m);
 }
 
@@ -320,4 +467,10 @@ void test_ply(struct test *t)
     check_odd(t);
     check_elements(t);
     check_long_numbers(t);
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 0, 0);
+    for (int i = 0; i < 200; i++)
+        check_polygon(t, &r, i % 4);
+    check_strips(t);
+    check_many_corners(t, true);
+    check_many_corners(t, false);
 }
