@@ -26,8 +26,8 @@ const struct option RENDER_OPTIONS[] = {
      .help = "stop when the noise is below X relative to the local brightness, e.g. 0.05; checked every 64 samples"},
     {"--noise8", "X", OPTION_NUMBER, AT(keep.noise[NOISE_8_BIT]), 1e-9, 1e9,
      .help = "stop when the noise is below X of the 255 levels of 8-bit images; with --noise, when both hold"},
-    {"--preview", .kind = OPTION_ELSEWHERE,
-     .help = "take --checkpoint FILE; asbdpt merge --partial FILE -o IMAGE then makes the image so far"},
+    {"--preview", "TIME", OPTION_TIME, AT(keep.preview), 1e-9, 1e9,
+     .help = "write the image so far to the first -o file after 1, 2, 4 ... seconds, then every TIME"},
     {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .written = true,
      .help = "save the render in FILE at intervals, and when a signal stops it"},
     {"--interval", "TIME", OPTION_TIME, AT(keep.interval), 0, 1e9, .fallback = "60",
@@ -119,7 +119,7 @@ static bool open_others(struct render_run *r, struct error *err)
 {
     const struct job_options *o = r->asked;
     return (r->pictures.n > 0 || open_default_output(o, &r->scene, &r->pictures, err)) &&
-           names_differ(r, err) && make_film(r, err);
+           (o->keep.preview == 0 || outputs_previews(&r->pictures, err)) && names_differ(r, err) && make_film(r, err);
 }
 
 int render_open(struct render_run *r, struct job_options *o)
@@ -206,7 +206,7 @@ static bool write_pictures(struct render_run *r, bool ok, struct error *err)
 /* From a film with nothing or something in it to all files. */
 bool render_work(struct render_run *r, struct error *err)
 {
-    if (!keep_begin(&r->keep, &r->asked->keep, r->asked->quiet, &r->job, &r->film, err))
+    if (!keep_begin(&r->keep, &r->asked->keep, r->asked->quiet, &r->job, &r->film, &r->pictures, err))
         return false;
     r->pictures.place = r->keep.part.place;
     r->pictures.part = &r->keep.part;

@@ -17,6 +17,7 @@ struct keep_options {
     const char *checkpoint;  /* file or NULL */
     double interval;         /* seconds between checkpoints */
     const char *resume;      /* file or NULL */
+    double preview;          /* most seconds between previews; 0: none */
     int samples[2];          /* of each pixel, the second excluded; 0, 0: all */
 };
 

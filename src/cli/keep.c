@@ -105,6 +105,16 @@ static void save(struct keep *k)
     k->saved = os_wall_seconds();
 }
 
+/* What is shown then is new in half of its samples, until previews come at intervals. */
+static void preview(struct keep *k)
+{
+    struct error err;
+    if (!outputs_preview(k->pictures, &err))
+        say_line("asbdpt: warning: %s; rendering goes on", err.text);
+    double seconds = os_wall_seconds() - k->begun;
+    k->preview_due = seconds + fmin(seconds, k->options->preview);
+}
+
 /* In place of a bar, or without the first character. */
 static const char STOPPING[] = "\rasbdpt: stopping, and writing the image so far; "
                                "again after a second to quit without it\n";
@@ -128,11 +138,13 @@ static enum render_wish watch(void *context, double done)
     show(k, done);
     if (o->checkpoint != NULL && os_wall_seconds() - k->saved >= o->interval)
         save(k);
+    if (o->preview > 0 && film_samples(k->film) > 0 && os_wall_seconds() - k->begun >= k->preview_due)
+        preview(k);
     return late(k, 0) ? RENDER_END_BLOCK : RENDER_GO_ON;
 }
 
 bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, struct job *job, struct film *film,
-                struct error *err)
+                const struct outputs *pictures, struct error *err)
 {
     struct render_options *render = &job->options;
     memset(k, 0, sizeof *k);
@@ -149,6 +161,8 @@ bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, struct
     memcpy(render->noise, o->noise, sizeof render->noise);
     k->options = o;
     k->film = film;
+    k->pictures = pictures;
+    k->preview_due = fmin(1, o->preview);
     k->part = part_describe(job);
     if (!resume(k, err)) {
         part_free(&k->part);

@@ -92,6 +92,28 @@ bool outputs_write(struct outputs *o, int width, int height, const float *pixels
     return ok;
 }
 
+bool outputs_preview(const struct outputs *o, struct error *err)
+{
+    struct outputs first = *o;
+    const struct film *f = o->film;
+    first.item = NULL;
+    first.n = 0;
+    if (!add_file(&first, o->item[0].file.path, false, err))
+        return false;
+    float *pixels = mem_alloc(rect_pixels(f->rect) * 3, sizeof *pixels);
+    film_develop(f, o->part->scale, pixels);
+    bool ok = outputs_write(&first, rect_width(f->rect), rect_height(f->rect), pixels, true, err);
+    free(pixels);
+    return ok;
+}
+
+bool outputs_previews(const struct outputs *o, struct error *err)
+{
+    const struct output *first = &o->item[0]; /* what is no file has no temporary one */
+    return (!first->is_part && first->file.temporary != NULL) ||
+           error_usage(err, "--preview: %s: the first output must be an image file", first->file.path);
+}
+
 void outputs_abandon(struct outputs *o)
 {
     for (int i = 0; i < o->n; i++)

@@ -49,8 +49,12 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, bo
 
 /* outputs_write: the picture into all of them; unless `quiet` a line on stderr names each. One that fails does not
  * keep the others from being written: the first message is kept and false returned.
+ * outputs_preview: the film as it is now into the file of the first, which outputs_write replaces in the end;
+ * outputs_previews: can it be? False with a message.
  * outputs_abandon: remove what outputs_write has not written. */
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err);
+bool outputs_preview(const struct outputs *o, struct error *err);
+bool outputs_previews(const struct outputs *o, struct error *err);
 void outputs_abandon(struct outputs *o);
 
 #endif

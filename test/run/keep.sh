@@ -151,16 +151,37 @@ wait $! || fault "a render whose checkpoint was replaced: $(cat stderr.txt)"
 check [ "$(work_in state)" = 8000 ]
 check [ ! -s stderr.txt ]
 
-# ---- the image so far is what merge --partial makes of a checkpoint ----
+# ---- a preview: whole pictures, one after the other, of the samples so far; the last has the bytes of none before ----
 size="--integrator bdpt --res 112x112 --maxdepth 3 --quiet"
-expect 2 'asbdpt merge --partial FILE -o IMAGE' "$program" render "$box" $size --spp 1 --preview 1 -o x.pfm
-"$program" render "$box" $size --spp 1000000 -j 2 --checkpoint now.state --interval 0 --time 100 -o late.pfm &
-hold [ -s now.state ]
-check "$program" merge --partial now.state --quiet -o seen.pfm
-check [ -s seen.pfm -a ! -e late.pfm ]
+newer() { ! cmp -s seen.pfm first.pfm; }
+check "$program" render "$box" $size --spp 24 -o whole.pfm
+makes whole.pfm "$program" render "$box" $size --spp 24 --preview 0.01 -o x.pfm
+near() { # the picture so far is about as bright as the whole one: on a slow machine the first ones are not
+    [ -s seen.pfm ] && cp seen.pfm $picture.pfm && "$lab" compare $picture.pfm whole.pfm >stdout.txt 2>/dev/null &&
+        awk '$1 == "mean_ratio" && $2 > 0.8 && $2 < 1.25 { near = 1 } END { exit !near }' stdout.txt
+}
+"$program" render "$box" $size --spp 1000000 -j 2 --preview 0.3 --time 100 -o seen.pfm -o late.pfm 2>stderr.txt &
+for picture in first second; do # far from the end of the render
+    hold near || fault "the preview is not of the samples so far"
+    check [ ! -e late.pfm ]
+    release
+    [ $picture = second ] || wait_until newer || fault "the preview stays as it was"
+done
 kill -s KILL $!
 wait $! 2>/dev/null
-rm -f .asbdpt-* now.state seen.pfm
+check [ ! -s stderr.txt ]
+rm -f .asbdpt-* seen.pfm
+# While a method learns there is none.
+"$program" render "$box" --integrator asbdpt --res 200x200 --spp 1000000 --quiet --preview 1e-9 -o seen.pfm &
+hold [ -s seen.pfm ]
+expect 0 '' "$lab" info seen.pfm
+says '^R .* to [0-9.]*[1-9]'
+kill -s KILL $!
+wait $! 2>/dev/null
+rm -f .asbdpt-*
+for name in - x.part; do
+    expect 2 'the first output must be an image file' "$program" render "$box" $size --spp 1 --preview 1 -o $name
+done
 
 # ---- signals ----
 # heard SIGNAL...: do they end a program here? One does not if the parent ignores it, as nohup does.
