@@ -18,7 +18,7 @@
 #include "cli/command.h"
 #include "cli/job_options.h"
 #include "lab/commands.h"
-#include "image/picture.h"
+#include "image/image.h"
 #include "lab/compare.h"
 #include "lab/sheet.h"
 #include "learning/learn.h"
@@ -242,7 +242,7 @@ int web_begin(int n)
     struct watch *w = &watched;
     struct error err;
     bool ok = options_read(OPTIONS, n - 1, argv + 1, &w->asked, &err);
-    int status = !ok ? usage_error(NULL, "%s", err.text) : job_load(&w->asked, &w->scene, &w->job);
+    int status = !ok ? usage_error(NULL, "%s", err.text) : load_job(&w->asked, &w->scene, &w->job);
     if (status == EXIT_OK && !begin(w, argv[0], &err))
         status = fail(&err);
     free(argv);

@@ -22,7 +22,7 @@ enum field_kind {
     FIELD_OPERAND,       /* int: of what the texture is that is being made; */
     FIELD_VALUE,         /* rgb: a value of that type */
     FIELD_MATERIAL,      /* int: a material made before */
-    FIELD_FOURIER_TABLE, /* int: of the texture set, from a file */
+    FIELD_FOURIER_TABLE, /* const struct fourier_table *: from a file; the scene's */
     FIELD_FILE,          /* const char *: a path that may be read, or NULL; borrowed */
     FIELD_INDICES, FIELD_POINTS, FIELD_VECTORS, FIELD_NORMALS, FIELD_PAIRS, /* struct field_list: of three, of two */
     FIELD_IGNORED        /* nothing depends on it */

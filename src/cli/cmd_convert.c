@@ -1,27 +1,21 @@
-/* cmd_convert.c: asbdpt convert IN... -o OUT: a picture in other formats, or several added up, each times a weight: of
- * those that asbdpt-lab render --lights writes the picture under other lights. */
-#include <math.h>
-#include <stdio.h>
+/* cmd_convert.c: asbdpt convert IN -o OUT: a picture in other formats. */
 #include <stdlib.h>
 
-#include "base/mem.h"
-#include "base/number.h"
 #include "cli/command.h"
 #include "cli/outputs.h"
 #include "image/image.h"
 
 struct convert_options {
-    struct texts in, out;
-    const char *weights; /* numbers with commas between them, or NULL: all 1 */
+    const char *in;
+    struct texts out;
     struct tone_options tone;
     bool linear, quiet;
 };
 
 #define AT(member) offsetof(struct convert_options, member)
 static const struct option OPTIONS[] = {
-    {"IN", NULL, OPTION_TEXTS, AT(in), 1,
-     .help = "an image to read: .exr .pfm .png .tga .ppm .pgm; several are added up"},
-    {"--weights", "LIST", OPTION_TEXT, AT(weights), .help = "factor of each image, as 1,0.5,2 (default: 1)"},
+    {"IN", NULL, OPTION_TEXT, AT(in), 1, .help = "an image to read: .exr .pfm .png .tga .ppm .pgm"},
+    {"--weights", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab sum adds up images"},
     {"-o", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "--outfile", .written = true,
      .help = "an image to write: linear .pfm or .exr, sRGB .png or .ppm; repeatable"},
     {"--linear", NULL, OPTION_ON, AT(linear),
@@ -29,66 +23,6 @@ static const struct option OPTIONS[] = {
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not print what was written"}, {.name = NULL}};
-
-/* A weight of the list at *text, which moves behind it. */
-static bool next_weight(const char **text, bool last, double *out)
-{
-    char *end;
-    *out = strtod(*text, &end);
-    bool ok = end != *text && fabs(*out) <= NUMBER_MAX && *end == (last ? '\0' : ',');
-    *text = end + !last;
-    return ok;
-}
-
-/* Picture number k; to be given to free(). NULL with a message. */
-static float *read_picture(const struct convert_options *o, int k, int *width, int *height, struct image *about,
-                           struct error *err)
-{
-    return (o->linear ? image_read_values : image_read_linear)(o->in.item[k], width, height, about, err);
-}
-
-/* Add picture k times a weight to the sum, which the first one begins. */
-static bool add_picture(const struct convert_options *o, int k, double weight, double **sum, int *width, int *height,
-                        struct image *about, struct error *err)
-{
-    int w, h;
-    struct image this;
-    float *pixels = read_picture(o, k, &w, &h, &this, err);
-    if (pixels == NULL)
-        return false;
-    *about = *sum == NULL ? this : *about;
-    size_t n = 3 * (size_t)w * (size_t)h;
-    bool fits = *sum == NULL || (w == *width && h == *height);
-    if (*sum == NULL)
-        *sum = mem_alloc(n, sizeof **sum);
-    for (size_t i = 0; fits && i < n; i++)
-        (*sum)[i] += weight * (double)pixels[i];
-    free(pixels);
-    if (!fits)
-        return error_set(err, "%s is %dx%d, the images before it %dx%d", o->in.item[k], w, h, *width, *height);
-    *width = w;
-    *height = h;
-    return true;
-}
-
-/* All pictures, added up; to be given to free(). NULL with a message. */
-static float *add_up(const struct convert_options *o, int *width, int *height, struct image *about, struct error *err)
-{
-    const char *text = o->weights;
-    double weight = 1, *sum = NULL;
-    bool ok = true;
-    for (int i = 0; ok && i < o->in.n; i++)
-        ok = (text == NULL || next_weight(&text, i + 1 == o->in.n, &weight) ||
-              error_usage(err, "--weights %s: expected a number for each image (%d), with commas between them",
-                          o->weights, o->in.n)) &&
-             add_picture(o, i, weight, &sum, width, height, about, err);
-    size_t n = ok ? 3 * (size_t)*width * (size_t)*height : 0;
-    float *out = ok ? mem_alloc(n, sizeof *out) : NULL;
-    for (size_t i = 0; i < n; i++)
-        out[i] = float_within(sum[i]);
-    free(sum);
-    return out;
-}
 
 static int run(void *options)
 {
@@ -99,9 +33,7 @@ static int run(void *options)
     int width, height;
     if (!outputs_open(&o->out, &o->tone, false, &out, &err))
         return fail(&err);
-    bool one = o->in.n == 1 && o->weights == NULL;
-    float *pixels = one ? read_picture(o, 0, &width, &height, &about, &err)
-                        : add_up(o, &width, &height, &about, &err);
+    float *pixels = (o->linear ? image_read_values : image_read_linear)(o->in, &width, &height, &about, &err);
     bool ok = pixels != NULL;
     if (ok) {
         out.place = about.place;
@@ -113,7 +45,6 @@ static int run(void *options)
 }
 
 const struct command command_convert = {
-    "convert", "write an image in other formats, or the weighted sum of several",
-    {"IN... -o FILE... [options]"}, OPTIONS,
-    sizeof(struct convert_options), run, false,
+    "convert", "write an image in other formats", {"IN -o FILE... [options]"}, OPTIONS, sizeof(struct convert_options),
+    run, false,
     "convert image.exr -o image.png --exposure 1 --tonemap filmic"};

@@ -130,7 +130,7 @@ int render_open(struct render_run *r, struct job_options *o)
     r->asked = o;
     if (!open_named(o, r, &err))
         return render_close(r, false, &err);
-    int status = job_load(o, &r->scene, &r->job);
+    int status = load_job(o, &r->scene, &r->job);
     if (status != EXIT_OK) {
         abandon(r);
         return status;

@@ -1,4 +1,4 @@
-/* job_options.h: the options that the subcommands which load a scene share, and the loading. */
+/* job_options.h: the options that the subcommands which load a scene share. */
 #ifndef ASBDPT_JOB_OPTIONS_H
 #define ASBDPT_JOB_OPTIONS_H
 
@@ -51,20 +51,12 @@ struct job_options {
 /* Of render; RUN_OPTIONS, for what takes samples; JOB_OPTIONS, for all: each leads on to the next. */
 extern const struct option RENDER_OPTIONS[], RUN_OPTIONS[], JOB_OPTIONS[];
 
-/* job_load: parse the scene, apply the options, settle the job, whose samples are those of --spp, --quick or the scene,
- * else 16, in whole cycles of the filter (filter.h), and prepare the scene. Returns EXIT_OK, after which job_free and
- * scene_free must follow, or EXIT_JOB or EXIT_USAGE after printing why. */
-int job_load(const struct job_options *o, struct scene *scene, struct job *job);
-
-/* The same in two steps: job_open parses the scene, applies the options and finds the method; job_ready does the rest,
- * and releases the scene if it fails.
- *   readers  all methods that will read the settings, ended by NULL; the job is the first one's */
-struct job_loading {
-    const struct job_options *options;
-    long n_warnings; /* so far */
-};
-int job_open(struct job_loading *l, struct scene *scene, const struct method **method);
-int job_ready(struct job_loading *l, const struct method *const *readers, struct scene *scene, struct job *job);
+/* load_job: job_load (render/job.h) of what the options ask. Returns EXIT_OK, or another status after saying why.
+ * job_request: what that is; borrows their texts. job_failed: say why it has failed, unless that has been said; returns
+ * the exit status. */
+int load_job(const struct job_options *o, struct scene *scene, struct job *job);
+struct job_request job_request(const struct job_options *o);
+int job_failed(const struct error *err);
 
 /* job_spares: is none of these outputs a file that the scene was read from? False with a message. */
 bool job_spares(const struct scene *scene, const struct texts *outputs, struct error *err);

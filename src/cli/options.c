@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "image/picture.h"
+#include "image/image.h"
 
 /* How far the arguments are read, and the option being read. */
 struct reader {

@@ -6,5 +6,5 @@ static const struct command *const COMMANDS[] = {&command_render, &command_merge
 const struct program program = {
     "asbdpt", "Alias Sampled Bidirectional Path Tracing, a reference implementation",
     "Renders scenes of pbrt-v3 by path tracing, light tracing, and bidirectional path tracing with and without alias "
-    "sampling. Adds up and converts images. asbdpt-lab describes, compares, explains and measures.", COMMANDS,
+    "sampling. Merges and converts images. asbdpt-lab describes, compares, explains and measures.", COMMANDS,
     &command_render, "; asbdpt-lab has more commands"};

@@ -1,4 +1,4 @@
-/* exr_read.c: OpenEXR files read, see exr.h and formats.h. [OpenEXR]
+/* exr_read.c: OpenEXR files read, see exr.h and image.h. [OpenEXR]
  *
  * Read are single pictures with full-resolution channels. Of the attributes only those that say where the pixels are
  * matter here. Like pbrt-v3, this program takes the data window for the picture; the display window is the whole of
@@ -8,7 +8,7 @@
 
 #include "base/mem.h"
 #include "image/exr.h"
-#include "image/formats.h"
+#include "image/image.h"
 #include "image/zlib.h"
 
 /* --- the header --------------------------------------------------------------------------------------- */

@@ -1,10 +1,10 @@
-/* exr_write.c: OpenEXR files written, see exr.h and formats.h: rows from the top, compressed as ZIP. [OpenEXR] */
+/* exr_write.c: OpenEXR files written, see exr.h and image.h: rows from the top, compressed as ZIP. [OpenEXR] */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "image/exr.h"
-#include "image/formats.h"
+#include "image/image.h"
 #include "image/zlib.h"
 
 static void put(struct bytes *b, const void *data, size_t n)

@@ -1,4 +1,4 @@
-/* netpbm.c: the formats with a header of words, PFM and PPM, see formats.h. isspace is that of the C locale, the only
+/* netpbm.c: the formats with a header of words, PFM and PPM, see image.h. isspace is that of the C locale, the only
  * one this program knows. */
 #include <ctype.h>
 #include <float.h>
@@ -7,7 +7,7 @@
 
 #include "base/bits.h"
 #include "base/mem.h"
-#include "image/formats.h"
+#include "image/image.h"
 
 struct netpbm {
     const uint8_t *data;

@@ -1,4 +1,4 @@
-/* png.c: PNG files, see formats.h. Format: [PNG].
+/* png.c: PNG files, see image.h. Format: [PNG].
  *
  * A file is a signature and chunks (length, name, data, CRC). The data of all IDAT chunks together are a zlib
  * stream of rows, each a filter's number and the row's bytes less what a filter predicts from their neighbours [PNG 9].
@@ -9,7 +9,7 @@
 
 #include "base/bits.h"
 #include "base/mem.h"
-#include "image/formats.h"
+#include "image/image.h"
 #include "image/zlib.h"
 
 static const uint8_t SIGNATURE[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};

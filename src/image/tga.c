@@ -1,9 +1,9 @@
-/* tga.c: TGA files, see formats.h. [TGA] */
+/* tga.c: TGA files, see image.h. [TGA] */
 #include <stdlib.h>
 
 #include "base/bits.h"
 #include "base/mem.h"
-#include "image/formats.h"
+#include "image/image.h"
 
 enum tga_kind { TGA_MAPPED = 1, TGA_COLOUR = 2, TGA_GREY = 3 };
 enum { HEADER = 18, RUN_LENGTH = 8, RIGHT_TO_LEFT = 0x10, TOP_TO_BOTTOM = 0x20, INTERLEAVED = 0xc0 };

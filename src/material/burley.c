@@ -3,7 +3,7 @@
 
 #include "base/maths.h"
 #include "base/number.h"
-#include "material/fresnel.h"
+#include "material/microfacet.h"
 
 static double mix(double t, double a, double b) { return (1 - t) * a + t * b; }
 

@@ -4,8 +4,7 @@
 
 #include "base/warp.h"
 #include "material/burley.h"
-#include "material/fourier_table.h"
-#include "material/fresnel.h"
+#include "material/fourier.h"
 #include "material/microfacet.h"
 
 bool lobe_is_delta(enum lobe_kind kind)

@@ -37,7 +37,7 @@ enum lobe_kind {
     LOBE_FRESNEL_BLEND, /* pbrt's substrate [Ashikhmin & Shirley 2000] */
     LOBE_DISNEY_DIFFUSE, /* see burley.h, as of the next */
     LOBE_CLEARCOAT,
-    LOBE_FOURIER, /* see fourier_table.h */
+    LOBE_FOURIER, /* see fourier.h */
     LOBE_PHASE /* of a medium, in no plane: the frame does not matter */
 };
 

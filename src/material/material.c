@@ -3,6 +3,16 @@
 
 #include <math.h>
 
+/* All materials. A new one is a row of simple.c, or of a file of its own, and a line here. */
+extern const struct material_row material_matte, material_mirror, material_glass, material_metal, material_plastic,
+    material_substrate, material_uber, material_translucent, material_subsurface, material_kdsubsurface,
+    material_disney, material_fourier, material_mix;
+
+const struct material_row *const material_rows[] = {
+    &material_matte,   &material_mirror, &material_glass,       &material_metal,      &material_plastic,
+    &material_substrate, &material_uber, &material_translucent, &material_subsurface, &material_kdsubsurface,
+    &material_disney,  &material_fourier, &material_mix,        NULL};
+
 static int *place_of(struct material *m, const struct field *f) { return (int *)(void *)((char *)m + f->place); }
 
 struct material *material_new(const struct material_row *row)

@@ -1,6 +1,6 @@
 /* material.h: from a material and a surface point to a BSDF. Parameters, defaults and formulas are pbrt-v3's.
  *
- * A material is one row of rows.c; lobe_list.h has what rows make their lobes with.
+ * A material is one row of material_rows; lobe_list.h has what rows make their lobes with.
  *
  * Tests: test_material.c, test_format.c.
  */

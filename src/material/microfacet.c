@@ -1,5 +1,54 @@
-/* microfacet.c: see microfacet.h. */
+/* microfacet.c: see microfacet.h. Fresnel's equations are in every optics book [Born & Wolf 1999 1.5]; the conductor's
+ * are in the form that avoids complex numbers [Lagarde 2013]. */
 #include "material/microfacet.h"
+
+#include <math.h>
+
+/* [PBRT3 8.2.1] */
+double fresnel_dielectric(double cos_i, double eta_a, double eta_b)
+{
+    double eta_i = cos_i > 0 ? eta_a : eta_b, eta_t = cos_i > 0 ? eta_b : eta_a;
+    cos_i = fmin(fabs(cos_i), 1);
+    double sin2_t = sqr(eta_i / eta_t) * (1 - cos_i * cos_i);
+    if (sin2_t >= 1)
+        return 1;
+    double cos_t = sqrt(1 - sin2_t);
+    double parallel = (eta_t * cos_i - eta_i * cos_t) / (eta_t * cos_i + eta_i * cos_t);
+    double perpendicular = (eta_i * cos_i - eta_t * cos_t) / (eta_i * cos_i + eta_t * cos_t);
+    return 0.5 * (sqr(parallel) + sqr(perpendicular));
+}
+
+/* [Lagarde 2013] */
+static double conductor_channel(double cos_i, double eta, double k)
+{
+    double cos2 = cos_i * cos_i, sin2 = 1 - cos2;
+    double difference = eta * eta - k * k - sin2;
+    double a2_plus_b2 = sqrt(sqr(difference) + 4 * sqr(eta * k));
+    double a = safe_sqrt(0.5 * (a2_plus_b2 + difference));
+    double sum = a2_plus_b2 + cos2, cross_term = 2 * cos_i * a;
+    double perpendicular = (sum - cross_term) / (sum + cross_term);
+    double sum_p = cos2 * a2_plus_b2 + sin2 * sin2, cross_p = cross_term * sin2;
+    double parallel = perpendicular * (sum_p - cross_p) / (sum_p + cross_p);
+    return 0.5 * (parallel + perpendicular);
+}
+
+rgb fresnel_conductor(double cos_i, rgb eta, rgb k)
+{
+    cos_i = fmin(fabs(cos_i), 1);
+    return rgb_make(conductor_channel(cos_i, eta.r, k.r), conductor_channel(cos_i, eta.g, k.g),
+                    conductor_channel(cos_i, eta.b, k.b));
+}
+
+bool fresnel_refract(vec3 wo, vec3 n, double eta, vec3 *wi)
+{
+    double cos_o = dot(n, wo);
+    double sin2_i = eta * eta * fmax(0, 1 - cos_o * cos_o);
+    if (sin2_i >= 1)
+        return false;
+    double cos_i = sqrt(1 - sin2_i);
+    *wi = add(mul(wo, -eta), mul(n, eta * cos_o - cos_i));
+    return true;
+}
 
 /* The usual form has tan(theta), cos(phi) and sin(phi); multiplied out only the components are left. [PBRT3 8.4.2] */
 double microfacet_d(vec3 wh, double alpha_x, double alpha_y)

@@ -8,6 +8,7 @@ struct simple {
     int Kd, Ks, Kr, Kt, opacity, reflect, transmit, amount, eta, k; /* colours */
     int sigma, index;                                               /* numbers */
     int part[2];                                                    /* of mix: materials made before */
+    const struct fourier_table *table;                              /* of fourier: the scene's */
     double g;                                                       /* of a medium */
 };
 
@@ -167,6 +168,17 @@ static const struct field MIX[] = {
 
 const struct material_row material_mix = {
     .name = "mix", .fields = MIX, .size = sizeof(struct simple), .lobes = mix, .may_be_brushed = true};
+
+/* A layered material that is a table. */
+static void fourier(struct lobe_list *list, const struct material *m)
+{
+    lobe_add(list, LOBE_FOURIER, rgb_grey(1), rgb_black())->of.table = ((const struct simple *)m)->table;
+}
+
+static const struct field FOURIER[] = {{"bsdffile", .kind = FIELD_FOURIER_TABLE, .place = AT(table)}, LAST_FIELDS};
+
+const struct material_row material_fourier = {
+    .name = "fourier", .fields = FOURIER, .size = sizeof(struct simple), .most_lobes = 1, .lobes = fourier};
 
 /* A medium, wherever it scatters: no material of scene files. [PBRT3 11.2] */
 static void medium(struct lobe_list *list, const struct material *m)

@@ -46,23 +46,10 @@ int texture_load_image(struct texture_set *set, const char *path, const struct b
     return set->n_images++;
 }
 
-int texture_load_table(struct texture_set *set, const char *path, struct error *err)
-{
-    struct fourier_table table;
-    if (!fourier_read(path, &table, err))
-        return -1;
-    set->table = mem_append(set->table, (size_t)set->n_tables, sizeof *set->table);
-    set->table[set->n_tables] = table;
-    return set->n_tables++;
-}
-
 void texture_set_free(struct texture_set *set)
 {
     for (int i = 0; i < set->n_images; i++)
         image_free(&set->image[i]);
-    for (int i = 0; i < set->n_tables; i++)
-        fourier_free(&set->table[i]);
-    free(set->table);
     free(set->texture);
     free(set->space);
     free(set->image);

@@ -16,7 +16,6 @@
 #include "base/transform.h"
 #include "geometry/surface.h"
 #include "image/image.h"
-#include "material/fourier_table.h"
 
 /* Which point (s,t) of a two-dimensional texture lies at a point of a surface [PBRT3 10.2]. */
 enum mapping_kind {
@@ -77,8 +76,7 @@ struct texture_set {
     struct texture *texture; /* [n_textures], owned */
     struct transform *space; /* [n_spaces], owned: the current transform where a texture was defined */
     struct image *image;     /* [n_images], owned */
-    struct fourier_table *table; /* [n_tables], owned: what materials look up besides textures */
-    int n_textures, n_spaces, n_images, n_tables;
+    int n_textures, n_spaces, n_images;
     vec3 origin;             /* of world space: textures see the coordinates of the scene file */
 };
 
@@ -91,10 +89,8 @@ int texture_add_constant(struct texture_set *set, rgb value);
 int texture_add_space(struct texture_set *set, struct transform current);
 
 /* texture_load_image: the number of an image that is read from this file, which may use this memory; -1 with a message.
- * texture_load_table: the same of a table of a material.
  * texture_set_free: releases all images, textures and transforms; the set is empty and usable again. */
 int texture_load_image(struct texture_set *set, const char *path, const struct budget *memory, struct error *err);
-int texture_load_table(struct texture_set *set, const char *path, struct error *err);
 void texture_set_free(struct texture_set *set);
 
 /* texture_rgb, texture_float: the value at a surface point; may be negative, infinite or NaN. `id`: a valid texture

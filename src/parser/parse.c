@@ -110,7 +110,7 @@ bool parse_done(struct parser *p)
     return !p->params.failed;
 }
 
-/* --- textures and pictures ----------------------------------------------------------------------------- */
+/* --- textures and files -------------------------------------------------------------------------------- */
 
 int parse_constant(struct parser *p, rgb value) { return texture_add_constant(&p->scene->textures, value); }
 
@@ -129,16 +129,32 @@ int parse_named_texture(struct parser *p, const char *name, bool is_float)
     return id;
 }
 
-bool parse_picture(struct params *q, struct source_position at, const struct image *image, bool is_new, uint64_t tables,
-                   struct error *why)
+int parse_file(struct parser *p, const char *name, struct symbols *known, file_reader *read)
 {
-    double bytes = image != NULL ? (double)(image_bytes(image) + tables) : 0;
-    if (image == NULL || (is_new && !scene_files_count(q->files, image->content, bytes, why)))
-        return params_fail(q, at, "%s", why->text);
+    struct params *q = &p->params;
+    struct source_position at;
+    struct error why;
+    char *path = params_file(q, name, &at);
+    bool wanted = path != NULL && !q->failed;
+    int id = wanted ? symbols_find(known, path) : -1;
+    if (wanted && id < 0) {
+        id = read(p, path, at, &why);
+        if (id >= 0)
+            symbols_add(known, path, id);
+        else
+            params_fail(q, at, "%s", why.text);
+    }
+    free(path);
+    return id;
+}
+
+bool parse_picture(struct parser *p, struct source_position at, const struct image *image, size_t tables,
+                   struct error *err)
+{
     if (image->replaced > 0)
-        source_warn(q->messages, at, "%ld numbers of this image are not finite, or negative light; 0 instead",
+        source_warn(&p->messages, at, "%ld numbers of this image are not finite, or negative light; 0 instead",
                     image->replaced);
-    return true;
+    return scene_files_count(&p->named, image->content, (double)(image_bytes(image) + tables), err);
 }
 
 /* --- one parameter ------------------------------------------------------------------------------------ */
@@ -213,7 +229,7 @@ static void read_field(struct parser *p, const struct field *f, void *place)
                                  : params_rgb(q, f->name, rgb_grey(x));
         break;
     case FIELD_MATERIAL: *whole = parse_part(p, f->name); break;
-    case FIELD_FOURIER_TABLE: *whole = parse_fourier_table(p, f->name); break;
+    case FIELD_FOURIER_TABLE: *(const struct fourier_table **)place = parse_fourier_table(p, f->name); break;
     case FIELD_FILE: *(const char **)place = path_of(p, f->name); break;
     case FIELD_INDICES: *list = params_list(q, f->name, 1u << PARAM_INTEGER, 3); break;
     case FIELD_POINTS: *list = params_list(q, f->name, 1u << PARAM_POINT, 3); break;

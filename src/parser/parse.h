@@ -110,7 +110,7 @@ struct parser {
 
     int n_includes;
     struct scene_files named; /* what may be read, and how often */
-    struct symbols images, tables, maps; /* paths -> textures.image[], .table[], lights.map[] of scene */
+    struct symbols images, tables, maps; /* paths -> textures.image[], table[], lights.map[] of scene */
 
     struct transform_state place;
     struct graphics_state state;
@@ -182,14 +182,18 @@ bool parse_placed(struct parser *p);
 int parse_constant(struct parser *p, rgb value);
 int parse_named_texture(struct parser *p, const char *name, bool is_float);
 
-/* parse_picture: a picture has been loaded, or, for the reason in *why, not (NULL). Counts it if it is new, with
- * `tables` bytes that were made for it; false, with a message, if it cannot be had. */
-bool parse_picture(struct params *q, struct source_position at, const struct image *image, bool is_new, uint64_t tables,
-                   struct error *why);
+/* parse_file: the number of what is in the file that a parameter names, -1 if it names none or, with an error, cannot be
+ * read. `read` is called for the first one who names it; its number is then found among those that are known.
+ * parse_picture: what all readers of pictures do: count one, with the bytes of tables that were made for it, and warn of
+ * what is no light in it. False with a message in *err if that is too much. */
+typedef int file_reader(struct parser *p, const char *path, struct source_position at, struct error *err);
+int parse_file(struct parser *p, const char *name, struct symbols *known, file_reader *read);
+bool parse_picture(struct parser *p, struct source_position at, const struct image *image, size_t tables,
+                   struct error *err);
 
 /* parse_part: the material that a parameter names. parse_fourier_table: that of the file that a parameter names. */
 int parse_part(struct parser *p, const char *field);
-int parse_fourier_table(struct parser *p, const char *field);
+const struct fourier_table *parse_fourier_table(struct parser *p, const char *field);
 
 /* parse_make_material: a material of kind params.type.
  * parse_changed_material: the number of the current material, or, if the shape in p->params has parameters that it has

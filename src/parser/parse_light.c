@@ -69,29 +69,18 @@ static void distant_light(struct parser *p, void *object)
     item->frame.direction = direction(&p->params, transform_vector(&item->frame.to_world, sub(item->from, item->to)));
 }
 
-/* The map of a light, if it names one. */
-static void map(struct parser *p, struct light_frame *l)
+static int read_map(struct parser *p, const char *path, struct source_position at, struct error *err)
 {
-    struct params *q = &p->params;
-    struct light_set *lights = &p->scene->lights;
-    struct source_position at;
-    struct error inner;
-    char *path = params_file(q, "mapname", &at);
-    if (path != NULL && !q->failed) {
-        int known = symbols_find(&p->maps, path);
-        int id = known >= 0 ? known : light_read_map(lights, path, q->files->memory, &inner);
-        const struct envmap *env = l->env = id >= 0 ? lights->map[id] : NULL;
-        if (known < 0 && id >= 0)
-            symbols_add(&p->maps, path, id);
-        parse_picture(q, at, env != NULL ? &env->image : NULL, known < 0, env != NULL ? envmap_bytes(env) : 0, &inner);
-    }
-    free(path);
+    struct light_set *set = &p->scene->lights;
+    int id = light_read_map(set, path, p->named.memory, err);
+    return id >= 0 && parse_picture(p, at, &set->map[id]->image, envmap_bytes(set->map[id]), err) ? id : -1;
 }
 
 static void infinite_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
-    map(p, &item->frame);
+    int map = parse_file(p, "mapname", &p->maps, read_map);
+    item->frame.env = map >= 0 ? p->scene->lights.map[map] : NULL;
     item->light.hidden = !params_bool(&p->params, "visible", true);
 }
 

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "material/fourier.h"
+
 int parse_part(struct parser *p, const char *field)
 {
     struct source_position at = p->params.position;
@@ -17,27 +19,24 @@ int parse_part(struct parser *p, const char *field)
     return k >= 0 ? p->material[k].id : MATERIAL_MATTE;
 }
 
-int parse_fourier_table(struct parser *p, const char *field)
+static int read_table(struct parser *p, const char *path, struct source_position at, struct error *err)
+{
+    struct scene *s = p->scene;
+    struct fourier_table *t = mem_alloc(1, sizeof *t);
+    (void)at;
+    s->table = mem_append(s->table, (size_t)s->n_tables, sizeof *s->table);
+    s->table[s->n_tables++] = t;
+    return fourier_read(path, t, err) && scene_files_count(&p->named, t->content, (double)t->file_size, err)
+               ? s->n_tables - 1 : -1;
+}
+
+const struct fourier_table *parse_fourier_table(struct parser *p, const char *field)
 {
     struct params *q = &p->params;
-    struct texture_set *set = &p->scene->textures;
-    struct source_position at = q->position;
-    struct error inner;
-    int table = -1;
-    char *path = params_file(q, field, &at);
-    if (path == NULL) {
+    int i = parse_file(p, field, &p->tables, read_table);
+    if (i < 0)
         type_error(q, "a %s material needs its table: add \"string %s\" \"...\"", q->type, field);
-    } else if (!q->failed) {
-        int known = symbols_find(&p->tables, path);
-        table = known >= 0 ? known : texture_load_table(set, path, &inner);
-        const struct fourier_table *read = known < 0 && table >= 0 ? &set->table[table] : NULL;
-        if (read != NULL)
-            symbols_add(&p->tables, path, table);
-        if (table < 0 || (read != NULL && !scene_files_count(q->files, read->content, (double)read->file_size, &inner)))
-            params_fail(q, at, "%s", inner.text);
-    }
-    free(path);
-    return table;
+    return i >= 0 ? p->scene->table[i] : NULL;
 }
 
 void parse_material_types(struct object_type out[MOST_TYPES])

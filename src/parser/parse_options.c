@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/picture.h"
+#include "image/image.h"
 
 /* Which camera it is, and its screen. The resolution may still change, which shifts the scale by a few powers of ten;
  * the limits of a usable camera are far from where numbers end. */

@@ -53,31 +53,24 @@ static void checkerboard(struct parser *p, void *object)
 
 static void noise_texture(struct parser *p, void *object) { ((struct texture *)object)->space = space(p); }
 
+static int read_image(struct parser *p, const char *path, struct source_position at, struct error *err)
+{
+    struct texture_set *set = &p->scene->textures;
+    int id = texture_load_image(set, path, p->named.memory, err);
+    return id >= 0 && parse_picture(p, at, &set->image[id], 0, err) ? id : -1;
+}
+
 static void imagemap(struct parser *p, void *object)
 {
     static const char *const WRAPS[] = {"repeat", "black", "clamp", NULL}; /* as in enum texture_wrap */
     struct params *q = &p->params;
     struct texture *t = object;
-    struct texture_set *set = &p->scene->textures;
-    struct source_position at = q->position;
     mapping(p, &t->map);
     t->wrap = (enum texture_wrap)params_choice(q, "wrap", WRAPS);
-    char *path = params_file(q, "filename", &at);
-    if (path == NULL) {
+    t->image = parse_file(p, "filename", &p->images, read_image);
+    if (t->image < 0)
         type_error(q, "an imagemap needs its image: add \"string filename\" \"...\"");
-        return;
-    }
-    if (!q->failed) {
-        struct error inner;
-        int known = symbols_find(&p->images, path);
-        t->image = known >= 0 ? known : texture_load_image(set, path, q->files->memory, &inner);
-        if (known < 0 && t->image >= 0)
-            symbols_add(&p->images, path, t->image);
-        const struct image *image = t->image < 0 ? NULL : &set->image[t->image];
-        t->gamma = params_bool(q, "gamma", image != NULL && !image->linear);
-        parse_picture(q, at, image, known < 0, 0, &inner);
-    }
-    free(path);
+    t->gamma = params_bool(q, "gamma", t->image >= 0 && !p->scene->textures.image[t->image].linear);
 }
 
 #define MAPPING {.name = "mapping"}, {.name = "uscale"}, {.name = "vscale"}, {.name = "udelta"}, {.name = "vdelta"}, \

@@ -185,7 +185,7 @@ static void finish(struct parser *p)
     s->file = mem_alloc((size_t)p->named.paths.n, sizeof *s->file);
     for (; s->n_files < p->named.paths.n; s->n_files++)
         s->file[s->n_files] = mem_copy_text(p->named.paths.entry[s->n_files].name);
-    s->n_warnings = p->messages.warnings.n + p->messages.warnings.more;
+    const long n_warnings = p->messages.warnings.n + p->messages.warnings.more;
     for (int i = 0; i < p->objects.n; i++)
         shape_list_free(&p->object[i]);
     struct symbols *const tables[] = {&p->float_textures, &p->spectrum_textures, &p->materials, &p->systems,
@@ -200,6 +200,7 @@ static void finish(struct parser *p)
     free(p->material);
     params_free(&p->params);
     messages_end(&p->messages);
+    s->n_warnings = n_warnings; /* not those that say how many more there were */
     arena_free(&p->arena);
     free(p);
 }

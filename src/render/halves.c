@@ -3,7 +3,7 @@
 
 #include "base/maths.h"
 #include "base/number.h"
-#include "image/picture.h"
+#include "image/image.h"
 #include "transport/tile_pass.h"
 
 enum { FEWEST_BLOCKS = 4 }; /* along each side, of a picture with room for no more of the largest tiles */

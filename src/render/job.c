@@ -2,12 +2,14 @@
 #include "render/job.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
 #include "base/os.h"
+#include "parser/parser.h"
 
 /* --- methods ------------------------------------------------------------------------------------------ */
 
@@ -21,13 +23,6 @@ static const struct method *const *rows_of(const char *name, int *n)
     for (*n = 0; first[*n] != NULL && strcmp(first[*n]->name, name) == 0;)
         ++*n;
     return first;
-}
-
-bool method_exists(const char *name)
-{
-    int n;
-    rows_of(name, &n);
-    return n > 0;
 }
 
 static void say_unknown(const char *wanted, struct error *err)
@@ -195,3 +190,150 @@ bool job_settle(const struct scene *scene, const struct render_options *options,
 void job_prepare(struct job *job) { method_prepare(&job->state, &job->prepared); }
 
 void job_free(struct job *job) { method_release(&job->prepared); }
+
+/* --- loading ------------------------------------------------------------------------------------------ */
+
+/* Who hears of what is wrong with a scene. */
+struct loading {
+    const struct job_request *asked;
+    struct scene *scene; /* whose warnings are counted */
+};
+
+static void hear(void *context, bool is_error, const char *text)
+{
+    struct loading *l = context;
+    l->scene->n_warnings += !is_error;
+    say_line("asbdpt: %s%s", is_error || l->asked->strict ? "" : "warning: ", text);
+}
+
+/* A warning about the scene as a whole. */
+static void warn_of_scene(struct loading *l, const char *format, ...)
+{
+    char text[ERROR_TEXT_SIZE / 2];
+    struct error line;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    error_set(&line, "%s: %s", l->asked->scene_path, text);
+    hear(l, false, line.text);
+}
+
+static void set(struct settings *settings, const char *pair)
+{
+    char *name = mem_copy_text(pair), *equals = strchr(name, '=');
+    *equals = '\0';
+    settings_set(settings, name, equals + 1, "-P");
+    free(name);
+}
+
+/* Put what is asked in the place of what the scene says. */
+static bool apply(const struct job_request *q, struct scene *scene, struct error *err)
+{
+    if (q->width > 0) {
+        struct error why;
+        scene_resize(scene, q->width, q->height);
+        if (!picture_size_ok((uint64_t)scene->width, (uint64_t)scene->height, &why))
+            return error_usage(err, "--res: %s", why.text);
+    } else if (q->quick) {
+        scene->width = scene->width > 4 ? scene->width / 4 : 1;
+        scene->height = scene->height > 4 ? scene->height / 4 : 1;
+    }
+    if (q->filter != NULL && !filter_default(q->filter, &scene->filter))
+        return error_usage(err, "--filter %s: known are box, triangle, gaussian, mitchell, sinc", q->filter);
+    for (int i = 0; i < q->n_set; i++)
+        set(&scene->settings, q->set[i]);
+    char depth[32];
+    snprintf(depth, sizeof depth, "maxdepth=%d", q->max_depth);
+    if (q->max_depth > 0)
+        set(&scene->settings, depth);
+    if (q->crop != NULL)
+        memcpy(scene->crop, q->crop, sizeof scene->crop);
+    struct pixel_rect crop = render_crop(scene);
+    if (rect_width(crop) < 1 || rect_height(crop) < 1)
+        return q->crop != NULL ? error_usage(err, "--cropwindow holds no pixel")
+                               : error_set(err, "the crop window holds no pixel");
+    return true;
+}
+
+/* The method asked for; pbrt's integrators that do not exist here are replaced by the default. */
+static const struct method *choose_method(struct loading *l, struct error *err)
+{
+    const struct scene *scene = l->scene;
+    const char *usual = "bdpt", *name = scene->integrator != NULL ? scene->integrator : usual;
+    int n;
+    if (l->asked->integrator == NULL && (rows_of(name, &n), n == 0)) {
+        warn_of_scene(l, "integrator \"%s\" does not exist here; bdpt is used, which computes all light up to maxdepth",
+                      name);
+        name = usual;
+    }
+    return method_find(l->asked->integrator != NULL ? l->asked->integrator : name, &scene->settings, err);
+}
+
+bool job_open(const struct job_request *q, struct scene *scene, const struct method **method, struct error *err)
+{
+    struct loading l = {q, scene};
+    const struct message_sink sink = {hear, &l};
+    const struct parse_options options = {q->integrator, q->max_memory};
+    err->text[0] = '\0';
+    if (!parse_scene(q->scene_path, &options, scene, &sink, NULL))
+        return false;
+    if (apply(q, scene, err) && (*method = choose_method(&l, err)) != NULL)
+        return true;
+    scene_free(scene);
+    return false;
+}
+
+/* Vertices are floats, and shadow rays begin a step of theirs away from surfaces: see doc/design-notes.md. */
+enum { FAR_AWAY = 1000 };
+
+static void warn_of_size(struct loading *l)
+{
+    const struct scene *scene = l->scene;
+    vec3 center = add(scene->lights.center, scene->origin);
+    if (scene->media.ends)
+        warn_of_scene(l, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the "
+                      "infinite and distant lights are", scene->lights.radius, center.x, center.y, center.z);
+    double distance = length(scene->lights.center) / scene->lights.radius; /* from the camera, in radii */
+    if (distance > FAR_AWAY)
+        warn_of_scene(l, "the scene is %.3g times its own radius away from the camera; above %d light passes through "
+                      "edges, by rounding: move the camera nearer", distance, FAR_AWAY);
+}
+
+/* The filter must be prepared. */
+static void set_samples(const struct job_request *q, const struct scene *scene, struct render_options *o)
+{
+    long wanted = q->spp > 0 ? q->spp : q->quick ? 1 : scene->spp > 0 ? scene->spp : 16;
+    long cycle = filter_cycle(&scene->filter);
+    o->end = o->planned = (wanted + cycle - 1) / cycle * cycle;
+    if (!q->quiet && o->end > wanted)
+        say_line("asbdpt: a pixel filter with negative lobes takes samples in fours: %ld, not %ld", o->end, wanted);
+}
+
+bool job_ready(const struct job_request *q, const struct method *const *readers, struct scene *scene, struct job *job,
+               struct error *err)
+{
+    const struct render_options options = {.integrator = readers[0], .seed = q->seed, .n_threads = q->n_threads,
+                                           .max_depth = q->max_depth};
+    struct loading l = {q, scene};
+    const struct message_sink sink = {hear, &l};
+    if (!job_adapt(scene, readers, &sink, err) || !job_settle(scene, &options, job, err)) {
+        scene_free(scene);
+        return false;
+    }
+    scene_prepare(scene);
+    warn_of_size(&l);
+    set_samples(q, scene, &job->options);
+    if (!q->strict || scene->n_warnings == 0)
+        return true;
+    error_set(err, "%s: refused for what is said above, by --strict", q->scene_path);
+    job_free(job);
+    scene_free(scene);
+    return false;
+}
+
+bool job_load(const struct job_request *q, struct scene *scene, struct job *job, struct error *err)
+{
+    const struct method *readers[2] = {NULL, NULL};
+    return job_open(q, scene, &readers[0], err) && job_ready(q, readers, scene, job, err);
+}

@@ -1,7 +1,8 @@
-/* job.h: what is to be rendered, settled once. The options of a render and the text of a scene's settings become a job
- * before the scene is prepared; nobody looks them up again.
+/* job.h: what is to be rendered, settled once: from what a user asks of a file to a scene and a job. The options of a
+ * render and the text of a scene's settings become a job before the scene is prepared; nobody looks them up again.
  *
- *     parse -> job_adapt -> job_settle -> scene_prepare -> render_scene (job_prepare: what is learnt)
+ *     job_load: parse -> what the user asks -> job_adapt -> job_settle -> scene_prepare
+ *     render_scene: job_prepare (what is learnt) -> tile passes
  *
  * Settings of a scene file are for pbrt-v3, whose integrators have others than ours: what has no effect here is taken
  * out, with a warning. Those of -P must be right.
@@ -21,10 +22,8 @@
 extern const struct method *const method_rows[];
 
 /* method_find: the row of an integrator ("path" is pbrt's name of pt); the setting `select` chooses among several. NULL
- * with a message that names all if there is none.
- * method_exists: is there an integrator of that name? */
+ * with a message that names all if there is none. */
 const struct method *method_find(const char *name, const struct settings *s, struct error *err);
-bool method_exists(const char *name);
 
 /* --- settings ----------------------------------------------------------------------------------------- */
 
@@ -84,5 +83,34 @@ void job_free(struct job *job);
 
 /* render_crop: the pixels of the scene's crop window, as pbrt rounds it. */
 struct pixel_rect render_crop(const struct scene *scene);
+
+/* --- loading ------------------------------------------------------------------------------------------ */
+
+/* What a user asks of a scene. 0 and NULL: as the scene says. */
+struct job_request {
+    const char *scene_path, *integrator, *filter;
+    const char *const *set; /* [n_set] NAME=VALUE, parameters of the integrator */
+    int n_set;
+    int spp, max_depth;
+    int width, height;  /* of the film; height 0: the same shape */
+    const double *crop; /* x0, x1, y0, y1 */
+    int n_threads;      /* 0: one per processor */
+    double max_memory;  /* bytes; 0: what is usual (budget_new) */
+    uint64_t seed;
+    bool quick;         /* a quarter of the width and height, one sample, unless others say otherwise */
+    bool strict, quiet; /* warnings are errors; say nothing but warnings and errors */
+};
+
+/* job_load: parse the scene, put what is asked in the place of what it says, settle the job, whose samples are those
+ * asked for or of the scene, else 16, in whole cycles of the filter (filter.h), and prepare the scene. Warnings go to
+ * stderr. After success job_free and scene_free must follow. Returns false with a message, which is empty if all has
+ * been said already.
+ * job_open, job_ready: the same in two steps, between which the method may be replaced by others.
+ *   readers  all methods that will read the settings, ended by NULL; the job is the first one's. job_ready releases the
+ *            scene if it fails */
+bool job_load(const struct job_request *q, struct scene *scene, struct job *job, struct error *err);
+bool job_open(const struct job_request *q, struct scene *scene, const struct method **method, struct error *err);
+bool job_ready(const struct job_request *q, const struct method *const *readers, struct scene *scene, struct job *job,
+               struct error *err);
 
 #endif

@@ -34,7 +34,7 @@
 #include <stdio.h>
 
 #include "base/file.h"
-#include "image/picture.h"
+#include "image/image.h"
 #include "render/job.h"
 
 /* What a file says of itself. */

@@ -1,15 +1,24 @@
-/* medium.h: what fills space: homogeneous media. passage.h says what becomes of light in them.
+/* medium.h: what fills space, homogeneous media, and what becomes of light on a straight way through them.
  *
  * Media are numbered from 1; 0 is none. A surface without material whose sides are in different media is an interface
  * of these, and nothing else.
  *
  * Where there are lights at infinity, a medium that has no bound ends on the sphere about the scene (light.h), which
  * then holds the lens, too. Beyond are these lights alone: they are in no medium, whatever a scene says before them.
+ *
+ * Of light that goes a distance d the share T = exp(-sigma_t d) is left, in each channel [PBRT3 11.1]. A walk draws how
+ * far it gets: a channel, each as likely, and a distance by its sigma_t T [PBRT3 15.2]. So it is scattered after d with
+ * the channels' mean of sigma_t T for a density, and gets as far as d with the mean of T. An interface is passed, and
+ * behind it the draw begins again. So the density of a way is the product of its pieces', and the same both ways
+ * except for what happens at its ends.
+ *
+ * Tests: test_medium.c, test_mis.c.
  */
 #ifndef ASBDPT_MEDIUM_H
 #define ASBDPT_MEDIUM_H
 
 #include "base/rgb.h"
+#include "base/sampler.h"
 #include "geometry/kdtree.h"
 
 struct medium {
@@ -21,9 +30,13 @@ struct medium {
 struct medium_set {
     struct medium *medium; /* [n], owned */
     int n;
+    /* set by scene_prepare: */
+    const struct geometry *geo;
     struct kdtree interfaces;
-    int outer;  /* what is about the scene; set by scene_prepare */
+    int outer;  /* what is about the scene */
     bool ends;  /* and does it end on the sphere? */
+    vec3 center; /* that sphere */
+    double radius;
 };
 
 /* medium_before: the medium before a surface that a ray of direction d comes to; -1 if its shape does not bound any. */
@@ -32,5 +45,29 @@ static inline int medium_before(const struct geometry *geo, const struct surface
     const int *medium = shape_group_of(geo, shape_prim(at->prim_id))->medium;
     return medium[0] == medium[1] ? -1 : medium[!(dot(at->ng, d) > 0)];
 }
+
+/* medium_outermost: what is about the scene, no surface of which is `far` from the lens: `around`, the lens' own medium,
+ * if a straight way there is free, else what the shapes that bound media say on the ways to it, the least number if they
+ * differ. */
+int medium_outermost(const struct medium_set *set, const struct kdtree *surfaces, vec3 lens, int around, double far);
+
+/* A straight way. */
+struct passage {
+    rgb left;          /* share of light; of a walk that is scattered at the end, times sigma_s */
+    double density[2]; /* of stopping at its start, for one who comes from its end, and of stopping at its end: 1, or
+                        * 1/m where that is within a medium; of walks that go on as far as possible without media */
+    int medium;        /* at its end */
+};
+
+/* medium_pass: the way from ray->o to ray->tmax.
+ *   ng      normal of the primitive ray->from
+ *   around  the medium that is there, unless the primitive bounds media */
+struct passage medium_pass(const struct medium_set *set, const struct ray *ray, vec3 ng, int around);
+
+/* medium_fly: the same of a walk towards the surface *at, if it is about to meet one.
+ *   at  in-out: where it is scattered, if that is before
+ * Returns whether it comes to anything. */
+bool medium_fly(const struct medium_set *set, const struct ray *ray, vec3 ng, int around, struct sampler *sampler,
+                bool meets, struct surface *at, struct passage *out);
 
 #endif

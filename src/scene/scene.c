@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "base/sampler.h"
-#include "base/warp.h"
+#include "material/fourier.h"
 
 void scene_init(struct scene *s)
 {
@@ -30,6 +29,11 @@ void scene_free(struct scene *s)
     for (int i = 0; i < s->n_materials; i++)
         free(s->material[i]);
     free(s->material);
+    for (int i = 0; i < s->n_tables; i++) {
+        fourier_free(s->table[i]);
+        free(s->table[i]);
+    }
+    free(s->table);
     arena_free(&s->lobes);
     light_set_free(&s->lights);
     free(s->film_filename);
@@ -102,40 +106,12 @@ void scene_resize(struct scene *s, int width, int height)
     s->width = width;
 }
 
-/* What is about the scene, no surface of which is `far` from the lens: the lens' own medium if a straight way there is
- * free, else what the shapes that bound media say on the ways to it, the least number if they differ. */
-static int outermost(const struct scene *s, double far)
-{
-    enum { WAYS = 64 };
-    int seen = -1, behind = s->camera.medium;
-    for (int i = 0; i < WAYS; i++) {
-        double u, v;
-        struct hit hit;
-        struct surface at;
-        sampler_r2(i, &u, &v);
-        vec3 w = warp_sphere(u, v);
-        struct ray inwards = {add(s->camera.position, mul(w, far)), neg(w), 0, far, 0, 0};
-        bool bounded = kd_closest(&s->media.interfaces, &s->geo, &inwards, &hit);
-        if (bounded) {
-            shape_surface(&s->geo, &hit, &inwards, &at);
-            behind = medium_before(&s->geo, &at, inwards.d);
-            inwards.tmax = hit.t;
-        }
-        if (!kd_closest(&s->kd, &s->geo, &inwards, &hit) && !bounded)
-            return s->camera.medium;
-        shape_surface(&s->geo, &hit, &inwards, &at);
-        int medium = medium_before(&s->geo, &at, inwards.d);
-        if (medium >= 0 && (seen < 0 || medium < seen))
-            seen = medium;
-    }
-    return seen >= 0 ? seen : behind;
-}
-
 /* Does what is about the scene end on the scene's sphere? That then reaches as far as the lens. */
 static void settle_media(struct scene *s, vec3 *lo, vec3 *hi)
 {
     const vec3 lens = s->camera.position;
-    s->media.outer = s->media.n > 0 ? outermost(s, 2 * (length(sub(*hi, *lo)) + length(sub(lens, *lo)))) : 0;
+    double far = 2 * (length(sub(*hi, *lo)) + length(sub(lens, *lo)));
+    s->media.outer = s->media.n > 0 ? medium_outermost(&s->media, &s->kd, lens, s->camera.medium, far) : 0;
     for (int i = 0; s->media.outer > 0 && i < s->lights.n; i++)
         if (light_at_infinity(&s->lights.light[i])) {
             s->lights.light[i].medium = s->media.outer;
@@ -160,6 +136,7 @@ void scene_prepare(struct scene *s)
     }
     kd_build(&s->kd, &s->geo, KD_SURFACES);
     kd_build(&s->kd_lamps, &s->geo, KD_LAMPS);
+    s->media.geo = &s->geo;
     kd_build(&s->media.interfaces, &s->geo, KD_INTERFACES);
     camera_prepare(&s->camera, s->width, s->height);
     vec3 lo, hi;
@@ -167,6 +144,8 @@ void scene_prepare(struct scene *s)
     settle_media(s, &lo, &hi);
     double radius = length(sub(hi, lo)) / 2;
     light_prepare(&s->lights, &s->geo, lerp3(0.5, lo, hi), radius > 0 ? radius : 1);
+    s->media.center = s->lights.center;
+    s->media.radius = s->lights.radius;
     filter_prepare(&s->filter);
 }
 

@@ -35,6 +35,8 @@ struct scene {
     struct texture_set textures;
     struct material **material; /* [n_materials], owned with what they point to */
     int n_materials;
+    struct fourier_table **table; /* [n_tables] of these materials, owned */
+    int n_tables;
     struct arena lobes;         /* of materials that are the same everywhere */
     struct light_set lights;
     struct medium_set media;

@@ -29,7 +29,7 @@ static inline void pass_media(const struct scene *scene, const struct counts *co
     if (scene->media.n == 0)
         return;
     const struct ray ray = {a->p, w, 0, distance, a->prim_id, to};
-    struct passage way = medium_pass(scene, &ray, a->ng, a->medium);
+    struct passage way = medium_pass(&scene->media, &ray, a->ng, a->medium);
     c->value = rgb_mul(c->value, way.left);
     *side_a *= mis_raise(counts, way.density[0]);
     *side_b *= mis_raise(counts, way.density[1]);

@@ -121,7 +121,7 @@ static bool fly(const struct walk *w, const struct vertex *prev, struct departur
                 struct surface *at)
 {
     from->way = arena_alloc(w->arena, sizeof *from->way);
-    meets = medium_fly(w->scene, &from->ray, prev->ng, prev->medium, w->sampler, meets, at, from->way);
+    meets = medium_fly(&w->scene->media, &from->ray, prev->ng, prev->medium, w->sampler, meets, at, from->way);
     from->beta = rgb_mul(from->beta, rgb_scale(from->way->left, 1 / from->way->density[1]));
     return meets;
 }

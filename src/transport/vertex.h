@@ -6,7 +6,7 @@
 
 #include "material/bsdf.h"
 #include "scene/light.h"
-#include "scene/passage.h"
+#include "scene/scene.h"
 #include "transport/counts.h"
 
 enum vertex_kind {

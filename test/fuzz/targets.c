@@ -14,7 +14,6 @@
 #include "base/mem.h"
 #include "geometry/ply.h"
 #include "hostile.h"
-#include "image/formats.h"
 #include "image/image.h"
 #include "image/zlib.h"
 #include "lab/files.h"

@@ -141,7 +141,7 @@ static int run(void *options)
         return print_picture(o->scene_path, &err) ? EXIT_OK : fail(&err);
     if (info->race && o->integrator == NULL)
         o->integrator = "asbdpt";
-    int status = job_load(o, &scene, &job);
+    int status = load_job(o, &scene, &job);
     if (status != EXIT_OK)
         return status;
     print_scene(&scene, job.options.integrator, os_wall_seconds() - start);

@@ -31,7 +31,7 @@ static int run(void *options)
     struct error err;
     struct trace trace = {.x = o->pixel[0], .y = o->pixel[1], .iteration = o->brightest ? TRACE_BRIGHTEST : o->sample};
     struct file_output svg = {.stream = NULL}; /* opened before the work */
-    int status = job_load(&o->job, &scene, &job);
+    int status = load_job(&o->job, &scene, &job);
     if (status != EXIT_OK)
         return status;
     const struct trace_story story = {o->job.scene_path, &scene, job.options.integrator, o->job.seed, &trace};

@@ -88,7 +88,7 @@ static int run(void *options)
     struct scene scene;
     struct job job;
     struct error err;
-    int status = job_load(&o->job, &scene, &job);
+    int status = load_job(&o->job, &scene, &job);
     if (status != EXIT_OK)
         return status;
     struct pixel_rect r = render_crop(&scene);

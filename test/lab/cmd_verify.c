@@ -245,13 +245,12 @@ static int judge(const struct verify_options *o, uint64_t content, int max_depth
 
 static int load(struct verify_options *o, struct scene *scene, int *max_depth)
 {
-    struct job_loading loading = {.options = &o->job};
+    const struct job_request request = job_request(&o->job);
     struct job job;
     const struct method *readers[3] = {NULL, NULL, NULL};
     struct error err;
-    int status = job_open(&loading, scene, &readers[0]);
-    if (status != EXIT_OK)
-        return status;
+    if (!job_open(&request, scene, &readers[0], &err))
+        return job_failed(&err);
     bool ok = choose_integrators(o, scene, readers[0], &err);
     for (int i = 0, n = 0; i < 2; i++)
         if (o->by[i] != NULL)
@@ -260,11 +259,11 @@ static int load(struct verify_options *o, struct scene *scene, int *max_depth)
         scene_free(scene);
         return fail(&err);
     }
-    if ((status = job_ready(&loading, readers, scene, &job)) == EXIT_OK) {
-        *max_depth = job.options.max_depth;
-        job_free(&job);
-    }
-    return status;
+    if (!job_ready(&request, readers, scene, &job, &err))
+        return job_failed(&err);
+    *max_depth = job.options.max_depth;
+    job_free(&job);
+    return EXIT_OK;
 }
 
 static int verify(struct verify_options *o)

@@ -36,7 +36,7 @@ static int run(void *options)
         return usage_error(&command_worth, "--cropwindow has no place here: the whole film is shown");
     if (!outputs_open(&o->job.output, NULL, false, &out, &err))
         return fail(&err);
-    int status = job_load(&o->job, &scene, &job);
+    int status = load_job(&o->job, &scene, &job);
     if (status == EXIT_OK) {
         bool ok = job_spares(&scene, &o->job.output, &err) &&
                   worth_picture(&scene, &job.options, o->pixel[0], o->pixel[1], o->scale, &picture, &err) &&

@@ -1,7 +1,7 @@
 /* colormap.c: colours for numbers; see sheet.h. */
 #include "lab/sheet.h"
 
-#include "image/picture.h"
+#include "image/image.h"
 
 /* At equal distances, sRGB bytes; between two of them the map is linear in these. */
 enum { VIRIDIS_STOPS = 10 };

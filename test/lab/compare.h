@@ -8,7 +8,7 @@
 #include <stdbool.h>
 
 #include "base/error.h"
-#include "image/picture.h"
+#include "image/image.h"
 
 /* Errors over all pixels and channels. Pairs with a NaN or infinity are counted and left out; errors are infinite where
  * no pair is left, psnr is -infinity and mean_ratio NaN. */

@@ -6,7 +6,7 @@
 
 #include "base/maths.h"
 #include "base/number.h"
-#include "image/picture.h"
+#include "image/image.h"
 #include "lab/numbers.h"
 #include "lab/stats.h"
 

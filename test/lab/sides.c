@@ -14,7 +14,6 @@
 #include "base/progress.h"
 #include "base/rng.h"
 #include "image/image.h"
-#include "image/picture.h"
 #include "lab/methods.h"
 #include "lab/compare.h"
 #include "lab/files.h"

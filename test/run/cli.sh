@@ -285,7 +285,7 @@ expect 0 '' "$lab" transient "$box" $small --gates 3 --gate 1000:2500 -o flight
 check [ -s flight/gate002.pfm -a -s flight/transient.png -a ! -e flight/gate003.pfm ]
 
 # --- lights
-# lights: of one light all that there is; of several, pictures that convert adds up, each times a weight.
+# lights: of one light all that there is; of several, pictures that sum adds up, each times a weight.
 cat >lamps.pbrt <<END
 LookAt 0 0 -5 0 0 0 0 1 0 WorldBegin LightSource "infinite" "bool visible" "false"
 LightSource "point" "string group" "key" LightSource "distant" "string group" "key"
@@ -293,10 +293,12 @@ AttributeBegin AreaLightSource "diffuse" Translate 2 0 0 Shape "sphere" Attribut
 END
 expect 0 '' "$lab" render lamps.pbrt --res 24x16 --spp 4 --quiet --lights lit --alpha -o a.pfm -o a.png -o a.exr
 check [ -s lit/light00_infinite.pfm -a -s lit/light01_key.pfm -a -s lit/light02_area.pfm -a ! -e lit/light03.pfm ]
-expect 0 '' "$program" convert lit/light0?_*.pfm -o sum.pfm
+expect 0 '' "$lab" sum lit/light0?_*.pfm -o sum.pfm
 expect 0 '' "$lab" compare sum.pfm a.pfm --max-rmse 1e-6
-makes a.pfm "$program" convert a.pfm sum.pfm a.pfm --weights 2,0,-1 -o b.pfm
-expect 2 'weights 1: expected a number for each' "$program" convert a.pfm sum.pfm --weights 1 -o b.pfm
+makes a.pfm "$lab" sum a.pfm sum.pfm a.pfm --weights 2,0,-1 -o b.pfm
+expect 2 'weights 1: expected a number for each' "$lab" sum a.pfm sum.pfm --weights 1 -o b.pfm
+expect 2 'sum.pfm is one argument too many' "$program" convert a.pfm sum.pfm -o b.pfm
+expect 2 'weights: asbdpt-lab sum adds up images' "$program" convert a.pfm --weights 1 -o b.pfm
 # Halfs end at 65504.
 printf 'PF\n1 1\n-1\n\000\120\303\107\000\000\200\077\000\120\303\307' >far.pfm # 1e5 1 -1e5
 expect 0 'far.exr: 2 values are beyond 65504, .* ends in .float.exr' "$program" convert far.pfm -o far.exr

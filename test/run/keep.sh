@@ -78,7 +78,7 @@ for range in 0:32 32:70; do
     cp lit/light01_key.pfm $range.pfm
 done
 makes whole.pfm "$program" merge 32:70.part 0:32.part --quiet -o sum.pfm
-check "$program" convert 0:32.pfm 32:70.pfm --weights 0.457142857,0.542857143 -o sum.pfm --quiet
+check "$lab" sum 0:32.pfm 32:70.pfm --weights 0.457142857,0.542857143 -o sum.pfm --quiet
 check "$lab" compare sum.pfm whole.light.pfm --max-rmse 1e-6
 for option in '--lights lit' --alpha '--aov variance'; do
     expect 1 'are not saved and cannot be resumed' "$lab" render "$hidden" $size $option --resume 0:32.part -o x.png

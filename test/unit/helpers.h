@@ -24,7 +24,7 @@ void write_bytes(const char *path, const void *data, size_t n);
 /* top_directory: the path of the source tree, where tests are run, with a slash at its end. */
 const char *top_directory(char *path, size_t size);
 
-/* A reader of a picture format (image/formats.h).
+/* A reader of a picture format (image/image.h).
  * read_exactly: call it on a copy that ends where its memory ends.
  * accepts: is the file a picture? If not, *err says why. */
 typedef bool reader(const uint8_t *data, size_t size, const struct budget *memory, struct image *out,

@@ -4,7 +4,7 @@
  * with it but the sample counts. */
 #include "oracle.h"
 
-#include "material/fresnel.h"
+#include "material/microfacet.h"
 #include "tables/emission.h"
 
 /* The whole path, light first. */

@@ -17,7 +17,7 @@
 
 #include "base/rng.h"
 #include "lab/stats.h"
-#include "material/fourier_table.h"
+#include "material/fourier.h"
 #include "suites.h"
 
 enum {

@@ -3,7 +3,7 @@
  *
  * The table is scenes/features/layered.bsdf: it must be the bytes that are made here.
  */
-#include "material/fourier_table.h"
+#include "material/fourier.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -11,7 +11,6 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "image/exr.h"
-#include "image/formats.h"
 #include "image/image.h"
 #include "image/tone.h"
 #include "image/zlib.h"

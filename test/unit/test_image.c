@@ -10,7 +10,7 @@
 
 #include "base/bits.h"
 #include "base/mem.h"
-#include "image/formats.h"
+#include "image/image.h"
 #include "image/zlib.h"
 #include "helpers.h"
 #include "samples.h"

@@ -6,7 +6,6 @@
 
 #include "material/bsdf.h"
 #include "material/burley.h"
-#include "material/fresnel.h"
 #include "material/microfacet.h"
 #include "base/number.h"
 #include "base/rng.h"

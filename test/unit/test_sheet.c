@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "image/picture.h"
+#include "image/image.h"
 #include "lab/numbers.h"
 #include "lab/sheet.h"
 #include "suites.h"

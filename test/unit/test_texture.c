@@ -10,7 +10,7 @@
 #include "base/number.h"
 #include "base/rng.h"
 #include "helpers.h"
-#include "image/picture.h"
+#include "image/image.h"
 #include "lab/numbers.h"
 #include "material/noise.h"
 #include "material/texture.h"

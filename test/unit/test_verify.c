@@ -5,7 +5,7 @@
 
 #include "base/rng.h"
 #include "lab/sheet.h"
-#include "image/picture.h"
+#include "image/image.h"
 #include "lab/compare.h"
 #include "lab/stats.h"
 #include "helpers.h"

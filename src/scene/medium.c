@@ -1,16 +1,48 @@
-/* passage.c: see passage.h. */
-#include "scene/passage.h"
+/* medium.c: see medium.h. */
+#include "scene/medium.h"
 
 #include <stdlib.h>
 
 #include "base/maths.h"
+#include "base/warp.h"
+
+/* --- what is about the scene --------------------------------------------------------------------------- */
+
+int medium_outermost(const struct medium_set *set, const struct kdtree *surfaces, vec3 lens, int around, double far)
+{
+    enum { WAYS = 64 };
+    int seen = -1, behind = around;
+    for (int i = 0; i < WAYS; i++) {
+        double u, v;
+        struct hit hit;
+        struct surface at;
+        sampler_r2(i, &u, &v);
+        vec3 w = warp_sphere(u, v);
+        struct ray inwards = {add(lens, mul(w, far)), neg(w), 0, far, 0, 0};
+        bool bounded = kd_closest(&set->interfaces, set->geo, &inwards, &hit);
+        if (bounded) {
+            shape_surface(set->geo, &hit, &inwards, &at);
+            behind = medium_before(set->geo, &at, inwards.d);
+            inwards.tmax = hit.t;
+        }
+        if (!kd_closest(surfaces, set->geo, &inwards, &hit) && !bounded)
+            return around;
+        shape_surface(set->geo, &hit, &inwards, &at);
+        int medium = medium_before(set->geo, &at, inwards.d);
+        if (medium >= 0 && (seen < 0 || medium < seen))
+            seen = medium;
+    }
+    return seen >= 0 ? seen : behind;
+}
+
+/* --- ways --------------------------------------------------------------------------------------------- */
 
 /* Nothing has happened to it yet. */
-static struct passage begin(const struct scene *s, const struct ray *ray, vec3 ng, int around)
+static struct passage begin(const struct medium_set *set, const struct ray *ray, vec3 ng, int around)
 {
     struct passage p = {rgb_grey(1), {1, 1}, around};
     if (ray->from != 0 && ray->from != WITHIN_MEDIUM) {
-        const int *medium = shape_group_of(&s->geo, shape_prim(ray->from))->medium;
+        const int *medium = shape_group_of(set->geo, shape_prim(ray->from))->medium;
         p.medium = medium[0] == medium[1] ? around : medium[dot(ng, ray->d) > 0];
     }
     return p;
@@ -40,9 +72,9 @@ static double scattered_share(rgb sigma, double d)
 }
 
 /* A piece of length d within one medium; does the way start within it, or stop? */
-static void go(const struct scene *s, double d, bool starts, bool stops, struct passage *p)
+static void go(const struct medium_set *set, double d, bool starts, bool stops, struct passage *p)
 {
-    const struct medium vacuum = {.material = -1}, *m = p->medium > 0 ? &s->media.medium[p->medium - 1] : &vacuum;
+    const struct medium vacuum = {.material = -1}, *m = p->medium > 0 ? &set->medium[p->medium - 1] : &vacuum;
     rgb T = transmittance(m->sigma_t, d);
     double share = starts || stops ? scattered_share(m->sigma_t, d) : 0;
     p->left = rgb_mul(p->left, T);
@@ -56,24 +88,24 @@ struct crossing {
     int medium[2];   /* before it and behind it */
 };
 
-static struct crossing crossing_at(const struct scene *s, const struct ray *line, const struct hit *hit)
+static struct crossing crossing_at(const struct medium_set *set, const struct ray *line, const struct hit *hit)
 {
     struct surface at;
-    shape_surface(&s->geo, hit, line, &at);
+    shape_surface(set->geo, hit, line, &at);
     double cosine = dot(line->d, at.ng);
-    const int *medium = shape_group_of(&s->geo, hit->prim)->medium;
+    const int *medium = shape_group_of(set->geo, hit->prim)->medium;
     return (struct crossing){hit->t, ray_margin(at.p) / fabs(cosine), {medium[!(cosine > 0)], medium[cosine > 0]}};
 }
 
 /* Which of n hits is passed next? Rounding decides on the order of interfaces in one place: of those there the first
  * that belongs to this medium, if any does. The others stay in hit[1] and after. */
-static struct crossing next_crossing(const struct scene *s, const struct ray *line, struct hit *hit, int n, int medium)
+static struct crossing next_crossing(const struct medium_set *set, const struct ray *line, struct hit *hit, int n, int medium)
 {
     enum { LOOK_AHEAD = 16 };
-    struct crossing next = crossing_at(s, line, hit);
+    struct crossing next = crossing_at(set, line, hit);
     double last = next.t + next.slack;
     for (int i = 1; next.medium[0] != medium && i < n && i < LOOK_AHEAD && hit[i].t <= last; i++) {
-        struct crossing other = crossing_at(s, line, &hit[i]);
+        struct crossing other = crossing_at(set, line, &hit[i]);
         if (other.medium[0] == medium) {
             next = other;
             hit[i] = hit[0];
@@ -83,14 +115,14 @@ static struct crossing next_crossing(const struct scene *s, const struct ray *li
 }
 
 /* From where to where on a ray may media be? One without a bound ends on a sphere (medium.h). */
-static void extent(const struct scene *s, const struct ray *ray, double *begin, double *end)
+static void extent(const struct medium_set *set, const struct ray *ray, double *begin, double *end)
 {
     *begin = 0;
     *end = ray->tmax;
-    if (!s->media.ends)
+    if (!set->ends)
         return;
-    vec3 o = sub(ray->o, s->lights.center);
-    double middle = -dot(o, ray->d), half2 = sqr(s->lights.radius) - length2(add(o, mul(ray->d, middle)));
+    vec3 o = sub(ray->o, set->center);
+    double middle = -dot(o, ray->d), half2 = sqr(set->radius) - length2(add(o, mul(ray->d, middle)));
     *begin = fmax(middle - safe_sqrt(half2), 0);
     *end = fmax(fmin(middle + safe_sqrt(half2), ray->tmax), *begin);
 }
@@ -100,29 +132,29 @@ static void extent(const struct scene *s, const struct ray *ray, double *begin, 
  *
  * A surface may lie in an interface, and rounding then decides on which side of that a ray begins. So about its origin
  * an interface is passed if it belongs to the medium there, and none else. On which side it ends does not matter. */
-static double pass(const struct scene *s, const struct ray *ray, struct sampler *sampler, struct passage *p)
+static double pass(const struct medium_set *set, const struct ray *ray, struct sampler *sampler, struct passage *p)
 {
     struct ray line = {ray->o, ray->d, -ray_margin(ray->o), ray->tmax, 0, 0};
     struct hit *hit;
     double done, end, passed = -line.tmin;
     bool starts = ray->from == WITHIN_MEDIUM, more = true, scattered = false;
-    extent(s, ray, &done, &end);
+    extent(set, ray, &done, &end);
     line.tmax = end < INFINITY ? end + ray_margin(add(ray->o, mul(ray->d, end))) : end;
-    int i = 0, n = kd_all(&s->media.interfaces, &s->geo, &line, &hit);
+    int i = 0, n = kd_all(&set->interfaces, set->geo, &line, &hit);
     while (more && !scattered) {
         struct crossing x = {end, 0, {p->medium, p->medium}};
         more = i < n && hit[i].t < end;
         if (more)
-            x = next_crossing(s, &line, &hit[i], n - i, p->medium);
+            x = next_crossing(set, &line, &hit[i], n - i, p->medium);
         i += more;
         bool fits = x.medium[0] == p->medium;
         if (!fits && x.t <= passed)
             continue;
         double d = fmax(fmin(x.t, end) - done, 0), drawn = INFINITY;
         if (sampler != NULL && p->medium > 0)
-            drawn = draw_distance(&s->media.medium[p->medium - 1], sampler);
+            drawn = draw_distance(&set->medium[p->medium - 1], sampler);
         scattered = drawn < d;
-        go(s, fmin(d, drawn), starts, scattered || (!more && ray->to == WITHIN_MEDIUM), p);
+        go(set, fmin(d, drawn), starts, scattered || (!more && ray->to == WITHIN_MEDIUM), p);
         starts = false;
         done += fmin(d, drawn);
         if (!scattered) {
@@ -134,24 +166,24 @@ static double pass(const struct scene *s, const struct ray *ray, struct sampler 
     return scattered ? done : INFINITY;
 }
 
-struct passage medium_pass(const struct scene *s, const struct ray *ray, vec3 ng, int around)
+struct passage medium_pass(const struct medium_set *set, const struct ray *ray, vec3 ng, int around)
 {
-    struct passage out = begin(s, ray, ng, around);
-    pass(s, ray, NULL, &out);
+    struct passage out = begin(set, ray, ng, around);
+    pass(set, ray, NULL, &out);
     return out;
 }
 
-bool medium_fly(const struct scene *s, const struct ray *ray, vec3 ng, int around, struct sampler *sampler, bool meets,
-                struct surface *at, struct passage *out)
+bool medium_fly(const struct medium_set *set, const struct ray *ray, vec3 ng, int around, struct sampler *sampler,
+                bool meets, struct surface *at, struct passage *out)
 {
     struct ray way = *ray;
     if (meets)
         way.tmax = length(sub(at->p, ray->o));
-    *out = begin(s, ray, ng, around);
-    double d = pass(s, &way, sampler, out);
+    *out = begin(set, ray, ng, around);
+    double d = pass(set, &way, sampler, out);
     if (d == INFINITY)
         return meets;
-    const struct medium *m = &s->media.medium[out->medium - 1];
+    const struct medium *m = &set->medium[out->medium - 1];
     out->left = rgb_mul(out->left, m->sigma_s);
     *at = (struct surface){.p = add(ray->o, mul(ray->d, d)), .ns = neg(ray->d), .material = m->material,
                            .prim_id = WITHIN_MEDIUM, .light = -1};

@@ -1,12 +1,12 @@
-/* fourier_table.h: layered materials as pbrt-v3's .bsdf files have them [Jakob 2014]: for pairs of cosines to the
+/* fourier.h: layered materials as pbrt-v3's .bsdf files have them [Jakob 2014]: for pairs of cosines to the
  * normal a Fourier series in the difference of azimuths, between them splines.
  *
  * wo and wi are unit vectors in the shading frame, away from the surface.
  *
  * Tests: test_fourier.c, test_bsdf.c.
  */
-#ifndef ASBDPT_FOURIER_TABLE_H
-#define ASBDPT_FOURIER_TABLE_H
+#ifndef ASBDPT_FOURIER_H
+#define ASBDPT_FOURIER_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* trianglemesh.c: the mesh that a scene file spells out. */
+/* mesh.c: see mesh.h; and the mesh that a scene file spells out. */
 #include <stddef.h>
 
 #include "base/mem.h"
@@ -92,3 +92,9 @@ static const struct field FIELDS[] = {
 
 const struct shape_row shape_trianglemesh = {.name = "trianglemesh", .fields = FIELDS,
     .size = sizeof(struct trianglemesh), .may_shine = true, .mesh = mesh};
+
+/* A new shape of triangles is a new file and a line here. */
+extern const struct shape_row shape_plymesh, shape_loopsubdiv, shape_curve;
+
+const struct shape_row *const shape_rows[] = {&shape_trianglemesh, &shape_plymesh, &shape_loopsubdiv, &shape_curve,
+                                              NULL};
