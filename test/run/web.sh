@@ -2,7 +2,8 @@
 # web.sh PAGE: the page that renders, in a headless Chromium, from a file and without a network: every scene is
 # rendered by every method, both pictures grow and their errors fall, every control does what it says, an error takes
 # the place of the picture, a click tells a sample, and the floats of a finished picture are the native program's, bit
-# for bit. Skipped with a line where there is no page, since nothing here compiles for WebAssembly, or no Chromium. Run from the top:
+# for bit. Skipped with a line where there is no page, since nothing here compiles for WebAssembly, or no Chromium.
+# Run from the top:
 #   sh test/run/web.sh out/asbdpt.html
 page=$1
 for browser in ${CHROMIUM:-chromium chromium-browser google-chrome chrome} none; do
