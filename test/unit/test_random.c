@@ -224,6 +224,8 @@ static struct way draw_other(struct rng *r, bool media)
             uint32_t value = DRAWN[i].least + rng_below(r, DRAWN[i].most - DRAWN[i].least + 1);
             snprintf(way.text + used, sizeof way.text - used, " %s=%u", DRAWN[i].name, (unsigned)value);
         }
+    if (method_has(m, "combine") != NULL) /* batches would share what training has found */
+        strcat(way.text, " combine=off");
     if (method_has(m, "with") != NULL) {
         static const char *const WITH[] = {"bdpt", "asbdpt", "pt"};
         size_t used = strlen(way.text);
