@@ -39,12 +39,14 @@ static const char LAMP[] =
  * a third of the pixels have records. Every kind of scene; paths that pt does not make, of delta lights behind specular
  * surfaces, those that share its eye sub-paths do not. */
 #define EVERY                                                                                                          \
-    "mbdpt, pcbdpt connections=2, ris, ris subpaths=20 records=.01, ris2 presampled=20 records=.01, spcbpt,"           \
+    "mbdpt, mbdpt matrix=pixel pathpixels=1, pcbdpt connections=2, ris, ris subpaths=20 records=.01,"                  \
+    "ris2 presampled=20 records=.01, spcbpt,"                                                                          \
     "spcbpt heuristic=power guide=on, restir neighbours=20"
 #define SHARED "restirgi, restirgi neighbours=20, ppg cell=100 combine=off"
 static const struct agreement EXPECTATIONS[] = {
     {"doc/mini/rooms", 3, 3, 4, "bdpt",
-     "mbdpt pathpixels=9, mbdpt pathpixels=5 key=throughput, lvc connections=0, pcbdpt records=.3 subpaths=1,"
+     "mbdpt pathpixels=9, mbdpt pathpixels=5 key=throughput, mbdpt matrix=pixel key=throughput,"
+     "lvc connections=0, pcbdpt records=.3 subpaths=1,"
      "pcbdpt records=.3 subpaths=4 connections=2, ris records=.3 subpaths=1, ris records=.3 subpaths=2,"
      "ris records=.3 subpaths=4, ris2 records=.3 presampled=2 subpaths=2, spcbpt pathpixels=9,"
      "spcbpt pathpixels=5 subspaces=3 connections=1, spcbpt pathpixels=2 guide=on emission=.2,"
@@ -196,7 +198,7 @@ static void test_limits(struct test *t)
         {"mirror-glass", SIDE, 4, "ppg training=0", "pt", "ppg training=1", 0},
         {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph cluster=2", 1e-6},
         {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph radius=.2", 1e-6},
-        {"white", SIDE, 4, "pathgraph radius=.1 iterations=0", "pt", "pathgraph radius=1", 0.1}, /* as light everywhere */
+        {"white", SIDE, 4, "pathgraph radius=.1 iterations=0", "pt", "pathgraph radius=1", 0.1}, /* light is even */
         {"white", SIDE, 4, "pathgraph radius=.02", "pt", "pathgraph radius=1", 0.1},
         {"all-materials", SIDE, 4, "pathgraph iterations=4", "pathgraph", "pathgraph iterations=3", 0},
         {"all-materials", SIDE, 4, "pathgraph cluster=1", "pathgraph cluster=1 iterations=0", "pathgraph", 1e-6},

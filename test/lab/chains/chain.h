@@ -12,8 +12,8 @@
  * All chains of a picture begin with one pool of N = 100,000 states, as in pbrt-v3, which is drawn before the first
  * mutation; in a picture of less than 3,125 pixels N is 32 for each. So b has an error that more mutations do not
  * reduce, about the standard deviation of I over its mean, divided by sqrt(N). [V97]'s other use of the independent
- * states, as samples of the picture, is left out, and so is [Kelemen 2002]'s of large steps for b, which is unbiased only
- * in the limit.
+ * states, as samples of the picture, is left out, and so is [Kelemen 2002]'s of large steps for b, which is unbiased
+ * only in the limit.
  *
  * A chain is a tile pass: it has as many mutations as the pass has samples of pixels, though it wanders over the whole
  * picture. So bytes do not depend on threads, parts are whole chains, and a render ends or goes on as that of any other

@@ -13,11 +13,11 @@
  * leaf, and its light is spread over directions. Each leaf learns its share a. After the pass of n samples, leaves with
  * more than `cell` sqrt(n) records are halved.
  *
- * The passes are part of the picture, by their inverse variances [Mueller 2019 5]: pass k of n_k samples, of variance v_k
- * a sample, has the weight n_k / v_k. v_k is a mean over all pixels of the other colour of a chequerboard, so that no
- * weight depends on the value that it weighs, but by way of the trees. If samples after training are as good as those of
- * the last pass, training is worth W = v_last sum n_k / v_k of them, and is to have the weight W / (W + N) among N. N
- * is not known, since a render may go on; so sample i is (1 - a_i) of itself and a_i of training's mean,
+ * The passes are part of the picture, by their inverse variances [Mueller 2019 5]: pass k of n_k samples, of variance
+ * v_k a sample, has the weight n_k / v_k. v_k is a mean over all pixels of the other colour of a chequerboard, so that
+ * no weight depends on the value that it weighs, but by way of the trees. If samples after training are as good as
+ * those of the last pass, training is worth W = v_last sum n_k / v_k of them, and is to have the weight W / (W + N)
+ * among N. N is not known, since a render may go on; so sample i is (1 - a_i) of itself and a_i of training's mean,
  *     a_i = W^2 / ((W + i) (W + i + 1)),   whose sum over N samples is N W / (W + N).
  *
  * What differs from the papers:
