@@ -17,7 +17,7 @@
  *
  * A chain is a tile pass: it has as many mutations as the pass has samples of pixels, though it wanders over the whole
  * picture. So bytes do not depend on threads, parts are whole chains, and a render ends or goes on as that of any other
- * method. Tiles are so large that a picture has about 1,000 chains, as in pbrt-v3, and the block so long (1,024 samples)
+ * method. Tiles are so large that a picture has about 1,000 chains, as in pbrt-v3, and a block so long (1,024 samples)
  * that more samples are longer chains. 1,000 chains also mix path lengths, which a chain of mmlt or mlt never changes.
  *
  * Tests: test_chains.c.

@@ -11,7 +11,7 @@
  *
  * The graph has circles, since a cluster has vertices of any depth. So L begins black and is made anew by the L of the
  * iteration before: after n iterations it has what comes over up to n edges. There are as many as paths may have, which
- * leaves out longer ones as pt does, or `iterations` if that is less. With iterations=0 clusters are of equal depth, and
+ * leaves out longer ones as pt does, or `iterations` if that is less. With iterations=0 clusters are of equal depth and
  * one sweep from the last vertices to the first has it all. The last vertices of the longest walks have no second edge:
  * they take over those of others, but do not count in sum_m p_m. What the camera sees, itself or in mirrors, is in no
  * cluster: pixels share what lies behind it, so that edges stay sharp. The grid lies elsewhere in every sample.
