@@ -1,5 +1,5 @@
-/* test_claimed.c: the standard errors that renders in batches claim are their scatter, by the third test of
- * [Subr & Arvo 2007].
+/* test_claimed.c: the standard errors that renders in batches claim are their scatter, by the test of two variances
+ * of [Subr & Arvo 2007].
  *
  * A set of EACH independent batches claims the error of its mean, from dof degrees of freedom. Of SETS such sets the
  * variance of the means, over the mean of the claimed variances, is distributed as Fisher's F with SETS - 1 and
