@@ -11,7 +11,8 @@
 enum {
     CHAINS = 1000,                /* of a picture, about */
     CHAIN_BLOCK = 1024,           /* most samples of each pixel that they have as mutations */
-    STATES_PER_PIXEL = 32, MOST_STATES = 100000, /* independent ones, unless a parameter says otherwise */
+    MOST_STATES = 100000,         /* independent ones, unless a parameter says otherwise, */
+    STATES_OF_ALL = 2, STATES_BY_LENGTH = 32, /* or so many for each pixel, if that is less */
     ASKED_EVERY = 256 /* states, before preparing asks whether it may go on */
 };
 
@@ -80,7 +81,8 @@ void chain_prepare(const struct chain_rules *rules, const struct render_job *job
     all->counts = counts_of(out->numbers, 1, 1, all->width * all->height, out->tables);
     all->counts.power = job->power_heuristic;
     all->lengths = rules->by_length ? job->max_depth + 1 : 1;
-    int n = all->starts > 0 ? all->starts : (int)fmin(STATES_PER_PIXEL * pixels, MOST_STATES);
+    int each = rules->by_length ? STATES_BY_LENGTH : STATES_OF_ALL;
+    int n = all->starts > 0 ? all->starts : (int)fmin(each * pixels, MOST_STATES);
     all->n = (n + all->lengths - 1) / all->lengths * all->lengths;
     out->size = (struct pass_size){CHAIN_BLOCK, (int)fmax(1, floor(sqrt(pixels / CHAINS) + 0.5)), 1};
     fill_pool(all, job, out);

@@ -10,10 +10,10 @@
  * No start-up bias [V97 11.3.1]: of N independent states, the start is drawn with probability I / sum I and the chain
  * counts by the mean I of the same N: the expectation of b f(X_m) / I(X_m) is right for any m, whatever the chain does.
  * All chains of a picture begin with one pool of N = 100,000 states, as in pbrt-v3, which is drawn before the first
- * mutation; in a picture of less than 3,125 pixels N is 32 for each. So b has an error that more mutations do not
- * reduce, about the standard deviation of I over its mean, divided by sqrt(N). [V97]'s other use of the independent
- * states, as samples of the picture, is left out, and so is [Kelemen 2002]'s of large steps for b, which is unbiased
- * only in the limit.
+ * mutation. In small pictures N is 32 for each pixel, or 2 of pssmlt, whose states are whole samples. So b has an error
+ * that more mutations do not reduce: the standard deviation of I over its mean and sqrt(N). [V97]'s other use of the
+ * independent states, as samples of the picture, is left out, and so is [Kelemen 2002]'s of large steps for b, which
+ * is unbiased only in the limit.
  *
  * A chain is a tile pass: it has as many mutations as the pass has samples of pixels, though it wanders over the whole
  * picture. So bytes do not depend on threads, parts are whole chains, and a render ends or goes on as that of any other

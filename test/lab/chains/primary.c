@@ -10,7 +10,7 @@ const struct field CHAIN_PARAMETERS[] = {
     {"sigma", FIELD_NUMBER, offsetof(struct chains, sigma), 0.01, 1e-6, 1,
      "standard deviation of a number's small step", NULL},
     {"starts", FIELD_INTEGER, offsetof(struct chains, starts), 0, 0, 1 << 24,
-     "independent states, of which chains start; 0: 100,000, or 32 for each pixel if that is less", NULL},
+     "independent states, of which chains start; 0: 100,000, or a number for each pixel if that is less", NULL},
     {"largestepprobability", FIELD_NUMBER, offsetof(struct chains, large_step), 0.3, 1e-3, 1,
      "of a mutation that draws all numbers again", NULL},
     {.name = NULL}};
