@@ -37,7 +37,10 @@ struct settings measured_settings(const struct measured *m, const struct setting
 }
 
 bool method_is_chain(const struct method *m) { return m->render == chain_render; }
-bool method_merges(const struct method *m) { return strcmp(m->name, "pathgraph") == 0; }
+bool method_merges(const struct method *m)
+{
+    return strcmp(m->name, "pathgraph") == 0 || strcmp(m->name, "ppg") == 0;
+}
 
 bool method_observable(const struct method *m, struct error *err)
 {

@@ -31,7 +31,7 @@ static struct batches render(struct test *t, struct scene *scene, const char *wa
     struct error err;
     const char *integrator = set_method(scene, way);
     const struct method *m = method_find(integrator, &scene->settings, &err);
-    if (m != NULL && method_is_chain(m))
+    if (m != NULL && (method_is_chain(m) || method_merges(m))) /* batches would share what is prepared */
         return independent_batches(t, scene, integrator, a->depth, spp, a->batches, a->tile, test_seed(t) + seed);
     return render_batches(t, scene, integrator, a->depth, spp, a->batches, a->tile, seed);
 }

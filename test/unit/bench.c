@@ -41,7 +41,8 @@ bool bench_new(struct test *t, const struct scene *scene, const char *integrator
     if (method_is_chain(out->prepared.method)) {
         out->chain = chain_new(&out->prepared, &out->job, out->work);
         out->chain->rng = rng_stream(o.seed, RNG_TEST, 1, 0);
-        chain_start(out->chain, 0);
+        if (out->chain->all->b > 0)
+            chain_start(out->chain, 0);
     }
     return true;
 }

@@ -54,7 +54,7 @@ static const struct agreement QUICK[] = {
      "asbdpt select=vertices connections=2, asbdpt select=subspaces, asbdpt select=subspaces connections=2,"
      "asbdpt guide=off emission=1 tile=16 spread=1, asbdpt select=pool emission=0.2,"
      "asbdpt select=vertices emission=0.2 tile=32, mbdpt emission=0.2 spread=2,"
-     "cbdpt connections=3 emission=0.2, lvc connections=1, cbdpt connections=3", 1, 1, 16, 16, true, 0},
+     "cbdpt connections=3 emission=0.2, lvc connections=1, cbdpt connections=3", 1, 1, 16, 16, true, 0.1},
     /* one tile of 3x3 pixels, whose light sub-paths are one for every 1, 2, 5 or 8 of them: 9, 5, 2 and 2 */
     {"scenes/cornell-box-modified", 3, 3, 4, "bdpt",
      "asbdpt select=vertices connections=2 pathpixels=1, asbdpt select=vertices connections=2 pathpixels=2,"
@@ -62,13 +62,13 @@ static const struct agreement QUICK[] = {
      "asbdpt select=subspaces pathpixels=2 race=off, asbdpt select=subspaces pathpixels=5 race=off,"
      "asbdpt select=subspaces pathpixels=9 race=off, lvc connections=1 pathpixels=5, lvc connections=1 pathpixels=9,"
      "cbdpt connections=3 pathpixels=2, cbdpt connections=3 pathpixels=5, cbdpt connections=1 pathpixels=9",
-     64, 64, 16, 3, true, 0},
-    {"scenes/test/light-kinds", 18, 12, 4, "bdpt", ALONE ", " RIVALS, 8, 8, 16, 8, true, 0},
-    {"scenes/media/inside", 18, 12, 4, "bdpt", ALONE, 2, 2, 16, 8, true, 0},
-    {"scenes/test/light-kinds", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0},
-    {"scenes/test/mirror-glass", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0},
-    {"scenes/test/all-materials", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0},
-    {"scenes/test/smooth-normals", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0}};
+     64, 64, 16, 3, true, 0.1},
+    {"scenes/test/light-kinds", 18, 12, 4, "bdpt", ALONE ", " RIVALS, 8, 8, 16, 8, true, 0.1},
+    {"scenes/media/inside", 18, 12, 4, "bdpt", ALONE, 2, 2, 16, 8, true, 0.6},
+    {"scenes/test/light-kinds", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0.1},
+    {"scenes/test/mirror-glass", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0.1},
+    {"scenes/test/all-materials", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0.1},
+    {"scenes/test/smooth-normals", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0.1}};
 /* Cameras, copies and holes; services where they matter. */
 static const struct agreement LONG[] = {
     {"scenes/test/thin-lens", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0},

@@ -33,7 +33,7 @@ static void compare(struct test *t, const char *what, const char *way, const str
 }
 
 /* So many samples of pt, of bins (none under the sky, where they are off by less than can be seen here), of the others,
- * and states for the brightness of each length of a chain's paths: as many as it takes. */
+ * and independent states of chains: as many as it takes. */
 static const struct {
     const char *path;
     long pt, bins, spp, states;
@@ -66,9 +66,8 @@ static void test_six_scenes(struct test *t)
             batches_free(&b);
         }
         for (size_t k = 0; k < sizeof chains / sizeof chains[0]; k++) {
-            char way[128]; /* a chain has four samples of each pixel */
-            long starts = 4 * SCENES[i].states / SCENES[i].spp * test_effort(t);
-            snprintf(way, sizeof way, "%s starts=%ld", chains[k], starts);
+            char way[128];
+            snprintf(way, sizeof way, "%s starts=%ld", chains[k], SCENES[i].states * test_effort(t));
             struct batches b = by(t, &scene, way, SCENES[i].spp);
             compare(t, path, way, &b, &pt, 0.003);
             batches_free(&b);

@@ -208,7 +208,8 @@ static void test_stop(struct test *t)
         struct render_options o = {.integrator = set_row(&scene, way), .end = 32, .block = 32, .n_threads = 1,
                                    .max_depth = 3, .stop = stop_at, .progress_context = &s};
         render_film(t, &scene, &o, &film);
-        CHECK(t, s.asked >= s.most && s.asked < s.most + 4 * LONGEST_BLOCK && film.passes == 0 && film.iterations == 0,
+        CHECK(t, s.asked >= s.most && s.asked < s.most + 4 * LONGEST_BLOCK && film.iterations == 0 &&
+                     (film.passes == 0 || method_is_chain(*m)), /* some chains are complete before */
               "%s: told to stop at question %ld of %ld; %ld samples", way, s.most, s.asked, film.iterations);
         film_free(&film);
     }

@@ -39,25 +39,27 @@ static const char LAMP[] =
  * a third of the pixels have records. Every kind of scene; paths that pt does not make, of delta lights behind specular
  * surfaces, those that share its eye sub-paths do not. */
 #define EVERY                                                                                                          \
-    "mbdpt, pcbdpt connections=2, ris, ris subpaths=20 records=.01, ris2 presampled=20 records=.01, spcbpt,"           \
+    "mbdpt, mbdpt matrix=pixel pathpixels=1, pcbdpt connections=2, ris, ris subpaths=20 records=.01,"                  \
+    "ris2 presampled=20 records=.01, spcbpt,"                                                                          \
     "spcbpt heuristic=power guide=on, restir neighbours=20"
-#define SHARED "restirgi, restirgi neighbours=20, ppg cell=100"
+#define SHARED "restirgi, restirgi neighbours=20, ppg cell=100 combine=off"
 static const struct agreement EXPECTATIONS[] = {
     {"doc/mini/rooms", 3, 3, 4, "bdpt",
-     "mbdpt pathpixels=9, mbdpt pathpixels=5 key=throughput, lvc connections=0, pcbdpt records=.3 subpaths=1,"
+     "mbdpt pathpixels=9, mbdpt pathpixels=5 key=throughput, mbdpt matrix=pixel key=throughput,"
+     "lvc connections=0, pcbdpt records=.3 subpaths=1,"
      "pcbdpt records=.3 subpaths=4 connections=2, ris records=.3 subpaths=1, ris records=.3 subpaths=2,"
      "ris records=.3 subpaths=4, ris2 records=.3 presampled=2 subpaths=2, spcbpt pathpixels=9,"
      "spcbpt pathpixels=5 subspaces=3 connections=1, spcbpt pathpixels=2 guide=on emission=.2,"
      "restir candidates=1 neighbours=2,"
-     "restir candidates=4 neighbours=8, restirgi neighbours=8", 64, 64, 32, 1, true, 0},
-    {"scenes/test/light-kinds", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0},
-    {"scenes/test/mirror-glass", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0},
-    {"scenes/test/all-materials", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0},
-    {"scenes/test/light-kinds", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0},
-    {"scenes/test/mirror-glass", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0},
-    {"scenes/test/all-materials", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0},
-    {SLOPE, 0, 0, 4, "pt", "restirgi neighbours=8", 1024, 1024, 16, 1, false, 0},
-    {LAMP, 0, 0, 4, "pt", "ppg cell=50, ppg cell=1000 heuristic=power", 16, 16, 16, 32, false, 0}};
+     "restir candidates=4 neighbours=8, restirgi neighbours=8", 64, 64, 32, 1, true, 0.2},
+    {"scenes/test/light-kinds", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0.1},
+    {"scenes/test/mirror-glass", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0.1},
+    {"scenes/test/all-materials", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0.1},
+    {"scenes/test/light-kinds", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0.2},
+    {"scenes/test/mirror-glass", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0.2},
+    {"scenes/test/all-materials", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0.2},
+    {SLOPE, 0, 0, 4, "pt", "restirgi neighbours=8", 1024, 1024, 16, 1, false, 0.1},
+    {LAMP, 0, 0, 4, "pt", "ppg cell=50, ppg cell=1000 heuristic=power", 16, 16, 16, 32, false, 0.15}};
 enum { N_EXPECTATIONS = sizeof EXPECTATIONS / sizeof EXPECTATIONS[0] };
 
 /* In three pixels, where sub-paths of a rank would meet too often if the lattice were not shifted at random. */
@@ -68,7 +70,7 @@ static const struct agreement THREE_PIXELS = {"doc/mini/rooms", 3, 1, 4, "bdpt",
 static const struct agreement ROOMS = {
     "doc/mini/rooms", 16, 16, 4, "bdpt",
     "pcbdpt records=.02, ris records=.02 subpaths=30, ris2 records=.02 presampled=30, spcbpt, restir neighbours=20,"
-    "restirgi neighbours=20 heuristic=power, ppg cell=300", 8, 8, 16, 8, true, 0};
+    "restirgi neighbours=20 heuristic=power, ppg cell=300 combine=off", 8, 8, 16, 8, true, 0};
 
 /* The bias of pathgraph falls with the radius: it is seen where vertices share across half a room, and not with the
  * same samples where they share nearby. */
@@ -112,8 +114,8 @@ static void test_furnace(struct test *t, int more)
         const char *text, *way;
         int depth;
         double light;
-    } cases[] = {{CORNER, "pathgraph radius=1 cluster=64", 30, 1},
-                 {CORNER, "pathgraph radius=.1 heuristic=power", 30, 1},
+    } cases[] = {{CORNER, "pathgraph radius=1 cluster=64 iterations=0", 30, 1},
+                 {CORNER, "pathgraph radius=.1 iterations=20 heuristic=power", 30, 1},
                  {CORNER, "restirgi neighbours=20 rrthreshold=1.5", 30, 1},
                  {SHINING, "vcm radius=.05 alpha=1", 5, 2 - 1 / 32.0}}; /* 1 + 1/2 + ... */
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
@@ -196,7 +198,10 @@ static void test_limits(struct test *t)
         {"mirror-glass", SIDE, 4, "ppg training=0", "pt", "ppg training=1", 0},
         {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph cluster=2", 1e-6},
         {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph radius=.2", 1e-6},
-        {"white", SIDE, 4, "pathgraph radius=.1", "pt", "pathgraph radius=1", 0.1}, /* the same light everywhere */
+        {"white", SIDE, 4, "pathgraph radius=.1 iterations=0", "pt", "pathgraph radius=1", 0.1}, /* light is even */
+        {"white", SIDE, 4, "pathgraph radius=.02", "pt", "pathgraph radius=1", 0.1},
+        {"all-materials", SIDE, 4, "pathgraph iterations=4", "pathgraph", "pathgraph iterations=3", 0},
+        {"all-materials", SIDE, 4, "pathgraph cluster=1", "pathgraph cluster=1 iterations=0", "pathgraph", 1e-6},
         {"light-kinds", SIDE, 6, "pathgraph cluster=1 heuristic=power", "pt heuristic=power", "pt", 1e-6},
         {"all-materials", SIDE, 4, "pathgraph radius=1e-6", "pt", "pathgraph radius=.2", 1e-6},
     };

@@ -1,15 +1,19 @@
 /* chain.c: see chain.h. */
 #include "chains/chain.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/alias.h"
 #include "base/number.h"
+#include "learning/patience.h"
 
 enum {
-    CHAIN_BLOCK = 4,              /* samples of each pixel of a tile, which a chain has as mutations */
-    ALL_LENGTHS = 256, EACH = 64, /* states that a chain begins with: of all lengths, or of each */
-    MOST_STATES = 1 << 27
+    CHAINS = 1000,                /* of a picture, about */
+    CHAIN_BLOCK = 1024,           /* most samples of each pixel that they have as mutations */
+    MOST_STATES = 100000,         /* independent ones, unless a parameter says otherwise, */
+    STATES_OF_ALL = 2, STATES_BY_LENGTH = 32, /* or so many for each pixel, if that is less */
+    ASKED_EVERY = 256 /* states, before preparing asks whether it may go on */
 };
 
 /* --- states ------------------------------------------------------------------------------------------ */
@@ -34,9 +38,8 @@ void chain_swap(struct chain *c)
 
 void chain_candidate(struct chain *c, long i)
 {
-    long each = c->all->each;
-    c->candidate = i % each;
-    c->next.length = 2 + (int)(i / each);
+    c->candidate = i / c->all->lengths;
+    c->next.length = 2 + (int)(i % c->all->lengths);
     arena_reset(&c->work->arena);
     c->all->rules->sample(c, false);
     c->candidate = -1;
@@ -44,12 +47,31 @@ void chain_candidate(struct chain *c, long i)
 
 /* --- preparing --------------------------------------------------------------------------------------- */
 
+/* The pool of independent states; of less if it takes too long. */
+static void fill_pool(struct chains *all, const struct render_job *job, struct prepared *m)
+{
+    struct patience patience = patience_begin(job);
+    struct workspace *work = workspaces_new(1, job->max_depth);
+    struct chain *c = chain_new(m, job, work);
+    int n = 0;
+    all->before = mem_alloc((size_t)all->n + 1, sizeof *all->before);
+    for (; n < all->n && (n % ASKED_EVERY > 0 || patience_count(&patience, n > 0 ? ASKED_EVERY : 0)); n++) {
+        chain_candidate(c, n);
+        all->before[n + 1] = all->before[n] + c->next.I;
+    }
+    all->n = n - n % all->lengths;
+    all->b = all->n > 0 ? all->before[all->n] / all->n * all->lengths : 0;
+    chain_free(c);
+    workspaces_free(work, 1);
+    patience_end(&patience);
+}
+
 void chain_prepare(const struct chain_rules *rules, const struct render_job *job, struct prepared *out)
 {
     struct chains *all = out->own;
     const struct pixel_rect film = job->film_rect;
     const double *radius = job->scene->filter.radius;
-    double pixels = (double)rect_width(film) * rect_height(film);
+    double pixels = (double)rect_pixels(film);
     all->rules = rules;
     all->x = film.x0 + 0.5 - radius[0];
     all->y = film.y0 + 0.5 - radius[1];
@@ -59,11 +81,14 @@ void chain_prepare(const struct chain_rules *rules, const struct render_job *job
     all->counts = counts_of(out->numbers, 1, 1, all->width * all->height, out->tables);
     all->counts.power = job->power_heuristic;
     all->lengths = rules->by_length ? job->max_depth + 1 : 1;
-    all->each = all->starts > 0 ? all->starts : rules->by_length ? EACH : ALL_LENGTHS;
-    if (all->each > MOST_STATES / all->lengths)
-        all->each = MOST_STATES / all->lengths;
-    out->size.block = CHAIN_BLOCK;
+    int each = rules->by_length ? STATES_BY_LENGTH : STATES_OF_ALL;
+    int n = all->starts > 0 ? all->starts : (int)fmin(each * pixels, MOST_STATES);
+    all->n = (n + all->lengths - 1) / all->lengths * all->lengths;
+    out->size = (struct pass_size){CHAIN_BLOCK, (int)fmax(1, floor(sqrt(pixels / CHAINS) + 0.5)), 1};
+    fill_pool(all, job, out);
 }
+
+void chain_release(struct prepared *m) { free(((struct chains *)m->own)->before); }
 
 struct chain *chain_new(const struct prepared *m, const struct render_job *job, struct workspace *work)
 {
@@ -72,7 +97,6 @@ struct chain *chain_new(const struct prepared *m, const struct render_job *job, 
     c->job = job;
     c->work = work;
     c->light = mem_alloc((size_t)job->max_depth + 1, sizeof *c->light);
-    c->before = mem_alloc((size_t)c->all->lengths * (size_t)c->all->each + 1, sizeof *c->before);
     if (c->all->rules->own_size > 0) {
         c->now.own = mem_alloc(1, c->all->rules->own_size);
         c->next.own = mem_alloc(1, c->all->rules->own_size);
@@ -94,38 +118,24 @@ void chain_free(struct chain *c)
 {
     free_state(c->all->rules, &c->now);
     free_state(c->all->rules, &c->next);
-    free(c->before);
     free(c->light);
     free(c);
 }
 
 /* --- one chain --------------------------------------------------------------------------------------- */
 
-double chain_start(struct chain *c, double u)
+void chain_start(struct chain *c, double u)
 {
-    int n = c->all->lengths * c->all->each;
-    c->before[0] = 0;
-    for (int i = 0; i < n; i++) {
-        if (pass_enough(c->job))
-            return c->b = 0;
-        chain_candidate(c, i);
-        c->before[i + 1] = c->before[i] + c->next.I;
-    }
-    c->b = c->before[n] / c->all->each;
-    if (c->b > 0) {
-        chain_candidate(c, cumulative_find(c->before, n, u * c->before[n]));
-        chain_swap(c);
-    }
-    return c->b;
+    const struct chains *all = c->all;
+    chain_candidate(c, cumulative_find(all->before, all->n, u * all->before[all->n]));
+    chain_swap(c);
 }
 
 /* What a pass begins with. */
 static void start(struct chain *c, const struct tile_pass *pass)
 {
     const struct pixel_rect r = pass->tile->pixels.rect; /* of no other tile */
-    uint64_t width = (uint64_t)pass->job->scene->width, pixels = width * (uint64_t)pass->job->scene->height;
-    uint64_t tile = (uint64_t)r.y0 * width + (uint64_t)r.x0;
-    c->pass = (uint64_t)pass->first * pixels + tile;
+    uint64_t tile = (uint64_t)r.y0 * (uint64_t)pass->job->scene->width + (uint64_t)r.x0;
     c->rng = rng_stream(pass->job->seed, RNG_CHAIN, 1 + tile, (uint64_t)pass->first);
     chain_start(c, rng_uniform(&c->rng));
 }
@@ -134,7 +144,7 @@ static void start(struct chain *c, const struct tile_pass *pass)
 static void send(const struct chain *c, const struct tile_pass *pass, const struct chain_state *state, double share)
 {
     struct tile *tile = pass->tile;
-    double factor = share > 0 ? share * c->all->scale * c->b / state->I : 0;
+    double factor = share > 0 ? share * c->all->scale * c->all->b / state->I : 0;
     for (size_t i = 0; factor > 0 && i < state->heard.n_splats; i++) {
         const struct splat *s = &state->heard.splat[i];
         tile_add_splat(tile, s->px, s->py, rgb_scale(s->value, factor));
@@ -145,11 +155,12 @@ static void send(const struct chain *c, const struct tile_pass *pass, const stru
 
 void chain_render(const struct prepared *m, const struct tile_pass *pass)
 {
+    if (!(((const struct chains *)m->own)->b > 0))
+        return;
     struct chain *c = chain_new(m, pass->job, pass->work);
     long n = pixels_count(pass->tile->pixels) * (pass->end - pass->first);
     double held = 0; /* what the present state has counted since it was reached */
-    start(c, pass);
-    for (; c->b > 0 && n > 0 && !pass_enough(c->job); n--) {
+    for (start(c, pass); n > 0 && !pass_enough(c->job); n--) {
         double a = chain_propose(c);
         held += 1 - a;
         if (rng_uniform(&c->rng) < a) {

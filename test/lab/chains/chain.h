@@ -9,14 +9,16 @@
  *
  * No start-up bias [V97 11.3.1]: of N independent states, the start is drawn with probability I / sum I and the chain
  * counts by the mean I of the same N: the expectation of b f(X_m) / I(X_m) is right for any m, whatever the chain does.
- * Every chain has N states of its own, some hundred, so that more samples are more starts, too: chains that all started
- * from one pool, however large, would never see what it has missed, and a picture would not converge. [V97]'s other use
- * of the independent states, as samples of the picture, and [Kelemen 2002]'s, where they go on with the chains, are
- * left out: the second is unbiased only in the limit.
+ * All chains of a picture begin with one pool of N = 100,000 states, as in pbrt-v3, which is drawn before the first
+ * mutation. In small pictures N is 32 for each pixel, or 2 of pssmlt, whose states are whole samples. So b has an error
+ * that more mutations do not reduce: the standard deviation of I over its mean and sqrt(N). [V97]'s other use of the
+ * independent states, as samples of the picture, is left out, and so is [Kelemen 2002]'s of large steps for b, which
+ * is unbiased only in the limit.
  *
- * A chain is a tile pass: it has as many mutations as the pass has samples of pixels,
- * though it wanders over the whole picture. So bytes do not depend on threads, parts are whole chains, and a render
- * ends or goes on as that of any other method.
+ * A chain is a tile pass: it has as many mutations as the pass has samples of pixels, though it wanders over the whole
+ * picture. So bytes do not depend on threads, parts are whole chains, and a render ends or goes on as that of any other
+ * method. Tiles are so large that a picture has about 1,000 chains, as in pbrt-v3, and a block so long (1,024 samples)
+ * that more samples are longer chains. 1,000 chains also mix path lengths, which a chain of mmlt or mlt never changes.
  *
  * Tests: test_chains.c.
  */
@@ -48,7 +50,10 @@ struct chains {
     struct counts counts;   /* of bdpt; lens is the area of the raster: one light sub-path for one eye sub-path on it */
     double x, y, width, height; /* the raster: the film, and as far around it as the filter reaches */
     double scale;               /* raster area for each pixel */
-    int lengths, each;          /* independent states: so many of each of so many lengths, from 2 vertices on */
+    int lengths;                /* of paths, from 2 vertices on, that independent states are of in turn; 1: of all */
+    int n;                      /* independent states of the picture */
+    double *before;             /* [n + 1] sums of their I; owned */
+    double b;                   /* the sum of the means of all lengths */
 };
 
 /* One chain after another, of one thread. */
@@ -58,9 +63,6 @@ struct chain {
     struct workspace *work;
     struct vertex *light; /* [max_depth + 1] a light sub-path; owned */
     struct rng rng; /* of this chain */
-    uint64_t pass;  /* a number that no other chain has */
-    double *before; /* [lengths * each + 1], sums of the I of its independent states; owned */
-    double b;       /* the sum of the means of all lengths */
     long candidate; /* >= 0: `next` is to be this independent state of its length; -1: the chain is under way */
     struct chain_state now, next;
 };
@@ -79,7 +81,8 @@ struct chain_rules {
 };
 
 /* Of a row of the table. */
-#define CHAIN_ROW .numbers = NUMBERS_OF_BDPT, .own_size = sizeof(struct chains), .render = chain_render
+#define CHAIN_ROW \
+    .numbers = NUMBERS_OF_BDPT, .own_size = sizeof(struct chains), .release = chain_release, .render = chain_render
 
 /* chain_propose: what is proposed, by the rules. chain_swap: go there. */
 double chain_propose(struct chain *c);
@@ -88,12 +91,13 @@ void chain_swap(struct chain *c);
 /* chain_candidate: make `next` independent state number i of all. */
 void chain_candidate(struct chain *c, long i);
 
-/* chain_start: make the chain's independent states, and `now` the one that u in [0,1) finds in the running sum of their
- * I. Returns b; 0: they were all dark, or it was enough, and there is no chain. */
-double chain_start(struct chain *c, double u);
+/* chain_start: make `now` the independent state that u in [0,1) finds in the running sum of their I, of which one must
+ * not be dark. */
+void chain_start(struct chain *c, double u);
 
-/* For rows of the table: prepare with these rules; render. */
+/* For rows of the table: prepare with these rules; release; render. */
 void chain_prepare(const struct chain_rules *rules, const struct render_job *job, struct prepared *out);
+void chain_release(struct prepared *m);
 void chain_render(const struct prepared *m, const struct tile_pass *pass);
 
 /* chain_new: the memory of a chain that has not begun; chain_free releases it.

@@ -10,7 +10,7 @@ const struct field CHAIN_PARAMETERS[] = {
     {"sigma", FIELD_NUMBER, offsetof(struct chains, sigma), 0.01, 1e-6, 1,
      "standard deviation of a number's small step", NULL},
     {"starts", FIELD_INTEGER, offsetof(struct chains, starts), 0, 0, 1 << 24,
-     "independent states (of each path length) of every chain, of which one is its start; 0: 256, or 64 of each", NULL},
+     "independent states, of which chains start; 0: 100,000, or a number for each pixel if that is less", NULL},
     {"largestepprobability", FIELD_NUMBER, offsetof(struct chains, large_step), 0.3, 1e-3, 1,
      "of a mutation that draws all numbers again", NULL},
     {.name = NULL}};
@@ -41,8 +41,7 @@ static void move(const struct tape *from, struct tape *to, double sigma, struct 
  * low discrepancy from one to the next. */
 static struct sampler numbers(const struct chain *c, enum chain_stream stream, uint64_t key)
 {
-    uint64_t lengths = (uint64_t)c->job->max_depth + 3;
-    uint64_t kind = (c->pass * lengths + (uint64_t)c->next.length) * CHAIN_STREAMS + stream;
+    uint64_t kind = (uint64_t)c->next.length * CHAIN_STREAMS + stream;
     return c->candidate >= 0 ? sampler_start(c->job->seed, RNG_START, kind, (uint64_t)c->candidate)
                              : sampler_start(key, RNG_CHAIN, stream, 0);
 }

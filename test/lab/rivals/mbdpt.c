@@ -1,7 +1,8 @@
 /* mbdpt.c: matrix BDPT: the pairs of sub-paths are the elements of a matrix, from which a lattice is taken.
  *
  * Of the N eye and K light sub-paths of a tile and iteration, every pair joined by strategy (s,t) is an element of an N
- * x K matrix, whose mean is what the pixels are to receive together [Chaitanya 2018]. Its rows are sorted by the eye
+ * x K matrix, whose mean is what the pixels are to receive together [Chaitanya 2018]. With matrix=pixel they are those
+ * of a pixel in a block of iterations. Its rows are sorted by the eye
  * sub-paths' first t vertices, its columns by the light sub-paths' first s, either by the length of these or by the
  * throughput at the last of them, which the contribution of a pair is proportional to, so that neighbouring elements
  * are alike, and a stratified choice is good for something. Chosen are the N elements
@@ -9,10 +10,10 @@
  * a lattice [Roberts 2018] shifted at random: one in every row; with K = N one in every column, too. Given its row, a
  * column is uniform since U is, so each pixel is joined with one light sub-path, any equally likely, as in BDPT: its
  * expectation and its counts. The gain of stratification is that the errors of neighbours in path space cancel in
- * sums over pixels; a pixel's own variance is BDPT's.
+ * sums over pixels, while a pixel's own variance is BDPT's; with matrix=pixel in its own sum.
  *
  * s = 0, s = 1 and t = 1 are no matrices of pairs and stay as they are, as the paper advises. How it sorts and
- * chooses could not be read; this is our reading. In a tile of a single pixel the method is BDPT to the byte.
+ * chooses could not be read; this is our reading. With a matrix of one element the method is BDPT to the byte.
  *
  * Tests: test_rivals.c.
  */
@@ -29,9 +30,13 @@ struct ranked {
 
 static const char *const KEYS[] = {"length", "throughput", NULL};
 
+static const char *const MATRICES[] = {"tile", "pixel", NULL};
+
 struct mbdpt {
     int throughput; /* number of the key */
+    int by_pixel;   /* of the matrix */
 };
+enum { PIXEL_BLOCK = 16 }; /* iterations that a pixel's matrix has */
 
 struct index {
     struct ranked **column; /* [max_depth + 1][K]; from 2 on */
@@ -97,6 +102,15 @@ static void connect_length(const struct prepared *p, const struct pool *pool, co
         }
 }
 
+/* As loop_splat, for sub-path i of n. */
+static void splat(const struct prepared *p, struct sample *sample, int i, int n)
+{
+    const struct pool *pool = &sample->pass->work->pool;
+    int each = p->numbers.path_pixels, k = i / each;
+    if (i % each == 0)
+        sample_lens(sample, pool_path(pool, k), pool->length[k], n / ((double)pool->n * each));
+}
+
 static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
                         struct pixel *pixel, int n)
 {
@@ -111,10 +125,43 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
         connect_length(p, pool, index, pixel, n, row, t, shift);
     }
     for (int i = 0; i < n; i++)
-        loop_splat(p, &pixel[i].sample, i);
+        splat(p, &pixel[i].sample, i, n);
 }
 
-static void render(const struct prepared *p, const struct tile_pass *pass) { together_render(p, pass, connect_all); }
+/* All samples of a pixel. */
+static void render_pixel(const struct prepared *p, const struct tile_pass *pass, int x, int y)
+{
+    struct pool *pool = &pass->work->pool;
+    int n = (int)(pass->end - pass->first);
+    pool_clear(pool);
+    for (long i = pass->first; i < pass->end; i += p->numbers.path_pixels) {
+        struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
+        pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)i, &pool->arena, path));
+    }
+    const struct index *index = build(p, pass, pass->first);
+    arena_reset(&pass->work->arena);
+    struct pixel *sample = arena_alloc(&pass->work->arena, (size_t)n * sizeof *sample);
+    for (int i = 0; i < n; i++)
+        sample[i] = together_begin(p, pass, x, y, pass->first + i);
+    connect_all(p, pass, index, sample, n);
+    for (int i = 0; i < n; i++)
+        sample_end(&sample[i].sample);
+}
+
+static void render(const struct prepared *p, const struct tile_pass *pass)
+{
+    if (!((const struct mbdpt *)p->own)->by_pixel)
+        together_render(p, pass, connect_all);
+    else
+        for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
+            render_pixel(p, pass, x, y);
+}
+
+static void prepare(const struct render_job *job, struct prepared *p)
+{
+    (void)job;
+    p->size.block = ((const struct mbdpt *)p->own)->by_pixel ? PIXEL_BLOCK : 0;
+}
 
 static const struct field PARAMETERS[] = {
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 2, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
@@ -123,9 +170,11 @@ static const struct field PARAMETERS[] = {
     {.name = NULL}};
 static const struct field OWN[] = {
     {"key", FIELD_WORD, offsetof(struct mbdpt, throughput), 0, 0, 0, "what sub-paths are sorted by", KEYS},
+    {"matrix", FIELD_WORD, offsetof(struct mbdpt, by_pixel), 0, 0, 0, "whose sub-paths are in one matrix", MATRICES},
     {.name = NULL}};
 
 const struct method method_mbdpt = {
     .name = "mbdpt", .help = "matrix BDPT [Chaitanya 2018]: pairs of sorted sub-paths, stratified",
     .parameters = PARAMETERS, .own = OWN, .own_size = sizeof(struct mbdpt), .numbers = NUMBERS_OF_BDPT,
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render, .build = build};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
+    .render = render, .build = build};

@@ -2,17 +2,19 @@
  *
  * Path graphs [Deng 2021]. From each vertex j of an eye sub-path two edges lead: one to a point on a light, drawn with
  * density q (1/sr), and the one along which the walk went on, with density p. Vertices of a tile that lie in one cell
- * of a grid, face one way and have as many vertices before them form clusters, in which each takes over the edges of
- * all M, as if what comes along an edge to one came to the others, too. Over the edges i, of direction w_i,
+ * of a grid and face one way form clusters, in which each takes over the edges of all M, as if what comes along an edge
+ * to one came to the others, too. Over the edges i, of direction w_i,
  *     L_j = sum f_j(w_i) |cos| Le_i / sum_m (p_m + q_m)(w_i) + sum f_j(w_i) |cos| L_i / sum_m p_m(w_i),
  * Le_i being what lights send along the edge and L_i, of edges of the second kind, what the next vertex sends on: the
  * balance heuristic over members m. The bias is that of another's light and visibility; it falls with the radius, and
  * in a cluster of one L_j is what path tracing finds.
  *
- * The paper's graph has circles, and is gone through again and again. Here vertices are joined with those of equal
- * depth alone, since paths have a longest length, and one sweep from the last vertices to the first has it all. What
- * the camera sees, itself or in mirrors, is in no cluster: pixels share what lies behind it, so that edges stay sharp.
- * The grid lies elsewhere in every iteration.
+ * The graph has circles, since a cluster has vertices of any depth. So L begins black and is made anew by the L of the
+ * iteration before: after n iterations it has what comes over up to n edges. There are as many as paths may have, which
+ * leaves out longer ones as pt does, or `iterations` if that is less. With iterations=0 clusters are of equal depth and
+ * one sweep from the last vertices to the first has it all. The last vertices of the longest walks have no second edge:
+ * they take over those of others, but do not count in sum_m p_m. What the camera sees, itself or in mirrors, is in no
+ * cluster: pixels share what lies behind it, so that edges stay sharp. The grid lies elsewhere in every sample.
  *
  * Light that comes over an edge has the length of the path that found it. To strategies and trace the first vertex is
  * the light.
@@ -27,17 +29,20 @@
 enum { LARGEST_CLUSTER = 64, ALONE = 6 };
 
 struct pathgraph {
-    int cluster;   /* most vertices of one */
+    int cluster;    /* most vertices of one */
+    int iterations; /* 0: clusters are of equal depth */
     double radius; /* side of the grid's cells over the radius of the scene's bounding sphere */
 };
 
 struct node {
     const struct vertex *z;
     bool ends;       /* there is no next vertex: else it is z + 1, and the next node is its own */
+    bool led;        /* there could be one */
     vec3 w;          /* to the point on a light, unit */
     rgb Le;          /* what comes from there; black if nothing does */
     double q;        /* of w, 1/sr; 0: of a light without extent, and Le is over its density */
-    rgb L;           /* what it sends on */
+    rgb direct;      /* what it sends on of light from points on lights, */
+    rgb L, before;   /* and of all; after the iteration before */
     vec3 cell;       /* of the grid */
     int face;        /* which way it faces, ALONE: it is in no cluster; */
     int number;      /* so that no two are equal */
@@ -70,8 +75,8 @@ static void draw_light(struct sample *sample, struct node *node)
     node->q = delta ? 0 : density;
 }
 
-/* Ask the members for f and p towards w. Returns the sum of their p, raised as the heuristic has it; *able: how many
- * take light from there. */
+/* Ask the members for f and p towards w. Returns the sum of the p by which they could go there, raised as the heuristic
+ * has it; *able: how many take light from there. */
 static double ask(struct node **member, int n, const struct counts *counts, vec3 w, int *able)
 {
     double sum = 0;
@@ -81,25 +86,21 @@ static double ask(struct node **member, int n, const struct counts *counts, vec3
         struct bsdf_value b = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE);
         member[m]->f = rgb_scale(b.f, scatter_cosine(z, w, RADIANCE));
         member[m]->p = b.pdf;
-        sum += mis_raise(counts, b.pdf);
+        sum += member[m]->led ? mis_raise(counts, b.pdf) : 0;
         *able += bsdf_may_scatter(&z->bsdf, z->wo, w);
     }
     return sum;
 }
 
-/* What comes along an edge goes on from all members. */
-static void share(struct node **member, int n, rgb light)
-{
-    for (int m = 0; m < n; m++)
-        member[m]->L = rgb_add(member[m]->L, rgb_mul(member[m]->f, light));
-}
 
 /* The edge of one member to a light, to all. */
 static void aggregate_light(const struct sample *sample, struct node **member, int n, const struct node *from)
 {
     int able;
     double sum = ask(member, n, sample->counts, from->w, &able), own = mis_raise(sample->counts, from->q);
-    share(member, n, rgb_scale(from->Le, from->q > 0 ? own / ((sum + able * own) * from->q) : 1.0 / able));
+    rgb light = rgb_scale(from->Le, from->q > 0 ? own / ((sum + able * own) * from->q) : 1.0 / able);
+    for (int m = 0; m < n; m++)
+        member[m]->direct = rgb_add(member[m]->direct, rgb_mul(member[m]->f, light));
 }
 
 /* The edge that leads on, to all; to the member alone if it left by a delta lobe. */
@@ -112,11 +113,12 @@ static void aggregate_next(const struct sample *sample, struct node **member, in
     double roulette, sum = ask(member, n, counts, neg(next->wo), &able), p = from->p;
     double all = sum + able * mis_raise(counts, p * reuse_hit_density(next));
     rgb step = reuse_step(from->z, next, &roulette);
+    rgb light = rgb_scale(rgb_add(rgb_scale(hit.value, sum / all), from[1].before),
+                          roulette * mis_raise(counts, p) / (sum * p));
     if (next->prev_delta)
-        from->L = rgb_add(from->L, rgb_mul(step, rgb_add(hit.value, from[1].L)));
-    else
-        share(member, n, rgb_scale(rgb_add(rgb_scale(hit.value, sum / all), from[1].L),
-                                   roulette * mis_raise(counts, p) / (sum * p)));
+        from->L = rgb_add(from->L, rgb_mul(step, rgb_add(hit.value, from[1].before)));
+    for (int m = 0; m < n && !next->prev_delta; m++)
+        member[m]->L = rgb_add(member[m]->L, rgb_mul(member[m]->f, light));
 }
 
 /* --- clusters ---------------------------------------------------------------------------------------- */
@@ -155,40 +157,73 @@ static bool together(const struct node *a, const struct node *b)
     return a->face == b->face && a->cell.x == b->cell.x && a->cell.y == b->cell.y && a->cell.z == b->cell.z;
 }
 
-/* What n vertices of equal depth send on. */
-static void aggregate_all(const struct pathgraph *s, const struct sample *sample, struct node **node, int n,
-                          vec3 shift)
+/* The clusters of n vertices, one after another. */
+struct clusters {
+    const struct pathgraph *s;
+    struct node **node; /* [n] sorted */
+    int n;
+};
+
+static struct clusters find_clusters(const struct pathgraph *s, const struct scene *scene, struct node **node, int n,
+                                     vec3 shift)
 {
-    const struct scene *scene = sample->pass->job->scene;
     for (int i = 0; i < n; i++)
         place(node[i], scene, s->radius * scene->lights.radius, shift);
     qsort(node, (size_t)n, sizeof *node, by_place);
-    for (int i = 0, end; i < n; i = end) {
-        end = i + 1;
-        while (node[i]->face != ALONE && end < n && end - i < s->cluster && together(node[i], node[end]))
-            end++;
-        for (int k = i; k < end; k++) {
-            if (!rgb_is_black(node[k]->Le))
-                aggregate_light(sample, &node[i], end - i, node[k]);
-            if (!node[k]->ends)
-                aggregate_next(sample, &node[i], end - i, node[k]);
+    return (struct clusters){s, node, n};
+}
+
+/* The end of the cluster that begins with vertex i. */
+static int cluster_end(const struct clusters *c, int i)
+{
+    int end = i + 1;
+    while (c->node[i]->face != ALONE && end < c->n && end - i < c->s->cluster && together(c->node[i], c->node[end]))
+        end++;
+    return end;
+}
+
+/* What all send on by direct light; then by all light, `times` in succession. */
+static void aggregate(const struct clusters *c, const struct sample *sample, int times)
+{
+    for (int i = 0, end; i < c->n; i = end) {
+        end = cluster_end(c, i);
+        for (int k = i; k < end; k++)
+            if (!rgb_is_black(c->node[k]->Le))
+                aggregate_light(sample, &c->node[i], end - i, c->node[k]);
+    }
+    while (times-- > 0 && !pass_enough(sample->pass->job)) {
+        for (int i = 0; i < c->n; i++)
+            c->node[i]->L = c->node[i]->direct;
+        for (int i = 0, end; i < c->n; i = end) {
+            end = cluster_end(c, i);
+            for (int k = i; k < end; k++)
+                if (!c->node[k]->ends)
+                    aggregate_next(sample, &c->node[i], end - i, c->node[k]);
         }
+        for (int i = 0; i < c->n; i++)
+            c->node[i]->before = c->node[i]->L;
     }
 }
 
 /* --- tiles ------------------------------------------------------------------------------------------- */
 
-/* The graph, from the last vertices to the first; longest: vertices of the longest eye sub-path. */
+/* All vertices of the tile, at once, or of one depth after another from the last; longest: vertices of the longest eye
+ * sub-path. */
 static void sweep(const struct pathgraph *s, struct pixel *pixel, struct node **of, int n, int longest,
                   const struct tile_pass *pass, vec3 shift)
 {
-    struct node **level = arena_alloc(&pass->work->arena, (size_t)n * sizeof *level);
-    for (int t = longest; t >= 2 && !pass_enough(pass->job); t--) {
-        int here = 0;
+    bool at_once = s->iterations > 0;
+    int most = pass->job->max_depth;
+    struct node **node = arena_alloc(&pass->work->arena, (size_t)n * (size_t)(at_once ? longest : 1) * sizeof *node);
+    for (int t = longest, here = 0; t >= 2 && !pass_enough(pass->job); t--) {
         for (int i = 0; i < n; i++)
             if (t <= pixel[i].n && pixel[i].eye[t - 1].kind == VERTEX_SURFACE)
-                level[here++] = &of[i][t - 1];
-        aggregate_all(s, &pixel[0].sample, level, here, shift);
+                node[here++] = &of[i][t - 1];
+        if (at_once && t > 2)
+            continue;
+        const struct clusters c = find_clusters(s, pass->job->scene, node, here, shift);
+        aggregate(&c, &pixel[0].sample, !at_once ? 1 : s->iterations < most ? s->iterations : most);
+        here = 0;
     }
 }
 
@@ -216,8 +251,10 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
         struct pixel *x = &pixel[i];
         of[i] = arena_alloc(arena, (size_t)x->n * sizeof **of);
         for (int t = 1; t <= x->n; t++) {
-            struct node node = {.z = &x->eye[t - 1], .ends = t == x->n, .number = i};
-            if (node.z->kind == VERTEX_SURFACE && t <= pass->job->max_depth + 1)
+            bool last = t > pass->job->max_depth + 1;
+            struct node node = {.z = &x->eye[t - 1], .ends = t == x->n, .led = !last,
+                                .number = i * (pass->job->max_depth + 2) + t};
+            if (node.z->kind == VERTEX_SURFACE && (!last || s->iterations > 0))
                 draw_light(&x->sample, &node);
             of[i][t - 1] = node;
         }
@@ -238,6 +275,8 @@ static void render(const struct prepared *p, const struct tile_pass *pass) { tog
 static const struct field OWN[] = {
     {"cluster", FIELD_INTEGER, offsetof(struct pathgraph, cluster), 16, 1, LARGEST_CLUSTER,
      "most vertices that share their light; 1: pt", NULL},
+    {"iterations", FIELD_INTEGER, offsetof(struct pathgraph, iterations), 100, 0, 100,
+     "most edges that light goes over in clusters of all depths; 0: clusters are of equal depth", NULL},
     {"radius", FIELD_NUMBER, offsetof(struct pathgraph, radius), 0.05, 1e-6, 10,
      "how far apart they may be, in radii of the scene", NULL},
     {.name = NULL}};

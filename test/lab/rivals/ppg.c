@@ -13,9 +13,15 @@
  * leaf, and its light is spread over directions. Each leaf learns its share a. After the pass of n samples, leaves with
  * more than `cell` sqrt(n) records are halved.
  *
+ * The passes are part of the picture, by their inverse variances [Mueller 2019 5]: pass k of n_k samples, of variance
+ * v_k a sample, has the weight n_k / v_k. v_k is a mean over all pixels of the other colour of a chequerboard, so that
+ * no weight depends on the value that it weighs, but by way of the trees. If samples after training are as good as
+ * those of the last pass, training is worth W = v_last sum n_k / v_k of them, and is to have the weight W / (W + N)
+ * among N. N is not known, since a render may go on; so sample i is (1 - a_i) of itself and a_i of training's mean,
+ *     a_i = W^2 / ((W + i) (W + i + 1)),   whose sum over N samples is N W / (W + N).
+ *
  * What differs from the papers:
- *   - Training is a fixed number of samples, which are not part of the image: a render may go on, so its length is not
- *     known. The papers give half of all samples to the last pass, or combine passes by their inverse variances.
+ *   - Training is a fixed number of samples. [Mueller 2017] gives half of all samples to the last pass.
  *   - a is found by Newton's method and kept between 0.1 and 0.9. The papers take Adam with a term of regularisation.
  *   - Roulette is that of `pt`, by the throughput that the path would have if the BSDF had drawn all directions: a path
  *     towards light has a low one. The first paper's takes expected contributions; its author's program has none.
@@ -34,8 +40,10 @@
 #include "rivals/together.h"
 
 struct ppg {
-    int training, cell;
+    int training, cell, combine;
     struct sdtree tree;
+    rgb *trained;    /* [pixels] what training has found; NULL: it is no part of the picture. Owned */
+    double worth[2]; /* of that, in samples, by the pixel's colour */
 };
 
 /* How a sample left a vertex. */
@@ -125,9 +133,10 @@ static void sum_direct(struct sample *sample, const struct vertex *z, int t, con
     sample_add(sample, (struct joined){.s = 1, .t = t, .z = z, .c = &c, .y0 = &y0, .pmf = 1, .scale = 1});
 }
 
-/* A sample of a pixel, not ended. Its vertices are in the workspace; returns their number, and of each the step. */
+/* A sample of a pixel, not ended, times `share`. Its vertices are in the workspace; returns their number, and of each
+ * the step. */
 static int trace_pixel(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration,
-                       struct sample *sample, struct step **step)
+                       double share, struct sample *sample, struct step **step)
 {
     struct vertex *eye = pass->work->eye;
     int most = pass->job->max_depth + 2;
@@ -137,6 +146,7 @@ static int trace_pixel(const struct prepared *p, const struct tile_pass *pass, i
     *sample = sample_begin(pass, &p->counts, 1, x, y, iteration);
     *step = arena_alloc(&pass->work->arena, (size_t)most * sizeof **step);
     int n = path_eye_pixel(&w, x, y, eye, 2, &sample->filter_weight);
+    sample->filter_weight *= share;
     n = walk_guided(&((const struct ppg *)p->own)->tree, &w, eye, *step, n, most);
     for (const struct observer *o = pass->observer; o != NULL; o = o->next)
         if (o->walked != NULL)
@@ -150,13 +160,36 @@ static int trace_pixel(const struct prepared *p, const struct tile_pass *pass, i
     return n;
 }
 
+/* Of two on a chequerboard. */
+static int colour_of(int x, int y) { return (x + y) % 2; }
+
+/* The share of what training has found in sample i of a pixel. */
+static double share_of_training(const struct ppg *own, int x, int y, double i)
+{
+    double W = own->worth[colour_of(x, y)];
+    return W / (W + i) * W / (W + i + 1);
+}
+
+static void add_training(const struct ppg *own, struct sample *sample, double share)
+{
+    const struct pixel_rect rect = sample->pass->job->film_rect;
+    long at = (long)(sample->y - rect.y0) * rect_width(rect) + sample->x - rect.x0;
+    struct connection c = {.value = own->trained[at], .weight = 1, .light = -1};
+    sample->filter_weight = 1; /* it is in the value */
+    sample_add(sample, (struct joined){.t = 2, .c = &c, .pmf = 1, .scale = share});
+}
+
 static void render(const struct prepared *p, const struct tile_pass *pass)
 {
+    const struct ppg *own = p->own;
     struct sample sample;
     struct step *step;
     for (long iteration = pass->first; iteration < pass->end; iteration++)
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
-            trace_pixel(p, pass, x, y, iteration, &sample, &step);
+            double share = own->trained != NULL ? share_of_training(own, x, y, (double)iteration) : 0;
+            trace_pixel(p, pass, x, y, iteration, 1 - share, &sample, &step);
+            if (share > 0)
+                add_training(own, &sample, share);
             sample_end(&sample);
         }
 }
@@ -168,6 +201,7 @@ struct trainer {
     struct learning learning; /* the first, which lessons_learn passes on */
     struct prepared *prepared;
     long end;
+    rgb *found; /* [end] values of its samples */
 };
 
 static double ratio(rgb a, rgb b)
@@ -210,7 +244,8 @@ static void trace(struct learning *l, const struct counts *counts, struct worksp
     struct step *step;
     (void)counts;
     int n = trace_pixel(trainer->prepared, &pass, rect.x0 + (int)(at % width), rect.y0 + (int)(at / width),
-                        -(trainer->end + i) / pixels, &sample, &step);
+                        -(trainer->end + i) / pixels, 1, &sample, &step);
+    trainer->found[i] = rgb_is_finite(sample.value) ? sample.value : rgb_black();
     for (int t = n; t >= 2; t--)
         if (step[t - 1].guide != NULL && step[t - 1].left && sample.filter_weight != 0) {
             rgb found = rgb_sub(sample.value, step[t - 1].before);
@@ -249,34 +284,102 @@ static void find_box(const struct render_job *job, vec3 *low, vec3 *high)
     tables_free(&tables);
 }
 
+/* What all pixels have found in a pass. */
+struct finding {
+    double n;       /* samples of a pixel */
+    rgb *mean;      /* [pixels] of them */
+    double *square; /* [pixels] mean of their squared luminances */
+};
+enum { MOST_PASSES = 20 };
+
+static struct finding sum_up(const rgb *found, long n, long pixels)
+{
+    struct finding f = {(double)n, mem_alloc((size_t)pixels, sizeof *f.mean),
+                        mem_alloc((size_t)pixels, sizeof *f.square)};
+    for (long i = 0; i < n * pixels; i++) {
+        f.mean[i % pixels] = rgb_add(f.mean[i % pixels], rgb_scale(found[i], 1 / f.n));
+        f.square[i % pixels] += sqr(rgb_luminance(found[i])) / f.n;
+    }
+    return f;
+}
+
+/* Into own->trained and own->worth. */
+static void combine(struct ppg *own, const struct finding *f, int n, const struct render_job *job)
+{
+    const struct pixel_rect rect = job->film_rect;
+    int width = rect_width(rect), pixels = (int)rect_pixels(rect);
+    double variance[2][MOST_PASSES] = {{0}}, sum[2] = {0}, all = 0;
+    own->trained = mem_alloc((size_t)pixels, sizeof *own->trained);
+    for (int k = 0; k < n; k++)
+        all += f[k].n;
+    for (int i = 0; i < pixels; i++) {
+        double mean = 0;
+        for (int k = 0; k < n; k++)
+            mean += f[k].n / all * rgb_luminance(f[k].mean[i]);
+        for (int k = 0; k < n; k++)
+            variance[colour_of(i % width + rect.x0, i / width + rect.y0)][k] +=
+                f[k].square[i] - 2 * mean * rgb_luminance(f[k].mean[i]) + sqr(mean);
+    }
+    for (int colour = 0; colour < 2; colour++) {
+        for (int k = 0; k < n; k++)
+            sum[colour] += f[k].n / fmax(variance[!colour][k], 1e-200);
+        own->worth[colour] = fmin(sum[colour] * fmax(variance[!colour][n - 1], 1e-200), all);
+    }
+    for (int i = 0; i < pixels; i++) {
+        int colour = colour_of(i % width + rect.x0, i / width + rect.y0);
+        for (int k = 0; k < n; k++) {
+            double weight = f[k].n / fmax(variance[!colour][k], 1e-200) / sum[colour];
+            own->trained[i] = rgb_add(own->trained[i], rgb_scale(f[k].mean[i], weight));
+        }
+    }
+}
+
 static void prepare(const struct render_job *job, struct prepared *p)
 {
     struct ppg *own = p->own;
     const struct pass pass = {trace, take, NO_TABLES};
     struct trainer t = {.learning = {.job = job, .work = workspaces_new(job->n_threads, job->max_depth),
                                      .patience = patience_begin(job)}, .prepared = p};
+    struct finding finding[MOST_PASSES];
+    long pixels = (long)rect_pixels(job->film_rect);
     vec3 low, high;
+    int passes = 0;
     method_counts(job, p, true);
     find_box(job, &low, &high);
     sdtree_init(&own->tree, low, high);
     for (long n = 1; 2 * n - 1 <= own->training && !t.learning.patience.over; n *= 2) {
-        t.end = n * (long)rect_pixels(job->film_rect);
+        t.end = n * pixels;
+        t.found = mem_alloc((size_t)t.end, sizeof *t.found);
         lessons_learn(&t.learning, &pass, 0, t.end);
-        if (!t.learning.patience.over)
+        if (!t.learning.patience.over) {
             sdtree_build(&own->tree, own->cell * sqrt((double)n));
+            finding[passes++] = sum_up(t.found, n, pixels);
+        }
+        free(t.found);
+    }
+    if (own->combine && passes > 0)
+        combine(own, finding, passes, job);
+    while (passes-- > 0) {
+        free(finding[passes].mean);
+        free(finding[passes].square);
     }
     patience_end(&t.learning.patience);
     workspaces_free(t.learning.work, job->n_threads);
 }
 
-static void release(struct prepared *p) { sdtree_free(&((struct ppg *)p->own)->tree); }
+static void release(struct prepared *p)
+{
+    sdtree_free(&((struct ppg *)p->own)->tree);
+    free(((struct ppg *)p->own)->trained);
+}
 
 static const struct field PARAMETERS[] = {PARAMETER_GUIDE(false), {.name = NULL}};
 static const struct field OWN[] = {
-    {"training", FIELD_INTEGER, offsetof(struct ppg, training), 15, 0, 1 << 20,
+    {"training", FIELD_INTEGER, offsetof(struct ppg, training), 15, 0, (1 << MOST_PASSES) - 1,
      "most samples of a pixel in all of training", NULL},
     {"cell", FIELD_INTEGER, offsetof(struct ppg, cell), 250, 1, 1 << 30,
      "records of the first pass above which a leaf is halved", NULL},
+    {"combine", FIELD_WORD, offsetof(struct ppg, combine), true, 0, 0, "training is a part of the picture", OFF_ON},
     {.name = NULL}};
 
 const struct method method_ppg = {

@@ -6,7 +6,7 @@ measure() { # NAME SAMPLES OPTIONS
     name=$1 spp=$2
     shift 2
     grep -q "^$name $spp " "$dir/bins.txt" && return
-    ./asbdpt render "$PUBLISHED/cornell-box/scene.pbrt" --res 128x128 --maxdepth 6 --filter box --seed 11 --spp "$spp" \
+    ./asbdpt render "$PUBLISHED/cornell-box/scene.pbrt" --res 128x128 --maxdepth 6 --filter box --seed 11 --spp "$spp" -P rrthreshold=0 \
         --quiet "$@" -o "$dir/x.pfm"
     ./asbdpt-lab compare "$dir/x.pfm" "$REFERENCES/cornell-box.pfm" | awk -v name="$name" -v spp="$spp" '
         { v[$1] = $2 } END { print name, spp, v["rmse8"], v["mean_ratio"] }' >>"$dir/bins.txt"
