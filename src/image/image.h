@@ -1,7 +1,7 @@
 /* image.h: pictures in memory and their files.
  *
- * Pixels are as the image formats fill and textures read them. Formats are rows of one table in image.c: PFM and OpenEXR
- * (linear RGB), PPM, PNG and TGA (8-bit sRGB when written; read as stored). TGA is only read.
+ * Pixels are as the image formats fill and textures read them. Formats are rows of one table in image.c: PFM and
+ * OpenEXR (linear RGB), PPM, PNG and TGA (8-bit sRGB when written; read as stored). TGA is only read.
  * Tests: test_image.c, test_hdr.c (pictures of other programs, truncations, changed bytes, absurd sizes). */
 #ifndef ASBDPT_IMAGE_H
 #define ASBDPT_IMAGE_H

@@ -1,5 +1,5 @@
-/* microfacet.h: what happens at a boundary. A smooth one reflects a share and refracts the rest; a rough one consists of
- * smooth microfacets, whose normals have the distribution of Trowbridge and Reitz ("GGX") [Trowbridge & Reitz 1975].
+/* microfacet.h: what happens at a boundary. A smooth one reflects a share and refracts the rest; a rough one consists
+ * of smooth microfacets, whose normals have the distribution of Trowbridge and Reitz ("GGX") [Trowbridge & Reitz 1975].
  *
  * All directions are unit and, of rough boundaries, in the shading frame. The distribution is even in w -> -w, so both
  * sides of the surface are served. alpha_x and alpha_y are the roughnesses along x and y, > 0.

@@ -182,10 +182,10 @@ bool parse_placed(struct parser *p);
 int parse_constant(struct parser *p, rgb value);
 int parse_named_texture(struct parser *p, const char *name, bool is_float);
 
-/* parse_file: the number of what is in the file that a parameter names, -1 if it names none or, with an error, cannot be
- * read. `read` is called for the first one who names it; its number is then found among those that are known.
- * parse_picture: what all readers of pictures do: count one, with the bytes of tables that were made for it, and warn of
- * what is no light in it. False with a message in *err if that is too much. */
+/* parse_file: the number of what is in the file that a parameter names, -1 if it names none or, with an error, cannot
+ * be read. `read` is called for the first one who names it; its number is then found among those that are known.
+ * parse_picture: what all readers of pictures do: count one, with the bytes of tables that were made for it, and warn
+ * of what is no light in it. False with a message in *err if that is too much. */
 typedef int file_reader(struct parser *p, const char *path, struct source_position at, struct error *err);
 int parse_file(struct parser *p, const char *name, struct symbols *known, file_reader *read);
 bool parse_picture(struct parser *p, struct source_position at, const struct image *image, size_t tables,

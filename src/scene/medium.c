@@ -99,7 +99,8 @@ static struct crossing crossing_at(const struct medium_set *set, const struct ra
 
 /* Which of n hits is passed next? Rounding decides on the order of interfaces in one place: of those there the first
  * that belongs to this medium, if any does. The others stay in hit[1] and after. */
-static struct crossing next_crossing(const struct medium_set *set, const struct ray *line, struct hit *hit, int n, int medium)
+static struct crossing next_crossing(const struct medium_set *set, const struct ray *line, struct hit *hit, int n,
+                                     int medium)
 {
     enum { LOOK_AHEAD = 16 };
     struct crossing next = crossing_at(set, line, hit);

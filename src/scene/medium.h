@@ -46,9 +46,9 @@ static inline int medium_before(const struct geometry *geo, const struct surface
     return medium[0] == medium[1] ? -1 : medium[!(dot(at->ng, d) > 0)];
 }
 
-/* medium_outermost: what is about the scene, no surface of which is `far` from the lens: `around`, the lens' own medium,
- * if a straight way there is free, else what the shapes that bound media say on the ways to it, the least number if they
- * differ. */
+/* medium_outermost: what is about the scene, no surface of which is `far` from the lens: `around`, the lens' own
+ * medium, if a straight way there is free, else what the shapes that bound media say on the ways to it, the least
+ * number if they differ. */
 int medium_outermost(const struct medium_set *set, const struct kdtree *surfaces, vec3 lens, int around, double far);
 
 /* A straight way. */

@@ -1,5 +1,5 @@
-/* cmd_sum.c: asbdpt-lab sum IN... -o OUT: pictures added up, each times a weight: of those that asbdpt-lab render --lights
- * writes the picture under other lights. */
+/* cmd_sum.c: asbdpt-lab sum IN... -o OUT: pictures added up, each times a weight: of those that asbdpt-lab render
+ * --lights writes the picture under other lights. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

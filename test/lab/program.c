@@ -3,7 +3,8 @@
 #include "lab/commands.h"
 
 static const struct command *const COMMANDS[] = {
-    &command_render_more, &command_merge,      &command_convert, &command_sum, &command_info,   &command_compare, &command_trace,
+    &command_render_more, &command_merge,      &command_convert, &command_sum,
+    &command_info,        &command_compare,    &command_trace,
     &command_worth,      &command_strategies, &command_verify,  &command_conform,  &command_equal_time,
     &command_experiment, &command_family,     &command_transient, &command_bench, NULL};
 
