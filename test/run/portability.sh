@@ -46,7 +46,6 @@ try() {
     shift 4
     asked "$name" || return
     program=$dir/$name.exe
-    awk -f test/unit/suites.awk $sources >"$dir/suites.h"
     command=$(echo "$build" | sed "s|^[^ ]*|$compiler|; s|-o [^ ]*|-o $program|")
     able "$name" "$runner" "$command" "$@" || return
     if ! $command "$@" 2>"$dir/log"; then
@@ -70,7 +69,8 @@ suites() {
     sources="$(ls test/unit/*.c test/lab/*.c test/lab/*/*.c | grep -v -e devices -e fuzz -e hostile)
         $(ls src/*/*.c | grep -v -e src/cli/main.c -e src/cli/program.c -e src/render/rows.c)"
     awk -f test/unit/suites.awk $sources >"$dir/suites.h"
-    command=$(echo "$build" | sed "s|-o [^ ]*|-Itest -Itest/lab -Itest/unit -I$dir -o $program|; s|src/[^ ]*\.c|$(echo $sources)|")
+    command=$(echo "$build" | sed "s|-o [^ ]*|-Itest -Itest/lab -Itest/unit -I$dir -o $program|
+        s|src/[^ ]*\.c|$(echo $sources)|")
     if ! $command 2>"$dir/log"; then
         failed "$name" "the tests do not compile"
     elif $runner "$program" "$@" </dev/null >"$dir/said" 2>&1; then
@@ -100,7 +100,7 @@ try tcc '' tcc "$plain"
 export WINEDEBUG=-all # no log of its own
 wine=$(command -v wine64 || echo wine) node='node --no-warnings test/run/wasi.mjs'
 quick='maths vec warp stats alias zlib image hdr sheet file ply features format shape subdivide kdtree texture lobe bsdf
-    material light camera film parser sampler mis pairs options render part trace pictures aov threads'
+    material light camera film parser sampler mis options render part trace pictures aov threads'
 try windows "$wine" x86_64-w64-mingw32-gcc "$windows"
 suites windows-suites "$wine" "$windows" $quick
 try wasi "$node" clang "$wasi"
