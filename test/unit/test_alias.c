@@ -9,10 +9,10 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "base/mem.h"
 #include "base/number.h"
+#include "base/os.h"
 #include "base/rng.h"
 #include "lab/numbers.h"
 #include "lab/stats.h"
@@ -179,9 +179,9 @@ static double seconds_of(int n, const double *w)
     struct alias_table table = {0};
     double least = INFINITY;
     for (int k = 0; k < 5; k++) {
-        clock_t start = clock();
+        double start = os_cpu_seconds();
         alias_build(&table, w, n);
-        least = fmin(least, (double)(clock() - start) / CLOCKS_PER_SEC);
+        least = fmin(least, os_cpu_seconds() - start);
     }
     alias_free(&table);
     return least;

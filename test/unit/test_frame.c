@@ -85,7 +85,9 @@ void test_frame(struct test *t)
     enum { N = sizeof cases / sizeof cases[0] };
     struct test_entry all[N];
     int wrong = 0;
-    FILE *out = tmpfile();
+    char path[400];
+    snprintf(path, sizeof path, "%s/said", test_tmp(t));
+    FILE *out = fopen(path, "w");
     if (!CHECK(t, out != NULL, "no temporary file"))
         return;
     const struct test_setting setting = {.seed = test_seed(t), .tmp = test_tmp(t), .out = out};
