@@ -1,6 +1,4 @@
 /* cmd_convert.c: asbdpt convert IN -o OUT: a picture in other formats. */
-#include <stdlib.h>
-
 #include "cli/command.h"
 #include "cli/outputs.h"
 #include "image/image.h"
@@ -34,14 +32,7 @@ static int run(void *options)
     if (!outputs_open(&o->out, &o->tone, false, &out, &err))
         return fail(&err);
     float *pixels = (o->linear ? image_read_values : image_read_linear)(o->in, &width, &height, &about, &err);
-    bool ok = pixels != NULL;
-    if (ok) {
-        out.place = about.place;
-        ok = outputs_write(&out, width, height, pixels, o->quiet, &err);
-    }
-    outputs_abandon(&out); /* unless they are written */
-    free(pixels);
-    return ok ? EXIT_OK : fail(&err);
+    return outputs_end(&out, &about, width, height, pixels, o->quiet, &err) ? EXIT_OK : fail(&err);
 }
 
 const struct command command_convert = {

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "image/image.h"
 
 static void release(struct outputs *o)
 {
@@ -119,6 +118,19 @@ void outputs_abandon(struct outputs *o)
     for (int i = 0; i < o->n; i++)
         file_abandon(&o->item[i].file);
     release(o);
+}
+
+bool outputs_end(struct outputs *o, const struct image *about, int width, int height, float *pixels, bool quiet,
+                 struct error *err)
+{
+    bool ok = pixels != NULL;
+    if (ok) {
+        o->place = about->place;
+        ok = outputs_write(o, width, height, pixels, quiet, err);
+    }
+    outputs_abandon(o); /* unless they are written */
+    free(pixels);
+    return ok;
 }
 
 bool outputs_possible(const char *name, struct error *err)

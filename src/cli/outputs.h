@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "cli/options.h"
+#include "image/image.h"
 #include "image/tone.h"
 #include "render/part.h"
 
@@ -51,10 +52,14 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, bo
  * keep the others from being written: the first message is kept and false returned.
  * outputs_preview: the film as it is now into the file of the first, which outputs_write replaces in the end;
  * outputs_previews: can it be? False with a message.
- * outputs_abandon: remove what outputs_write has not written. */
+ * outputs_abandon: remove what outputs_write has not written.
+ * outputs_end: write a picture that was read from a file, of which `about` tells the place, unless `pixels` is NULL,
+ * whose message *err has then. Releases the outputs and the pixels. False with a message. */
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err);
 bool outputs_preview(const struct outputs *o, struct error *err);
 bool outputs_previews(const struct outputs *o, struct error *err);
 void outputs_abandon(struct outputs *o);
+bool outputs_end(struct outputs *o, const struct image *about, int width, int height, float *pixels, bool quiet,
+                 struct error *err);
 
 #endif

@@ -87,14 +87,7 @@ static int run(void *options)
     if (!outputs_open(&o->out, NULL, false, &out, &err))
         return fail(&err);
     float *pixels = add_up(o, &width, &height, &about, &err);
-    bool ok = pixels != NULL;
-    if (ok) {
-        out.place = about.place;
-        ok = outputs_write(&out, width, height, pixels, o->quiet, &err);
-    }
-    outputs_abandon(&out); /* unless they are written */
-    free(pixels);
-    return ok ? EXIT_OK : fail(&err);
+    return outputs_end(&out, &about, width, height, pixels, o->quiet, &err) ? EXIT_OK : fail(&err);
 }
 
 const struct command command_sum = {

@@ -47,7 +47,7 @@ struct methods {
 #define METHODS_HELP "what is compared, as NAME:PARAMETER=VALUE:..., values like 4/8"
 
 /* method_is_chain: are its samples mutations of others, of no pixel and not independent? method_merges: is what it adds
- * to a pixel of many paths at once, of any length, as by density estimation? */
+ * to a pixel of many paths at once, as by density estimation, or by the weights of whole passes? */
 bool method_is_chain(const struct method *m);
 bool method_merges(const struct method *m);
 

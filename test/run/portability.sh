@@ -99,12 +99,12 @@ try musl '' musl-gcc "$plain" -static
 try tcc '' tcc "$plain"
 export WINEDEBUG=-all # no log of its own
 wine=$(command -v wine64 || echo wine) node='node --no-warnings test/run/wasi.mjs'
-quick='maths vec warp stats alias zlib image hdr sheet file ply features format shape subdivide kdtree texture lobe bsdf
-    material light camera film parser sampler mis options render part trace pictures aov threads'
+quick='maths vec warp stats alias zlib image hdr sheet file ply features format shape smooth subdivide kdtree texture lobe bsdf
+    material light light-sent camera film parser sampler mis options render part trace pictures aov threads'
 try windows "$wine" x86_64-w64-mingw32-gcc "$windows"
 suites windows-suites "$wine" "$windows" $quick
 try wasi "$node" clang "$wasi"
-suites wasi-suites "$node" "$wasi" $quick report # Windows counts CPU time in 64ths of a second, too few for this one
+suites wasi-suites "$node" "$wasi" $quick report plan coverage equal-time # Windows counts CPU time in 64ths of a second, too few for this one
 try arm64 qemu-aarch64 aarch64-linux-gnu-gcc "$plain" -static
 try armhf qemu-arm arm-linux-gnueabihf-gcc "$plain" -static
 try riscv64 qemu-riscv64 riscv64-linux-gnu-gcc "$plain" -static
