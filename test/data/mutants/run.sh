@@ -63,7 +63,10 @@ mkdir -p $work/tree0
 cp -Rp Makefile src test scenes ref doc $work/tree0/
 (cd $work/tree0 && make -s -j"$workers" LTO= asbdpt asbdpt-lab build/test >/dev/null) || exit 1
 for test in $(chosen | sed 's/.* //' | tr , '\n' | sort -u) $rest; do # one that fails would seem to catch them all
-    try $work/tree0 "$test" || { echo "$test fails without any fault: $work/tree0/output.txt"; exit 1; }
+    try $work/tree0 "$test" && continue
+    tail -n 20 $work/tree0/output.txt
+    echo "$test fails without any fault: $work/tree0/output.txt"
+    exit 1
 done
 for w in $(seq "$workers"); do # copies of a tree that no fault is ever planted in
     rm -rf "$work/tree$w" && cp -Rp $work/tree0 "$work/tree$w" || exit

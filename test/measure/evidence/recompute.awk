@@ -23,8 +23,13 @@ file == 1 {
             sum[half[h], $at["label"], s, k] += afforded >= 1 ? $at[square[k]] * $at["spp"] / afforded : -1e99
     next
 }
-function near(a, b, by) { # by: of a quotient of rounded numbers
-    return (a - b) ^ 2 <= (0.0006 + (0.0006 + by) * b) ^ 2 || sprintf("%.2g", a) == sprintf("%.2g", b)
+# Is a stored number ("0.63", "6.1e+03") the one of the runs, to its last place? The runs' own digits are rounded too;
+# by: what a quotient of rounded numbers adds.
+function near(a, b, by,    place) {
+    place = 0.6
+    if (match(a, /\.[0-9]+/)) place /= 10 ^ (RLENGTH - 1)
+    if (match(a, /e.*/)) place *= 10 ^ substr(a, RSTART + 1)
+    return (a - b) ^ 2 <= (place + (0.0006 + by) * b) ^ 2
 }
 # Is the cell of a row, "VALUE [LOW, HIGH]", what the runs say by measure k?
 function compare(half, method, k, text,    i, x, a, b, mean, squares, error, stored) {
