@@ -1,0 +1,32 @@
+#!/bin/sh
+# runners.sh DIR: which runner the race (integrators/race.h) chose in the renders whose errors are stored, from their
+# scenes, sizes and seeds: lines "ENTRY SCENE SEED RUNNER" of DIR/runners.txt. Sets of scenes that are not there are left
+# out. Needs build/test.
+set -e
+mkdir -p "$1/scenes"
+
+# chosen ENTRY SCENE OPTIONS...: of each seed that doc/measured/ENTRY.csv has of the default in this scene.
+chosen() {
+    entry=$1 scene=$2 name=$3
+    shift 3
+    awk -F , -v name="$name" '$1 == name && $2 ~ /^(asbdpt|subspaces)$/ { print $4 }' "doc/measured/$entry.csv" | sort -u |
+        while read -r seed; do
+            ./asbdpt-lab info --race "$scene" "$@" --seed "$seed" --quiet |
+                awk -v row="$entry $name $seed" '/ chosen$/ { print row, $1 }'
+        done
+}
+names() { awk -F , 'NR > 1 && !seen[$1]++ { print $1 }' "doc/measured/$1.csv"; }
+
+{
+    for name in $(names gains); do chosen gains "scenes/$name.pbrt" "$name" --res 320; done
+    [ ! -d "${PUBLISHED-}" ] || for name in $(names published); do
+        chosen published "$PUBLISHED/$name/scene.pbrt" "$name" --res 320 --maxdepth 8
+    done
+    [ ! -d "${OTHERS-}" ] || for name in $(names others); do
+        chosen others "$OTHERS/$name/scene.pbrt" "$name" --res 160
+    done
+    for name in $(names structures); do
+        build/test --structure "${name%%-*}" >"$1/scenes/$name.pbrt"
+        chosen structures "$1/scenes/$name.pbrt" "$name" --res 96x72
+    done
+} >"$1/runners.txt" 2>"$1/said"
