@@ -1,6 +1,7 @@
 # results.awk: sections of doc/measured from results.md files of `asbdpt-lab experiment`, of the five scenes. ratios:
 # the error of bins over that of bdpt, printed and here, with 32 samples and with most of which both are known, and what
-# the mean of bins is off by; equal: squared error over that of bdpt after the same CPU time, with most samples.
+# the mean of bins is off by; equal: squared error over that of bdpt after the same CPU time, with most samples; rows: all
+# methods and numbers of samples, of tables 4.1 to 4.4 and of the sweeps of appendix A.
 function cell(i) { return part[i + 1] }
 /^## / {
     on = $2 ~ /^(cornell-box|cornell-box-modified|veach-ajar|living-room|bathroom)$/
@@ -12,6 +13,7 @@ function cell(i) { return part[i + 1] }
     gsub(/asbdpt:select=/, "")
     split($0, part, / *\| */)
 }
+/^\| [0-9]+ \| [a-z]/ { row[++rows] = "| " scene " " $0 }
 /^\| [0-9]+ \| bdpt \|/ { before[cell(1)] = cell(5) }
 /^\| [0-9]+ \| bins \|/ {
     if (cell(5) != "-") {
@@ -31,4 +33,7 @@ END {
     for (i = 1; i <= n; i++)
         print "| " order[i] " | " equal[order[i], "bins"] " | " equal[order[i], "pool"] " | " \
             equal[order[i], "vertices"] " | " equal[order[i], "subspaces"] " |"
+    print "== rows\n| scene | samples | method | RMSE | over bdpt | printed | seconds | cost over bdpt | mean off by, % | tested |"
+    print "|---|---:|---|---:|---:|---:|---:|---:|---:|---:|"
+    for (i = 1; i <= rows; i++) print row[i]
 }
