@@ -39,7 +39,7 @@ batch() {
 mean() {
     to=$1
     shift
-    "$program-lab" sum "$@" --weights "$(echo "$@" | awk '{ for (i = 1; i <= NF; i++) printf "%s%.17g", i > 1 ? "," : "", 1 / NF }')" \
+    "$program-lab" sum "$@" --weights "$(echo "$@" | awk '{ for (i = 1; i <= NF; i++) printf "%s%.17g", (i > 1 ? "," : ""), 1 / NF }')" \
         -o "$to" --quiet
 }
 
