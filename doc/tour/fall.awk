@@ -14,6 +14,8 @@ BEGIN {
 }
 function X(n) { return 70 + wide * log(n / first) / log(last / first) }
 function Y(e) { return 300 - 250 * log(e / least) / log(most / least) }
+# A number of the axis, in thousands if it is a large round one.
+function short(k) { return k >= 1e4 && k % 1000 == 0 ? sprintf("%dk", k / 1000) : sprintf("%d", k) }
 # Where a name is: below all that are too near.
 function label(y,    i) {
     for (i = 1; i <= labels; i++) if (at[i] < y + 14 && at[i] > y - 14) { y = at[i] + 14; i = 0 }
@@ -32,7 +34,7 @@ END {
     printf "<text x='10' y='20' font-weight='bold'>%s</text>\n", title
     for (k = every == 10 ? first : 1; k < first; k *= 2);
     for (; k <= last; k *= every)
-        printf "<path d='M%g 40V300' stroke='#ddd'/><text x='%g' y='318' text-anchor='middle'>%d</text>\n", X(k), X(k), k
+        printf "<path d='M%g 40V300' stroke='#ddd'/><text x='%g' y='318' text-anchor='middle'>%s</text>\n", X(k), X(k), short(k)
     print "<text x='" 70 + wide / 2 "' y='340' text-anchor='middle'>" across "</text>"
     if (dashed != "") printf "<text x='%d' y='34' text-anchor='end' fill='#666' font-size='12'>%s</text>\n", 70 + wide, dashed
     print "<text x='14' y='175' text-anchor='middle' transform='rotate(-90 14 175)'>" up "</text>"

@@ -23,7 +23,7 @@ for method in pt lt bdpt; do
 done
 
 # The same scene in the same CPU time: how many samples that is depends on the machine.
-"$lab" equal-time "$scene" --spp 16 --seeds 1 --reference-spp 512 --quiet -o equal >/dev/null
+"$lab" equal-time "$scene" --spp 16 --seeds 3 --reference-spp 512 --quiet -o equal >/dev/null
 cp equal/images/rooms.png "$out/equal.png"
 
 # Every strategy alone, as it is and weighted.
@@ -62,7 +62,7 @@ for restart in 0 4 8 16 32; do
             printf "%s %.2f %.3f %.3f\n", n ? "restart_" n : "bdpt", mean, mean - error, mean + error
         }'
 done >table.txt
-chart bias "How far the mean of bins is from the truth" "per cent of the truth; whiskers: two standard errors; one that reaches 0 shows no bias"
+chart bias "How far the mean of bins is from the truth" "per cent of the truth; whiskers: two standard errors; at 0 no bias is shown"
 
 # p-values of two methods that agree, and of bins.
 for seed in 1 2 3 4 5 6 7 8; do

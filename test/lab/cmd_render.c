@@ -24,7 +24,7 @@ static const struct option OPTIONS[] = {
     {"--seen", NULL, OPTION_ON, AT(seen),
      .help = "albedo and normal show what is seen in mirrors and through glass, for denoisers"},
     {"--lights", "DIR", OPTION_TEXT, AT(lights),
-     .help = "write into DIR an image for each light, or each \"string group\" of lights; convert --weights adds them"},
+     .help = "write into DIR an image for each light, or each \"string group\" of lights; sum --weights adds them"},
     {"--alpha", NULL, OPTION_ON, AT(alpha),
      .help = "write alpha into .exr and .png: 0 where the lens sees nothing, or a light of \"bool visible\" \"false\""},
     {.others = RENDER_OPTIONS},
@@ -53,7 +53,7 @@ static bool check(const struct more_options *o, struct error *err)
     bool kept = looks_variance(&o->look) || o->look.lights != NULL || o->look.alpha;
     if (o->job.keep.resume != NULL && kept)
         return error_set(err, "%s: variance, lights and alpha are not saved and cannot be resumed; render them by "
-                         "--samples, and take the mean by convert --weights", o->job.keep.resume);
+                         "--samples, and take the mean by sum --weights", o->job.keep.resume);
     return looks_check(&o->look, err);
 }
 

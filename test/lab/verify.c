@@ -278,10 +278,11 @@ struct verdict verify_batches(const struct batches *a, const struct batches *b, 
     long *where = mem_alloc((size_t)a->n, sizeof *where);
     double *step_a = rare_steps(a), *step_b = rare_steps(b);
     struct sides_steps steps = {step_a, step_b};
-    v.n = all_p(a, b, steps, p, where);
-    v.smallest = smallest_p(p, v.n, a->n > 0 ? 1 : NAN, where, &v.where);
+    v.n = all_p(a, b, (struct sides_steps){NULL, NULL}, p, where);
     for (long i = 0; i < v.n; i++)
         v.bar[int_within(p[i] * VERIFY_BARS, 0, VERIFY_BARS - 1)]++;
+    all_p(a, b, steps, p, where);
+    v.smallest = smallest_p(p, v.n, a->n > 0 ? 1 : NAN, where, &v.where);
     v.uniform = v.n > 0 ? uniform_p(a, b, steps, stats_ks_distance(p, (size_t)v.n), seed) : 1;
     struct moments x = total_moments(a), y = total_moments(b);
     v.mean = mean_p(a, b, steps);

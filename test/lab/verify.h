@@ -73,7 +73,7 @@ struct verdict {
     double ratio, ratio_error;      /* mean of a over mean of b */
     long n;                         /* p-values: tiles * 3 */
     long where;                     /* index of the smallest p-value */
-    long bar[VERIFY_BARS];          /* how many p-values fall into each tenth of [0,1] */
+    long bar[VERIFY_BARS];          /* how many of Welch's p-values fall into each tenth of [0,1] */
 };
 
 /* verify_batches: a and b have the same n; the seed is that of the random signs. All p-values are 1 where everything is

@@ -1,6 +1,6 @@
 #!/bin/sh
 # power.sh: how small a fault does a suite find? Plants those of power.txt, in some sizes, in a copy of the tree.
-# The table goes into doc/evidence.md, section Power.
+# The table goes into doc/evidence.md, section Power. `power.sh check`: does every fault still apply?
 # The list may name slow suites, too. All must pass without any fault: one that does not would seem to find them all.
 # A suite that checks facts finds a size or does not. One that tests hypotheses finds an error e if its p is below 1e-4,
 # which is |z| > 3.89; z is normal about e / sigma. So one planted error that is found, though not by far, tells sigma,
@@ -19,10 +19,11 @@ words() {
     awk -v n="$1" '/^[^-+# \t]/ && ++i == n { for (k = 4; k <= NF; k++) printf "%s ", $k }' $list | sed 's/ $//'
 }
 
-# plant N: the list with its lines numbered as names, for apply.sh.
+# numbered: the list with its lines numbered as names, for apply.sh. plant N: one of them.
+numbered() { awk '/^[^-+# \t]/ { n++; $1 = "fault" n } { print }' $list; }
 plant() {
-    awk '/^[^-+# \t]/ { n++; $1 = "fault" n } { print }' $list >$work/list.txt
-    sh test/data/mutants/apply.sh $work/list.txt "fault$1" $work/tree
+    numbered >$work/list.txt
+    sh test/data/mutants/apply.sh $work/list.txt "fault$1" $work/tree >&2
 }
 
 # judge SUITE: with what z it finds what is planted; "exact" if a fact fails, 0 if nothing does; the median of SEEDS.
@@ -63,7 +64,7 @@ wanted() {
 row() {
     file=$(field "$1" 2)
     cp "$work/tree/$file" $work/saved
-    plant "$1" || return
+    plant "$1" || exit 1
     rm -f $work/seen.txt
     for size in $SIZES; do
         for suite in $(field "$1" 3 | tr , ' '); do
@@ -88,6 +89,12 @@ row() {
     done
 }
 
+if [ "${1-}" = check ]; then
+    work=$(mktemp -d) && numbered >"$work/list.txt" && sh test/data/mutants/apply.sh check "$work/list.txt"
+    status=$?
+    rm -rf "$work"
+    exit $status
+fi
 mkdir -p $work/tree
 cp -Rp Makefile src test scenes ref doc $work/tree/
 make -s -j2 -C $work/tree ${CC:+"CC=$CC"} LTO= build/test || exit 1

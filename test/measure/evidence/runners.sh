@@ -11,7 +11,7 @@ chosen() {
     shift 3
     awk -F , -v name="$name" '$1 == name && $2 ~ /^(asbdpt|subspaces)$/ { print $4 }' "doc/measured/$entry.csv" | sort -u |
         while read -r seed; do
-            ./asbdpt-lab info --race "$scene" "$@" --seed "$seed" --quiet |
+            ./asbdpt-lab info --race "$scene" "$@" --filter box --seed "$seed" --quiet |
                 awk -v row="$entry $name $seed" '/ chosen$/ { print row, $1 }'
         done
 }
