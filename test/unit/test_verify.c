@@ -130,8 +130,8 @@ static struct batches rare(struct rng *r, double chance, double scale)
 }
 
 /* Two sides of one expectation, of which one has rare samples, half of a sample in a tile at least: one in a hundred
- * may DIFFER at the level .001, where Welch's test alone has a quarter of them. A tile that is half as bright again, or
- * black, is found. */
+ * may DIFFER at the level .001, where Welch's test alone has a quarter of them. A tile that is black is found, one that
+ * is half as bright again nine times of ten. Limits are those that one seed in 5,000 breaks. */
 static void test_rare(struct test *t)
 {
     enum { TRIALS = 80, FAULTS = 10 };
@@ -150,9 +150,9 @@ static void test_rare(struct test *t)
         }
         batches_free(&a);
     }
-    CHECK(t, differ <= 1 && welch > TRIALS / 4, "equal but for rare samples: %d of %d DIFFER, %d by Welch's test alone",
+    CHECK(t, differ <= 5 && welch > TRIALS / 4, "equal but for rare samples: %d of %d DIFFER, %d by Welch's test alone",
           differ, TRIALS, welch);
-    CHECK(t, found[0] == FAULTS && found[1] == FAULTS, "of %d faults %d and %d are found", FAULTS, found[0], found[1]);
+    CHECK(t, found[0] >= FAULTS / 2 && found[1] == FAULTS, "of %d faults %d and %d are found", FAULTS, found[0], found[1]);
 }
 
 /* A picture with its standard errors against batches. */
