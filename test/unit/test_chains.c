@@ -179,7 +179,7 @@ static void test_rare_lamp(struct test *t, const char *const *methods)
         "Shape \"sphere\" \"float radius\" .1\nAttributeEnd\n"
         "LightSource \"spot\" \"point from\" [0 .9 0] \"point to\" [0 -1 .1] \"rgb I\" [3e3 3e3 3e3]\n"
         "\"float coneangle\" 1 \"float conedeltaangle\" .1\nWorldEnd\n";
-    static const char *const STATES[] = {"256", "400000"};
+    static const char *const STATES[] = {"1", "400000"};
     struct scene scene;
     if (!scene_from_text(t, room, &scene))
         return;
