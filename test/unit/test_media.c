@@ -12,7 +12,7 @@ static const struct {
     double planted;
     const char *quick, *pooled, *chains; /* methods, and pt: */
     int pt;                              /* so many times the samples */
-} SCENES[] = {{"scenes/media/fog-cornell", 6, 8, 0.4, "lt, asbdpt", "lt, " POOLED, "pssmlt, mmlt", 4},
+} SCENES[] = {{"scenes/media/fog-cornell", 6, 12, 0.3, "lt, asbdpt", "lt, " POOLED, "pssmlt, mmlt", 4},
               {"scenes/media/laser", 5, 8, 0.5, "lt, asbdpt", "lt, " POOLED, "pssmlt, mmlt", 0},
               {"scenes/media/milk-ball", 8, 8, 0.25, "asbdpt", POOLED, "pssmlt", 4},
               {"scenes/media/murky-water", 8, 16, 0.8, "", POOLED, "pssmlt", 4},

@@ -56,7 +56,7 @@ static const struct agreement EXPECTATIONS[] = {
     {"scenes/test/mirror-glass", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0.1},
     {"scenes/test/all-materials", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0.1},
     {"scenes/test/light-kinds", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0.2},
-    {"scenes/test/mirror-glass", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0.4},
+    {"scenes/test/mirror-glass", 24, 24, 4, "pt", SHARED, 16, 16, 12, 12, true, 0.2},
     {"scenes/test/all-materials", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0.2},
     {SLOPE, 0, 0, 4, "pt", "restirgi neighbours=8", 1024, 1024, 16, 1, false, 0.1},
     {LAMP, 0, 0, 4, "pt", "ppg cell=50, ppg cell=1000 heuristic=power", 16, 16, 16, 32, false, 0.15}};
