@@ -194,7 +194,7 @@ static void print_verdict(const struct verdict *v, const struct side *a, const s
     long most = 1, across = (a->width + tile - 1) / tile;
     printf("A  %-24s mean %.6g +- %.2g\n", a->name, mean_a, error_a);
     printf("B  %-24s mean %.6g +- %.2g\n", b->name, mean_b, error_b);
-    printf("Welch's p-values of A = B, %ld tiles and channels (uniform if all are equal and no sample is rare)\n", v->n);
+    printf("Welch's p-values of A = B, %ld tiles and channels (uniform if all are equal and none is rare)\n", v->n);
     for (int i = 0; i < VERIFY_BARS; i++)
         most = v->bar[i] > most ? v->bar[i] : most;
     for (int i = 0; i < VERIFY_BARS; i++)

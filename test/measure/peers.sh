@@ -11,13 +11,7 @@
 # A sample path costs what more samples cost, so that reading and building are not in it: the least of three runs, of
 # all programs in turn.
 set -u
-absolute() { case $1 in /* | "") echo "$1" ;; *) echo "$PWD/$1" ;; esac; }
-PEERS=$(absolute "${PEERS-}")
-PUBLISHED=$(absolute "${PUBLISHED-}")
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-pbrt=$PEERS/pbrt
-[ -x "$pbrt" ] || pbrt=$PEERS/pbrt-v3/build/pbrt
+. test/measure/pbrt.sh
 smallvcm=$PEERS/smallvcm
 [ -x "$smallvcm" ] || smallvcm=$PEERS/SmallVCM/smallvcm
 
@@ -47,11 +41,7 @@ peak() {
 }
 # The commands: theirs and ours, with SAMPLES and THREADS. job has SCENE, its size and depth, and where it lies.
 pbrt_run() {
-    sed -E -e "s/^Integrator .*/Integrator \"bdpt\" \"integer maxdepth\" $depth/" \
-        -e "s/^Sampler .*/Sampler \"random\" \"integer pixelsamples\" $1/" -e 's/^PixelFilter .*/PixelFilter "box"/' \
-        -e "s/^Film .*/Film \"image\" \"string filename\" \"x.exr\"/" \
-        -e "/^Film/s/\$/ \"integer xresolution\" $width \"integer yresolution\" $height/" \
-        "$PUBLISHED/$scene/scene.pbrt" >"$dir/$scene/run.pbrt"
+    pbrt_scene bdpt "$1"
     (cd "$dir/$scene" && "$3" "$pbrt" --quiet --nthreads="$2" run.pbrt)
 }
 small_run() { (cd "$dir" && OMP_NUM_THREADS=$2 "$3" "$smallvcm" -s 1 -a bpt -i "$1" -o x.bmp); }
@@ -84,18 +74,12 @@ measure() {
     out=$1/peers.txt
     mkdir -p "$1"
     touch "$out"
-    while read -r scene width height depth; do
+    while read -r scene width height depth _; do
         file=$PUBLISHED/$scene/scene.pbrt
         [ -x "$pbrt" ] && [ -f "$file" ] || { echo "pbrt-v3, $scene: not there" >&2; continue; }
-        mkdir -p "$dir/$scene"
-        for entry in "$PUBLISHED/$scene"/*; do ln -s "$entry" "$dir/$scene/"; done
         compare pbrt-v3 pbrt_run 1 9
     done <<SCENES
-cornell-box 128 128 6
-cornell-box-modified 128 128 6
-veach-ajar 160 90 8
-bathroom 128 128 8
-living-room 160 90 8
+$(published_scenes)
 SCENES
     scene=smallvcm-1 width=512 height=512 depth=9 file=scenes/test/smallvcm-1.pbrt
     if [ -x "$smallvcm" ]; then compare SmallVCM small_run 1 3; else echo "SmallVCM: not there" >&2; fi

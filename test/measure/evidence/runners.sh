@@ -3,7 +3,8 @@
 # scenes, sizes and seeds: lines "ENTRY SCENE SEED RUNNER" of DIR/runners.txt. Sets of scenes that are not there are left
 # out. Needs build/test.
 set -e
-mkdir -p "$1/scenes"
+out=$1
+mkdir -p "$out/scenes"
 
 # chosen ENTRY SCENE OPTIONS...: of each seed that doc/measured/ENTRY.csv has of the default in this scene.
 chosen() {
@@ -11,8 +12,8 @@ chosen() {
     shift 3
     awk -F , -v name="$name" '$1 == name && $2 ~ /^(asbdpt|subspaces)$/ { print $4 }' "doc/measured/$entry.csv" | sort -u |
         while read -r seed; do
-            ./asbdpt-lab info --race "$scene" "$@" --filter box --seed "$seed" --quiet |
-                awk -v row="$entry $name $seed" '/ chosen$/ { print row, $1 }'
+            ./asbdpt-lab info --race "$scene" "$@" --filter box --seed "$seed" --quiet >"$out/info"
+            awk -v row="$entry $name $seed" '/ chosen$/ { print row, $1 }' "$out/info"
         done
 }
 names() { awk -F , 'NR > 1 && !seen[$1]++ { print $1 }' "doc/measured/$1.csv"; }
@@ -26,7 +27,7 @@ names() { awk -F , 'NR > 1 && !seen[$1]++ { print $1 }' "doc/measured/$1.csv"; }
         chosen others "$OTHERS/$name/scene.pbrt" "$name" --res 160
     done
     for name in $(names structures); do
-        build/test --structure "${name%%-*}" >"$1/scenes/$name.pbrt"
-        chosen structures "$1/scenes/$name.pbrt" "$name" --res 96x72
+        build/test --structure "${name%%-*}" >"$out/scenes/$name.pbrt"
+        chosen structures "$out/scenes/$name.pbrt" "$name" --res 96x72
     done
-} >"$1/runners.txt" 2>"$1/said"
+} >"$out/runners.txt" 2>"$out/said"
