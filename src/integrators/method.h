@@ -69,7 +69,7 @@ struct runner {
     bool plain; /* lights are chosen by power */
     double variance, price; /* of a sample: relative to the square of the pixel's brightness; any unit */
 };
-enum { MAX_RUNNERS = 6 };
+enum { MAX_RUNNERS = 5 };
 
 /* A method that is ready to render. It does not change while it renders. */
 struct prepared {

@@ -73,7 +73,7 @@ static void joined(void *context, const struct sample *sample, const struct join
     double x = fabs(rgb_luminance(p->added)); /* that signs of a filter differ is no noise of an image (filter.h) */
     if (l->turn == FIRST && p->t > 1 && p->s > 0)
         l->tally.count[(p->s == 1 ? FIRST_POINT : FIRST_DRAW) + !first]++;
-    if (!(rgb_luminance(p->c->value) > 0) || !fits_float(x))
+    if (!(rgb_luminance(p->c->value) > 0) || !fits_float(x) || p->s + p->t == 2)
         return; /* in every turn */
     if (l->turn > FIRST) {
         if (l->next >= l->n)
@@ -245,17 +245,16 @@ static bool path_tracer_sees_all(const struct scene *scene)
 
 static void add_runners(const struct scene *scene, struct prepared *p)
 {
-    struct numbers all = p->numbers, quarter = all, first = all, quarter_first, guided = all;
+    struct numbers all = p->numbers, quarter = all, quarter_first, guided = all;
     quarter.path_pixels *= 4;
-    first.draws[FIRST_HIT] = all.draws[FIRST_HIT] > 0;
-    first.draws[LATER_HIT] = 0;
-    quarter_first = first;
-    quarter_first.path_pixels *= 4;
+    quarter_first = quarter;
+    quarter_first.draws[FIRST_HIT] = all.draws[FIRST_HIT] > 0;
+    quarter_first.draws[LATER_HIT] = 0;
     guided.path_pixels = 0;
     const struct runner runner[MAX_RUNNERS] = {
         {.name = "race_all", .numbers = all}, {.name = "race_quarter", .numbers = quarter},
-        {.name = "race_first", .numbers = first}, {.name = "race_quarter_first", .numbers = quarter_first},
-        {.name = "race_guided", .numbers = guided}, {.name = "race_plain", .numbers = NUMBERS_OF_PT, .plain = true}};
+        {.name = "race_quarter_first", .numbers = quarter_first}, {.name = "race_guided", .numbers = guided},
+        {.name = "race_plain", .numbers = NUMBERS_OF_PT, .plain = true}};
     bool sees_all = path_tracer_sees_all(scene);
     for (int i = 0; i < MAX_RUNNERS; i++)
         if (runner[i].numbers.path_pixels > 0 || sees_all)

@@ -15,7 +15,8 @@
  * Few contributions of more than FIREFLY times the brightness of their pixel would decide everything. Their squares are
  * replaced by a line, as in the loss of [Huber 1964]. Direct light at a first hit has less variance than its second
  * moment says, since its samples are stratified. Its growth is multiplied by the share that is variance. A path tracer
- * that chooses lights by power has other direct light, so it takes samples of its own.
+ * that chooses lights by power has other direct light, so it takes samples of its own. Light that the camera sees
+ * directly is left out: it is the same for all runners, and a pixel on the edge of a lamp would hide all other noise.
  *
  * The runner of the least variance times price wins. The price counts vertices and connections, so the same runner wins
  * on every machine.

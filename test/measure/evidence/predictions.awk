@@ -5,7 +5,7 @@
 function runner_of(label) {
     few = label ~ /later=0/
     return label == "pt" ? "plain" : label ~ /pathpixels=0/ ? "guided" : \
-        label ~ /pathpixels=4/ ? (few ? "quarter_first" : "quarter") : few ? "first" : "all"
+        few ? "quarter_first" : label ~ /pathpixels=4/ ? "quarter" : "all"
 }
 function keep(name, s, value) {
     if (value ~ /^[0-9]/ && value !~ /[a-z]/) error[name, s, runner] = value + 0
@@ -33,7 +33,7 @@ FILENAME ~ /runs.csv$/ {
     for (i = 3; i <= columns; i++) keep(measure, name[i], cell[i])
 }
 END {
-    kinds = split("all quarter first quarter_first guided plain", runners, " ")
+    kinds = split("all quarter quarter_first guided plain", runners, " ")
     for (k = 1; k <= n; k++) {
         s = scene[k]; sum = count = 0
         for (i = 1; i <= kinds; i++)
