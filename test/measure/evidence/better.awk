@@ -39,10 +39,27 @@ function cells(group, names,    m, text) {
             names ? " `" where_most[group, m] "`" : "", above[group, m])
     return text
 }
-# answers: of a group the sections better-MEASURE and losses-MEASURE, their names after `before`.
+# two: a number in two digits: 0.59, 1.2, 12, 490,000.
+function two(v,    unit, text) {
+    if (v < 9.95) return sprintf(v < 0.995 ? "%.2f" : "%.1f", v)
+    for (unit = 1; v / unit >= 99.5; unit *= 10) ;
+    text = sprintf("%.0f", sprintf("%.0f", v / unit) * unit)
+    while (match(text, /^[0-9]+[0-9][0-9][0-9]($|,)/)) text = commas(text)
+    return text
+}
+function commas(text,    first) {
+    match(text, /^[0-9]+/); first = RLENGTH - 3
+    return substr(text, 1, first) "," substr(text, first + 1)
+}
+# worst: of a group, by all measures.
+function worst_of(group) {
+    return two(most[group, 1]) " (mse8), " two(most[group, 2]) " (relmse) and " two(most[group, 3]) " (8x8)"
+}
+# answers: of a group the sections better-MEASURE, losses-MEASURE and worst, their names after `before`.
 function answers(group, before,    m, name) {
     split("mse8 relmse 8x8", name, " ")
     for (m = 1; m <= 3; m++)
         printf "== %sbetter-%s\n%s\n== %slosses-%s\n%d of %d\n", before, name[m], interval(group, m), before, name[m],
             above[group, m], number[group, m]
+    printf "== %sworst\n%s\n", before, worst_of(group)
 }

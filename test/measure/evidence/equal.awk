@@ -52,6 +52,22 @@ function sizes(    i, f, m, q, line, mean, sum, count) {
     for (f = 1; f <= 2; f++) for (m = 1; m <= 3; m++) mean = mean sprintf(" %.2f |", exp(sum[f, m] / count[f, m]))
     print mean
 }
+# rest: of a kind of scenes, by relmse and 8x8, all and without the two that are worst by relmse.
+function rest(k,    i, j, m, worst, sum, left) {
+    for (i = 1; i <= n; i++) if (kind[scene[i]] == k) {
+        j = over(file, "relmse", i) > (worst[1] ? over(file, "relmse", worst[1]) : 0) ? 1 : \
+            over(file, "relmse", i) > (worst[2] ? over(file, "relmse", worst[2]) : 0) ? 2 : 0
+        if (j == 1) worst[2] = worst[1]
+        if (j) worst[j] = i
+    }
+    for (m = 2; m <= 3; m++) {
+        sum[m] = logs[k, m]; left[m] = number[k, m]
+        for (j = 1; j <= 2; j++) { sum[m] -= log(over(file, name[m], worst[j])); left[m]-- }
+    }
+    printf "== %s-rest\n%s (relmse) and %s (8x8); without `%s` and `%s`, the worst by relmse, %s and %s\n", k,
+        two(mean_of(k, 2)), two(mean_of(k, 3)), scene[worst[1]], scene[worst[2]], two(exp(sum[2] / left[2])),
+        two(exp(sum[3] / left[3]))
+}
 END {
     if (!n) exit 1
     split("mse8 relmse 8x8", name, " ")
@@ -78,6 +94,9 @@ END {
     answers("all", "")
     if (file > 1) { sizes(); answers("first", "first-") }
     if (rows) halves()
+    if (rows) printf "== unseen\n%s (relmse) and %s (8x8)\n", two(mean_of("not used for tuning", 2)),
+        two(mean_of("not used for tuning", 3))
+    for (k in count) if (k != "" && number[k, 2] > 3) rest(k)
     for (k in count) if (k != "") printf "== %s\n%.2f (%.2f with the better of `bdpt` and `pt`; %d scenes)\n", k,
         mean_of("bdpt " k, 1), mean_of(k, 1), number[k, 1]
 }

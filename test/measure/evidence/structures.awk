@@ -56,6 +56,7 @@ END {
     printf "== sure\nis below 1 in %d scenes by mse8, %d by relmse, %d by 8x8; above 1 in %d, %d, %d.\n", better[1], better[2], \
         better[3], worse[1], worse[2], worse[3]
     answers("**all**", "")
+    for (j = 1; j < kinds; j++) printf "== worst-%s\n%s\n", order[j], worst_of(order[j])
     printf "== data\n%s", data
     if (mean && mean_of("**all**", 1) > mean) {
         bad = 1
