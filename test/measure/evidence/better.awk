@@ -61,5 +61,5 @@ function answers(group, before,    m, name) {
     for (m = 1; m <= 3; m++)
         printf "== %sbetter-%s\n%s\n== %slosses-%s\n%d of %d\n", before, name[m], interval(group, m), before, name[m],
             above[group, m], number[group, m]
-    printf "== %sworst\n%s\n", before, worst_of(group)
+    printf "== %sworst\n%s\n== %sworst-relmse\n%s\n", before, worst_of(group), before, two(most[group, 2])
 }

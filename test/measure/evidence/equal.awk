@@ -3,12 +3,15 @@
 # scene; better-... and losses-..., see better.awk. Of two files, with 16 and 64 samples: sizes, the same by scenes, a
 # line where learning left no time for a sample; and first-better-..., first-losses-... of the first. With -v kinds=,
 # a file of scenes and their kinds, a section for each kind: both means; and halves, of the scenes that nothing was
-# chosen on, every second of the file from the first, and of the others.
+# chosen on, every second of the file from the first, and of the others. With -v runners=, runners.txt, light: the mean
+# of the scenes that not all seeds render by a path tracer.
 BEGIN {
     while (kinds != "" && (getline < kinds) > 0) {
         kind[$1] = $2
         if (!/^#/) half[$1] = ++rows % 2 ? "not used for tuning" : "used for tuning"
     }
+    while (runners != "" && (getline < runners) > 0)
+        if (/^\| others \| [^ ]+ \|( guided| plain)+ \|$/) { tracer[$4]; traced++ }
 }
 function halves(    h, of) {
     print "== halves\n| scenes | number | mse8 | worst | above 1 | relmse | worst | above 1 | 8x8 | worst | above 1 |"
@@ -34,7 +37,6 @@ measure == "" { next }
     m = split($0, c, / *\| */)
     for (i = 3; i < m; i++) value[file, c[2], measure, i - (measure == "summary" ? 0 : 2)] = c[i]
 }
-function bold(s) { sub(/^[^ ]+/, "**&**", s); return s }
 function sizes(    i, f, m, q, line, mean, sum, count) {
     print "== sizes\n| scene | 16: mse8 | relmse | 8x8 | 64: mse8 | relmse | 8x8 |"
     print "|---|---:|---:|---:|---:|---:|---:|"
@@ -74,7 +76,7 @@ END {
     print "== table\n| scene | pt, mse8 | asbdpt, mse8 | asbdpt, relmse | asbdpt, 8x8 |\n|---|---:|---:|---:|---:|"
     best = 1
     for (i = 1; i <= n; i++) {
-        print "| " scene[i] " | " cell("pt", "mse8", i) " | " bold(cell("subspaces", "mse8", i)) " | " \
+        print "| " scene[i] " | " cell("pt", "mse8", i) " | " cell("subspaces", "mse8", i) " | " \
             cell("subspaces", "relmse", i) " | " cell("subspaces", "8x8", i) " |"
         k = kind[scene[i]]; count[k]++
         q[i] = cell("subspaces", "mse8", i) ~ /^[0-9]/ ? least(cell("subspaces", "mse8", i)) : 0
@@ -85,15 +87,17 @@ END {
             take("all", m, scene[i], over(file, name[m], i))
             take(k, m, scene[i], over(file, name[m], i))
             take(half[scene[i]], m, scene[i], over(file, name[m], i))
+            if (!(scene[i] in tracer)) take("light", m, scene[i], over(file, name[m], i))
         }
     }
-    print "| **geometric mean** | " cell("pt", "summary", 4) " | " bold(cell("subspaces", "summary", 4)) " | " \
+    print "| **geometric mean** | " cell("pt", "summary", 4) " | " cell("subspaces", "summary", 4) " | " \
         cell("subspaces", "summary", 5) " | " cell("subspaces", "summary", 6) " |"
     printf "== mean\n%s\n== without\n%.2f without `%s`\n", interval("bdpt", 1), \
         exp((logs["bdpt", 1] - log(q[best])) / (number["bdpt", 1] - 1)), scene[best]
     answers("all", "")
     if (file > 1) { sizes(); answers("first", "first-") }
     if (rows) halves()
+    if (traced) printf "== light\n%.2f\n", mean_of("light", 1)
     if (rows) printf "== unseen\n%s (relmse) and %s (8x8)\n", two(mean_of("not used for tuning", 2)),
         two(mean_of("not used for tuning", 3))
     for (k in count) if (k != "" && number[k, 2] > 3) rest(k)

@@ -53,6 +53,8 @@ END {
     printf "Marks: `bdpt` in %d, `pt` in %d, `asbdpt`%s. No number: by mse8 in %d, by relmse in %d, by 8x8 in %d.\n", \
         first_marked, missed, dark ? dark : " in none", lost["**all**", 1], lost["**all**", 2], lost["**all**", 3]
     print "== mean\n" interval("over bdpt", 1)
+    for (j = 1; j < kinds; j++) for (m = 1; m <= 3; m++) take("kinds", m, order[j], mean_of(order[j], m))
+    printf "== by-kind\n%s (mse8), %s (relmse) and %s (8x8)\n", interval("kinds", 1), interval("kinds", 2), interval("kinds", 3)
     printf "== sure\nis below 1 in %d scenes by mse8, %d by relmse, %d by 8x8; above 1 in %d, %d, %d.\n", better[1], better[2], \
         better[3], worse[1], worse[2], worse[3]
     answers("**all**", "")

@@ -1,0 +1,42 @@
+# robust.awk: of runs.csv of `asbdpt-lab family` or `equal-time`, what does not depend on single bright samples or on
+# prices: median, asbdpt over the better of bdpt and pt, where each method has the median of its seeds in a scene;
+# time, the CPU time that asbdpt took over that of bdpt.
+BEGIN { FS = "," ; split("mse8 relmse relmse8x8", square, " ") }
+FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+{
+    s = $at["scene"]; l = $at["label"] == "asbdpt" ? "subspaces" : $at["label"]
+    if (!(s in known)) { known[s]; scene[++scenes] = s }
+    i = ++seeds[l, s]
+    if (l == "bdpt") time[s, i] = $at["price_before"] + $at["spp"]
+    afforded = (time[s, i] - $at["price_before"]) / $at["price_each"]
+    for (k = 1; k <= 3; k++) error[l, s, k, i] = afforded >= 1 ? $at[square[k]] * $at["spp"] / afforded : -1
+    seconds[l, s] += $at["seconds"]
+    marked[l, s] = $at["mark"]
+}
+function median(l, s, k,    n, i, j, x, y) { # of a method's seeds, by insertion
+    n = seeds[l, s]
+    for (i = 1; i <= n; i++) {
+        y = error[l, s, k, i]
+        for (j = i - 1; j >= 1 && x[j] > y; j--) x[j + 1] = x[j]
+        x[j + 1] = y
+    }
+    return n % 2 ? x[(n + 1) / 2] : (x[n / 2] + x[n / 2 + 1]) / 2
+}
+END {
+    for (j = 1; j <= scenes; j++) {
+        s = scene[j]
+        ratio = seconds["subspaces", s] / seconds["bdpt", s]
+        log_time += log(ratio) / scenes
+        most = ratio > most ? ratio : most
+        for (k = 1; k <= 3; k++) {
+            ours = median("subspaces", s, k); better = median("bdpt", s, k); pt = median("pt", s, k)
+            if ((marked["pt", s] == "" || marked["subspaces", s] != "") && pt > 0 && pt < better) better = pt
+            if (ours <= 0 || better <= 0) continue
+            logs[k] += log(ours / better); n[k]++; above[k] += ours > better
+        }
+    }
+    if (!scenes || !n[1] || !n[2] || !n[3]) exit 1
+    printf "== median\n%.2f (mse8), %.2f (relmse) and %.2f (8x8), with more error in %d, %d and %d scenes\n", exp(logs[1] / n[1]),
+        exp(logs[2] / n[2]), exp(logs[3] / n[3]), above[1], above[2], above[3]
+    printf "== time\n%.0f %% more CPU time than `bdpt` (at most %.0f %%)\n", 100 * (exp(log_time) - 1), 100 * (most - 1)
+}
