@@ -98,8 +98,8 @@ END {
     if (file > 1) { sizes(); answers("first", "first-") }
     if (rows) halves()
     if (traced) printf "== light\n%.2f\n", mean_of("light", 1)
-    if (rows) printf "== unseen\n%s (relmse) and %s (8x8)\n", two(mean_of("not used for tuning", 2)),
-        two(mean_of("not used for tuning", 3))
+    if (rows) printf "== unseen\n%s (mse8), %s (relmse) and %s (8x8)\n", two(mean_of("not used for tuning", 1)),
+        two(mean_of("not used for tuning", 2)), two(mean_of("not used for tuning", 3))
     for (k in count) if (k != "" && number[k, 2] > 3) rest(k)
     for (k in count) if (k != "") printf "== %s\n%.2f (%.2f with the better of `bdpt` and `pt`; %d scenes)\n", k,
         mean_of("bdpt " k, 1), mean_of(k, 1), number[k, 1]
