@@ -4,7 +4,7 @@
 #                                            DIR: default build-tune
 # Every variant renders the training scenes with SPP samples by SEEDS. Beside each other stand its squared error and its
 # CPU time, both relative to the tree as it is, seed by seed; of a scene the time is the least of its seeds'. What DIR
-# holds already is not made again: references (of which several DIRs may share one, REFERENCES) and programs stay, and
+# holds already is not made again: references (of which several DIRs may share one, TRUTH) and programs stay, and
 # renders are lines of DIR/runs.txt. The table goes to DIR/tune.md. The scenes and seeds on which a claim is made are
 # others (doc/results.md).
 list=test/lab/tune.txt
@@ -14,7 +14,7 @@ names="as-it-is ${*:-$(awk '/^[^-+# \t]/ && NF > 3 { print $1 }' $list)}"
 SCENES=${SCENES:-cornell-box bathroom living-room caustic-glass many-lights sky forest spot features/light-point \
     features/light-infinite}
 SEEDS=${SEEDS:-61 62 63} SPP=${SPP:-64} RES=${RES:-72x48} REFERENCE_SPP=${REFERENCE_SPP:-1024}
-REFERENCES=${REFERENCES:-$dir/reference}
+TRUTH=${TRUTH:-$dir/reference}
 
 # build NAME: its program is DIR/programs/NAME. The tree is then as it was, and make sees by its dates what was another.
 build() {
@@ -38,7 +38,7 @@ render() {
 
 # measure NAME SCENE SEED: a line "NAME SCENE SEED rmse8 relmse blocks seconds" of runs.txt.
 measure() {
-    reference=$REFERENCES/$(echo "$2" | tr / -).pfm picture=$dir/$1-$3.pfm
+    reference=$TRUTH/$(echo "$2" | tr / -).pfm picture=$dir/$1-$3.pfm
     grep -q "^$1 $2 $3 " "$dir/runs.txt" && return
     [ -f "$reference" ] || {
         render as-it-is "$2" 1 "$REFERENCE_SPP" "$picture" && mv "$picture" "$reference" # only if it is complete
@@ -51,7 +51,7 @@ measure() {
     rm "$picture" "$picture.json"
 }
 
-mkdir -p "$dir/tree" "$dir/programs" "$REFERENCES"
+mkdir -p "$dir/tree" "$dir/programs" "$TRUTH"
 touch "$dir/runs.txt"
 cp -R Makefile src test "$dir/tree/"
 for name in asbdpt-lab $names; do
