@@ -54,6 +54,11 @@ function sizes(    i, f, m, q, line, mean, sum, count) {
     for (f = 1; f <= 2; f++) for (m = 1; m <= 3; m++) mean = mean sprintf(" %.2f |", exp(sum[f, m] / count[f, m]))
     print mean
 }
+# without: the mean over the better without the scene that is best by relmse.
+function without(m,    v) {
+    v = over(file, name[m], best)
+    return exp((logs["all", m] - (v > 0 ? log(v) : 0)) / (number["all", m] - (v > 0)))
+}
 # rest: of a kind of scenes, by relmse and 8x8, all and without the two that are worst by relmse.
 function rest(k,    i, j, m, worst, sum, left) {
     for (i = 1; i <= n; i++) if (kind[scene[i]] == k) {
@@ -94,6 +99,8 @@ END {
         cell("subspaces", "summary", 5) " | " cell("subspaces", "summary", 6) " |"
     printf "== mean\n%s\n== without\n%.2f without `%s`\n", interval("bdpt", 1), \
         exp((logs["bdpt", 1] - log(q[best])) / (number["bdpt", 1] - 1)), scene[best]
+    for (i = best = 1; i <= n; i++) if (over(file, "relmse", i) > 0 && over(file, "relmse", i) < over(file, "relmse", best)) best = i
+    printf "== without-relmse\n%s (relmse) and %s (8x8) without `%s`\n", two(without(2)), two(without(3)), scene[best]
     answers("all", "")
     if (file > 1) { sizes(); answers("first", "first-") }
     if (rows) halves()

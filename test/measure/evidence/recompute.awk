@@ -65,6 +65,7 @@ section ~ /^(choice|services)$/ && /^\| / {
 function over_better(h, ours, s, k,    a, b, p) {
     a = sum[h, ours, s, k]; b = sum[h, "bdpt", s, k]; p = sum[h, "pt", s, k]
     if (a <= 0 || b <= 0 || s in unknown) return 0
+    if (a < 0.0005 * b) a = 0.0005 * b # as it is printed
     return a / (p > 0 && p < b && (mark["pt", s] == "" || mark[ours, s] != "") ? p : b)
 }
 section == "data" && split($0, c, " ") == 10 { # of structures.awk
