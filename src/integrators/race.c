@@ -64,7 +64,7 @@ static void joined(void *context, const struct sample *sample, const struct join
 {
     struct lap *l = context;
     bool first = p->t > 1 && (p->s == 0 ? p->z - 1 : p->z)->eye_end == FIRST_HIT; /* s = 0: z is on the light */
-    bool direct = first && p->s <= 1 && p->s + p->t > 2;
+    bool direct = first && p->s <= 1;
     enum turn half = p->t == 1 ? HALF_SPLATS : p->s <= 1 ? TURNS : first ? HALF_FIRST_DRAWS : HALF_LATER_DRAWS;
     struct pixel_rect film = l->pixels.rect; /* a splat next to the film counts at its edge */
     int x_seen = p->t == 1 ? int_within(floor(p->c->px), film.x0, film.x1 - 1) : sample->x;

@@ -1,9 +1,11 @@
 # equal.awk, after better.awk: sections of doc/measured from family.md of `asbdpt-lab family`, where the default is
 # called subspaces. Of the last file: table, a row for each scene; mean: that alone; without: the mean without the best
-# scene; better-... and losses-..., see better.awk. Of two files, with 16 and 64 samples: sizes, the same by scenes, a
+# scene; without-relmse: those over the better without the best by relmse; better-..., losses-... and worst, see
+# better.awk. With -v say=SCENE, SCENE: mse8 over bdpt. Of two files, with 16 and 64 samples: sizes, the same by scenes, a
 # line where learning left no time for a sample; and first-better-..., first-losses-... of the first. With -v kinds=,
-# a file of scenes and their kinds, a section for each kind: both means; and halves, of the scenes that nothing was
-# chosen on, every second of the file from the first, and of the others. With -v runners=, runners.txt, light: the mean
+# a file of scenes and their kinds, a section for each kind: both means; KIND-rest, without its two worst scenes; and
+# halves, of the scenes that nothing was chosen on, every second of the file from the first, and of the others; unseen,
+# the first of these in words. With -v runners=, runners.txt, light: the mean
 # of the scenes that not all seeds render by a path tracer.
 BEGIN {
     while (kinds != "" && (getline < kinds) > 0) {
@@ -54,26 +56,21 @@ function sizes(    i, f, m, q, line, mean, sum, count) {
     for (f = 1; f <= 2; f++) for (m = 1; m <= 3; m++) mean = mean sprintf(" %.2f |", exp(sum[f, m] / count[f, m]))
     print mean
 }
-# without: the mean over the better without the scene that is best by relmse.
-function without(m,    v) {
-    v = over(file, name[m], best)
-    return exp((logs["all", m] - (v > 0 ? log(v) : 0)) / (number["all", m] - (v > 0)))
+# mean_but: of a group over the better, without scenes i and j (0: none), in two digits.
+function mean_but(group, m, i, j,    v, w) {
+    v = over(file, name[m], i); w = j ? over(file, name[m], j) : 0
+    return two(exp((logs[group, m] - (v > 0 ? log(v) : 0) - (w > 0 ? log(w) : 0)) / \
+        (number[group, m] - (v > 0) - (w > 0))))
 }
 # rest: of a kind of scenes, by relmse and 8x8, all and without the two that are worst by relmse.
-function rest(k,    i, j, m, worst, sum, left) {
-    for (i = 1; i <= n; i++) if (kind[scene[i]] == k) {
-        j = over(file, "relmse", i) > (worst[1] ? over(file, "relmse", worst[1]) : 0) ? 1 : \
-            over(file, "relmse", i) > (worst[2] ? over(file, "relmse", worst[2]) : 0) ? 2 : 0
-        if (j == 1) worst[2] = worst[1]
-        if (j) worst[j] = i
-    }
-    for (m = 2; m <= 3; m++) {
-        sum[m] = logs[k, m]; left[m] = number[k, m]
-        for (j = 1; j <= 2; j++) { sum[m] -= log(over(file, name[m], worst[j])); left[m]-- }
+function rest(k,    i, v, worst, next_worst) {
+    for (i = 1; i <= n; i++) if (kind[scene[i]] == k && (v = over(file, "relmse", i)) > 0) {
+        if (!worst || v > over(file, "relmse", worst)) { next_worst = worst; worst = i }
+        else if (!next_worst || v > over(file, "relmse", next_worst)) next_worst = i
     }
     printf "== %s-rest\n%s (relmse) and %s (8x8); without `%s` and `%s`, the worst by relmse, %s and %s\n", k,
-        two(mean_of(k, 2)), two(mean_of(k, 3)), scene[worst[1]], scene[worst[2]], two(exp(sum[2] / left[2])),
-        two(exp(sum[3] / left[3]))
+        two(mean_of(k, 2)), two(mean_of(k, 3)), scene[worst], scene[next_worst], mean_but(k, 2, worst, next_worst),
+        mean_but(k, 3, worst, next_worst)
 }
 END {
     if (!n) exit 1
@@ -99,8 +96,12 @@ END {
         cell("subspaces", "summary", 5) " | " cell("subspaces", "summary", 6) " |"
     printf "== mean\n%s\n== without\n%.2f without `%s`\n", interval("bdpt", 1), \
         exp((logs["bdpt", 1] - log(q[best])) / (number["bdpt", 1] - 1)), scene[best]
-    for (i = best = 1; i <= n; i++) if (over(file, "relmse", i) > 0 && over(file, "relmse", i) < over(file, "relmse", best)) best = i
-    printf "== without-relmse\n%s (relmse) and %s (8x8) without `%s`\n", two(without(2)), two(without(3)), scene[best]
+    for (i = 1; i <= n; i++) if (scene[i] == say) printf "== %s\n%s\n", say, cell("subspaces", "mse8", i)
+    best = 0
+    for (i = 1; i <= n; i++)
+        if ((v = over(file, "relmse", i)) > 0 && (!best || v < over(file, "relmse", best))) best = i
+    printf "== without-relmse\n%s (relmse) and %s (8x8) without `%s`\n", mean_but("all", 2, best),
+        mean_but("all", 3, best), scene[best]
     answers("all", "")
     if (file > 1) { sizes(); answers("first", "first-") }
     if (rows) halves()

@@ -72,9 +72,10 @@ function over_better(h, ours, s, k,    a, b, p) {
     if ((s, k) in dash) return 0
     a = sum[h, ours, s, k]; b = sum[h, "bdpt", s, k]; p = sum[h, "pt", s, k]
     if (a <= 0 || b <= 0 || s in unknown) return 0
+    printed = a < 0.0005 * b ? 0 : 0.0005 * b / a
     if (a < 0.0005 * b) a = 0.0005 * b # as it is printed
     p = p > 0 && p < b && (mark["pt", s] == "" || mark[ours, s] != "") ? p : b
-    printed = 0.001 + 0.0005 * (b / a + b / p)
+    printed += (p < b ? 0.0005 * b / p : 0) + (ours == "asbdpt" ? 0.0005 * p / a : 0) # structures.awk rounds its quotient
     return a / p
 }
 /^Marks: .* No number: / { # of structures.awk: as many are missing as is said
@@ -103,4 +104,6 @@ section ~ /^(better|losses)-/ && /^[0-9]/ { # of equal.awk
 END {
     for (k = 1; k <= 3 && 1 in missing; k++)
         if (dashes[k] + 0 != missing[k] + 0) wrong("all", "numbers missing", k, " " missing[k], dashes[k] + 0)
-    print compared + 0 " numbers computed again"; exit bad || !compared }
+    print compared + 0 " numbers computed again"
+    exit bad || !compared
+}

@@ -1,6 +1,6 @@
-# robust.awk: of runs.csv of `asbdpt-lab family` or `equal-time`, what does not depend on single bright samples or on
-# prices: median, asbdpt over the better of bdpt and pt, where each method has the median of its seeds in a scene;
-# time, the CPU time that asbdpt took over that of bdpt.
+# robust.awk, after better.awk: of runs.csv of `asbdpt-lab family` or `equal-time`, what does not depend on single bright
+# samples or on prices: median, asbdpt over the better of bdpt and pt, where each method has the median of its seeds in a
+# scene; time, the CPU time that asbdpt took over that of bdpt.
 BEGIN { FS = "," ; split("mse8 relmse relmse8x8", square, " ") }
 FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
 {
@@ -25,18 +25,17 @@ function median(l, s, k,    n, i, j, x, y) { # of a method's seeds, by insertion
 END {
     for (j = 1; j <= scenes; j++) {
         s = scene[j]
-        ratio = seconds["subspaces", s] / seconds["bdpt", s]
-        log_time += log(ratio) / scenes
-        most = ratio > most ? ratio : most
+        take("time", 1, s, seconds["subspaces", s] / seconds["bdpt", s])
         for (k = 1; k <= 3; k++) {
             ours = median("subspaces", s, k); better = median("bdpt", s, k); pt = median("pt", s, k)
             if ((marked["pt", s] == "" || marked["subspaces", s] != "") && pt > 0 && pt < better) better = pt
-            if (ours <= 0 || better <= 0) continue
-            logs[k] += log(ours / better); n[k]++; above[k] += ours > better
+            take("median", k, s, better > 0 ? ours / better : 0)
         }
     }
-    if (!scenes || !n[1] || !n[2] || !n[3]) exit 1
-    printf "== median\n%.2f (mse8), %.2f (relmse) and %.2f (8x8), with more error in %d, %d and %d scenes\n", exp(logs[1] / n[1]),
-        exp(logs[2] / n[2]), exp(logs[3] / n[3]), above[1], above[2], above[3]
-    printf "== time\n%.0f %% more CPU time than `bdpt` (at most %.0f %%)\n", 100 * (exp(log_time) - 1), 100 * (most - 1)
+    if (!number["median", 1] || !number["median", 2] || !number["median", 3]) exit 1
+    printf "== median\n%.2f (mse8), %.2f (relmse) and %.2f (8x8), with more error in %d, %d and %d scenes\n",
+        mean_of("median", 1), mean_of("median", 2), mean_of("median", 3), above["median", 1], above["median", 2],
+        above["median", 3]
+    printf "== time\n%.0f %% more CPU time than `bdpt` (at most %.0f %%)\n", 100 * (mean_of("time", 1) - 1),
+        100 * (most["time", 1] - 1)
 }

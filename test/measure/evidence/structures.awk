@@ -1,6 +1,6 @@
 # structures.awk, after better.awk: asbdpt over the better of bdpt and pt, by each measure, in scenes NUMBER-KIND, from
 # equal-time.md of `asbdpt-lab equal-time`. Sections: kinds, a row for each; all, in words; mean, over bdpt by mse8;
-# better-... and losses-..., see better.awk; sure, in how many scenes intervals tell; data, lines
+# by-kind, the means over kinds; better-..., losses-... and worst, see better.awk; worst-KIND, the worst of it; sure, in how many scenes intervals tell; data, lines
 # "SCENE MSE8 LOW HIGH RELMSE LOW HIGH 8x8 LOW HIGH", "-" without a number.
 # With -v worst= and -v mean=: exit status 1 beyond them by mse8, or where asbdpt has a mark.
 function over(s, measure,    v, part, a) { # and its interval
@@ -54,7 +54,8 @@ END {
         first_marked, missed, dark ? dark : " in none", lost["**all**", 1], lost["**all**", 2], lost["**all**", 3]
     print "== mean\n" interval("over bdpt", 1)
     for (j = 1; j < kinds; j++) for (m = 1; m <= 3; m++) take("kinds", m, order[j], mean_of(order[j], m))
-    printf "== by-kind\n%s (mse8), %s (relmse) and %s (8x8)\n", interval("kinds", 1), interval("kinds", 2), interval("kinds", 3)
+    printf "== by-kind\n%s (mse8), %s (relmse) and %s (8x8)\n", \
+        interval("kinds", 1), interval("kinds", 2), interval("kinds", 3)
     printf "== sure\nis below 1 in %d scenes by mse8, %d by relmse, %d by 8x8; above 1 in %d, %d, %d.\n", better[1], better[2], \
         better[3], worse[1], worse[2], worse[3]
     answers("**all**", "")
