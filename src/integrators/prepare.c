@@ -18,6 +18,9 @@ void method_counts(const struct render_job *job, struct prepared *p, bool credit
         pair /= p->tables->light_vertices;
     p->counts = counts_of(p->numbers, direct, pair, (double)rect_pixels(job->film_rect), p->tables);
     p->counts.power = job->power_heuristic;
+    double M = m->pool_credit * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
+    for (int end = 0; end < EYE_ENDS && M > 0; end++)
+        p->counts.again[end] = p->counts.pair[end] / M;
 }
 
 /* A path tracer needs no table but that of direct light, and a plain one not even this. */

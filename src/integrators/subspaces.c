@@ -9,9 +9,11 @@
  * one eye vertex are distributed over space. (An alias table for each region e would need all vertices. The sums of a
  * region e need only the regions that have any.)
  *
- * The MIS weights take this into account: the strategies count as 2 C ratio(e(z), l(y)) / l samples, where l is the
- * mean number of vertices of a light sub-path: a function of the two surface points at the ends of the edge. 2 is the
- * credit of a draw, since stratified draws have less variance than independent ones.
+ * The MIS weights take this into account: the strategies count as
+ *     n = x / (1 + x / M),      x = 2 C ratio(e(z), l(y)) / l,      M = K / 4
+ * samples, where l is the mean number of vertices of a light sub-path: a function of the two surface points at the ends
+ * of the edge. 2 is the credit of a draw, since stratified draws have less variance than independent ones. If few of
+ * the K sub-paths are useful to e, the ratio is large, but then draws meet the same vertices again (counts.h).
  *
  * The credit of direct light, 4, has the same reason. The first numbers of an eye sub-path are spread evenly over the
  * iterations of a pixel (sampler.h), so the mean of N samples of direct light has less than 1/N of the variance of one.
@@ -138,5 +140,5 @@ static const struct field PARAMETERS[] = {
 const struct method method_subspaces = {
     .name = "asbdpt", .select = "subspaces", .help = "light vertices by what they are worth where the eye vertex is",
     .parameters = PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .direct_credit = 4, .pair_credit = 2, .single = true, .learns_use = true, .learns_pairs = true,
+    .direct_credit = 4, .pair_credit = 2, .pool_credit = 0.25, .single = true, .learns_use = true, .learns_pairs = true,
     .render = loop_render, .build = build, .draw = draw};

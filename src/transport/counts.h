@@ -12,6 +12,9 @@
  * The balance heuristic compares second moments. The samples of some strategies are better distributed than independent
  * samples and have less variance. Such a strategy deserves a higher count, a credit [Grittmann 2019]. The weights still
  * add up to 1.
+ *
+ * Draws from a pool cannot count as more samples than the pool has light sub-paths: where few light vertices are
+ * useful, the same ones are drawn again and again. Draws that would count as x samples count as x / (1 + x / M).
  */
 #ifndef ASBDPT_COUNTS_H
 #define ASBDPT_COUNTS_H
@@ -44,10 +47,11 @@ struct numbers {
 struct counts {
     double hit[EYE_ENDS];    /* t >= 3; by the kind of z_{t-2} */
     double direct[EYE_ENDS]; /* times the ratio of tables->direct */
-    double pair[EYE_ENDS];   /* times the ratio of tables->pairs */
+    double pair[EYE_ENDS];   /* times the ratio of tables->pairs: x */
     double lens;             /* light sub-paths, those of all pixels of the film */
     const struct tables *tables;
     bool power;              /* power heuristic instead of the balance heuristic */
+    double again[EYE_ENDS];  /* times the ratio of tables->pairs: x / M; 0: M is infinite */
 };
 
 /* counts_of: numbers times credits.
@@ -64,7 +68,8 @@ static inline double n_direct(const struct counts *c, int region, enum eye_end e
 }
 static inline double n_pair(const struct counts *c, int e, enum eye_end end, int l)
 {
-    return c->pair[end] * table_ratio(&c->tables->pairs, e, l);
+    double ratio = table_ratio(&c->tables->pairs, e, l);
+    return c->pair[end] * ratio / (1 + c->again[end] * ratio);
 }
 
 #endif

@@ -217,7 +217,9 @@ static double samples(const struct full_path *f, int i)
         return m->lens;
     if (i == 1)
         return m->direct[end_of(f, i)] * learnt_direct(f);
-    return m->pair[end_of(f, i)] * table_ratio(&m->tables->pairs, region(f, i, i + 1), region(f, i - 1, i - 2));
+    double ratio = table_ratio(&m->tables->pairs, region(f, i, i + 1), region(f, i - 1, i - 2));
+    double x = m->pair[end_of(f, i)] * ratio, again = m->again[end_of(f, i)] * ratio;
+    return x - x * again / (1 + again);
 }
 
 /* A vertex whose walk goes on (not the end of a connection) passed by delta if the next vertex says so. */
