@@ -98,7 +98,7 @@ struct method {
     size_t own_size;
     double rr_threshold;            /* of Russian roulette (path.h), unless the user gives another */
     double direct_credit, pair_credit; /* see counts.h; 0: 1 */
-    double pool_credit; /* M of counts.h for each light sub-path of the pool; 0: M is infinite */
+    double pool_credit; /* M of counts.h for each light sub-path of a full tile; 0: no bound */
     bool single;                    /* `draw` chooses single vertices, not sub-paths */
     bool learns_use, learns_pairs;  /* see tables.h */
 

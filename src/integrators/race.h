@@ -10,8 +10,8 @@
  * contributes to the first runner. To runner k it contributes x S / S_k, in S_k / S times as many samples. So its
  * second moment, x^2, becomes x^2 S / S_k. Three kinds of strategies have other counts: connections at a first hit,
  * later connections, and splats. Their shares in S are measured: the race takes the same samples again, each time with
- * half the count of one kind. S_k / S follows for every runner. What a draw made changes the variance by less: the change
- * is divided by the credit of a draw (counts.h).
+ * half the count of one kind. S_k / S follows, if the bound of draws stays that of the first runner (counts.h). What a
+ * draw made changes the variance by less: the change is divided by the credit of a draw.
  *
  * Few contributions of more than FIREFLY times the brightness of their pixel would decide everything. Their squares are
  * replaced by a line, as in the loss of [Huber 1964]. Direct light at a first hit has less variance than its second

@@ -10,10 +10,10 @@
  * region e need only the regions that have any.)
  *
  * The MIS weights take this into account: the strategies count as
- *     n = x / (1 + x / M),      x = 2 C ratio(e(z), l(y)) / l,      M = K / 4
- * samples, where l is the mean number of vertices of a light sub-path: a function of the two surface points at the ends
- * of the edge. 2 is the credit of a draw, since stratified draws have less variance than independent ones. If few of
- * the K sub-paths are useful to e, the ratio is large, but then draws meet the same vertices again (counts.h).
+ *     n = x / (1 + x / M),      x = 2 C ratio(e(z), l(y)) / N,      M = K / 4
+ * samples, where N is the mean number of connectible vertices of a light sub-path, and K that of a full tile. 2 is the
+ * credit of a draw, since stratified draws have less variance than independent ones. M is a bound, since few useful
+ * light vertices are drawn again and again (counts.h).
  *
  * The credit of direct light, 4, has the same reason. The first numbers of an eye sub-path are spread evenly over the
  * iterations of a pixel (sampler.h), so the mean of N samples of direct light has less than 1/N of the variance of one.

@@ -9,7 +9,7 @@
  * q_v and factor 1/q_v estimates the same sum.
  *
  * The MIS weights take this into account: strategies s >= 2, t >= 2 with their light end at x take about
- * n(x) = 2 C ratio(x) / l samples, where l is the mean number of vertices of a light sub-path. n is a function of the
+ * n(x) = 2 C ratio(x) / N samples, where N is the mean number of vertices of a light sub-path. n is a function of the
  * surface point alone, so all strategies of a path compute the same n. The factor 2 is the credit of stratified draws.
  *
  * Tests: test_asbdpt.c.

@@ -5,16 +5,16 @@
  *   pair    s >= 2, t >= 2 connection to a light vertex
  *   lens    s >= 2, t = 1  connection of a light vertex to the lens
  *
- * The number n of a strategy for a path is a function of the two ends of the connecting edge: a number of struct counts
- * times a ratio of a table for the places of the two ends (tables.h). A walk that arrives at the second end knows both,
- * so every strategy computes the same number for the same path.
+ * The number n of a strategy for a path is a function of the two ends of the connecting edge: of their places (tables.h)
+ * and of the kind of the eye end. A walk that arrives at the second end knows both, so every strategy computes the same
+ * number for the same path.
  *
  * The balance heuristic compares second moments. The samples of some strategies are better distributed than independent
  * samples and have less variance. Such a strategy deserves a higher count, a credit [Grittmann 2019]. The weights still
  * add up to 1.
  *
- * Draws from a pool cannot count as more samples than the pool has light sub-paths: where few light vertices are
- * useful, the same ones are drawn again and again. Draws that would count as x samples count as x / (1 + x / M).
+ * Draws from a pool have a bound M: where few light vertices are useful, the same ones are drawn again and again. Draws
+ * that would count as x samples, if they were independent, count as x / (1 + x / M), less than M.
  */
 #ifndef ASBDPT_COUNTS_H
 #define ASBDPT_COUNTS_H
@@ -51,12 +51,12 @@ struct counts {
     double lens;             /* light sub-paths, those of all pixels of the film */
     const struct tables *tables;
     bool power;              /* power heuristic instead of the balance heuristic */
-    double again[EYE_ENDS];  /* times the ratio of tables->pairs: x / M; 0: M is infinite */
+    double again[EYE_ENDS];  /* times the ratio of tables->pairs: x / M; 0: no bound */
 };
 
-/* counts_of: numbers times credits.
+/* counts_of: numbers times credits, without a bound.
  *   direct  credit of direct light at a first hit: s = 1, and s = 0 if the edge before the light begins there
- *   pair    credit of s >= 2, t >= 2
+ *   pair    x of one draw at ratio 1
  *   pixels  number of pixels of the film; a light sub-path may reach each of them */
 struct counts counts_of(struct numbers n, double direct, double pair, double pixels, const struct tables *tables);
 

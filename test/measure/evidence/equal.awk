@@ -4,8 +4,8 @@
 # better.awk. With -v say=SCENE, SCENE: mse8 over bdpt. Of two files, with 16 and 64 samples: sizes, the same by scenes, a
 # line where learning left no time for a sample; and first-better-..., first-losses-... of the first. With -v kinds=,
 # a file of scenes and their kinds, a section for each kind: both means; KIND-rest, without its two worst scenes; and
-# halves, of the scenes that nothing was chosen on, every second of the file from the first, and of the others; unseen,
-# the first of these in words. With -v runners=, runners.txt, light: the mean
+# halves, of the scenes that nothing was chosen on, every second of the file from the first, and of the others; of the
+# first unseen-MEASURE and unseen-rest, without its worst scene by relmse. With -v runners=, runners.txt, light: the mean
 # of the scenes that not all seeds render by a path tracer.
 BEGIN {
     while (kinds != "" && (getline < kinds) > 0) {
@@ -106,8 +106,14 @@ END {
     if (file > 1) { sizes(); answers("first", "first-") }
     if (rows) halves()
     if (traced) printf "== light\n%.2f\n", mean_of("light", 1)
-    if (rows) printf "== unseen\n%s (mse8), %s (relmse) and %s (8x8)\n", two(mean_of("not used for tuning", 1)),
-        two(mean_of("not used for tuning", 2)), two(mean_of("not used for tuning", 3))
+    if (rows) {
+        k = "not used for tuning"
+        for (m = 1; m <= 3; m++) printf "== unseen-%s\n%s\n== unseen-losses-%s\n%d of %d\n", name[m], interval(k, m),
+            name[m], above[k, m], number[k, m]
+        for (i = 1; i <= n; i++) if (scene[i] == where_most[k, 2]) best = i
+        printf "== unseen-rest\n%s (relmse) and %s (8x8) without `%s`\n", mean_but(k, 2, best), mean_but(k, 3, best),
+            scene[best]
+    }
     for (k in count) if (k != "" && number[k, 2] > 3) rest(k)
     for (k in count) if (k != "") printf "== %s\n%.2f (%.2f with the better of `bdpt` and `pt`; %d scenes)\n", k,
         mean_of("bdpt " k, 1), mean_of(k, 1), number[k, 1]

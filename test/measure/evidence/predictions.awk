@@ -1,7 +1,7 @@
 # predictions.awk: predictions of a race (predictions.sh) against what was measured: its files predicted, runs.csv and
 # equal-time.md. Sections: prices, the root of the mean square of log(predicted / measured), each scene in a unit of
 # its own; winners, how often the predicted runner was the best and the mean and the worst of its error over that of
-# the best; scenes, a row each. Exit status 1 if prices are wrong by more than `most`.
+# the best, right and costs the same in words; scenes, a row each. Exit status 1 if prices are wrong by more than `most`.
 function runner_of(label) {
     few = label ~ /later=0/
     return label == "pt" ? "plain" : label ~ /pathpixels=0/ ? "guided" : \
@@ -32,6 +32,8 @@ FILENAME ~ /runs.csv$/ {
     runner = runner_of(cell[2])
     for (i = 3; i <= columns; i++) keep(measure, name[i], cell[i])
 }
+function mean_cost(measure) { return cases[measure] ? exp(logs[measure] / cases[measure]) : 0 }
+function cost_of(measure) { return sprintf("%.2f", mean_cost(measure)) }
 END {
     kinds = split("all quarter quarter_first guided plain", runners, " ")
     for (k = 1; k <= n; k++) {
@@ -73,7 +75,9 @@ END {
     for (m = 1; m <= 3; m++) {
         measure = measures[m]
         printf "| %s | %d | %d | %.3f | %.2f %s |\n", measure, cases[measure], right[measure], \
-            cases[measure] ? exp(logs[measure] / cases[measure]) : 0, worst[measure], where[measure]
+            mean_cost(measure), worst[measure], where[measure]
     }
+    printf "== right\n%d of %d\n== costs\n%s (mse8), %s (relmse) and %s (8x8)\n", right["mse8"], cases["mse8"],
+        cost_of("mse8"), cost_of("relmse"), cost_of("8x8")
     exit !(rms <= most && prices >= n)
 }
