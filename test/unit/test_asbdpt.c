@@ -192,6 +192,28 @@ static void test_expected_vertices(struct test *t)
     }
 }
 
+/* Draws of subspaces count as less than a quarter of a full tile's light sub-paths, those of lvc have no bound. */
+static void test_bound(struct test *t)
+{
+    static const struct {
+        const char *name;
+        double M;
+    } cases[] = {{"asbdpt race=off", 256}, {"asbdpt race=off tile=16 pathpixels=4", 16}, {"lvc", INFINITY}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct scene scene;
+        struct bench b;
+        if (!scene_from_text(t, BALL, &scene) || !bench_new(t, &scene, set_method(&scene, cases[i].name), 4, 0, &b))
+            return;
+        const struct counts *c = &b.prepared.counts;
+        for (int end = 0; end < EYE_ENDS; end++)
+            CHECK(t, c->pair[end] > 0 && fabs(c->again[end] - c->pair[end] / cases[i].M) < 1e-12,
+                  "%s: draws that count as %g have the bound %g, not %g", cases[i].name, c->pair[end],
+                  c->pair[end] / c->again[end], cases[i].M);
+        bench_free(&b);
+        scene_free(&scene);
+    }
+}
+
 /* --- the weights know what samples are worth ---------------------------------------------------------- */
 
 /* Mean over pixels of the variance between batches. */
@@ -340,6 +362,7 @@ void test_asbdpt(struct test *t)
     test_many_lamps(t, 2000);
     test_one_path(t);
     test_expected_vertices(t);
+    test_bound(t);
     test_even_sky(t);
 }
 
