@@ -29,8 +29,9 @@ function begin(name) { section = name; open = 0 }
     n++
 }
 function both(m) { # lvc and cbdpt over subspaces
-    return sprintf("%.2g and %.2g", with["lvc", m] / with["subspaces", m], with["cbdpt", m] / with["subspaces", m])
+    return two(with["lvc", m] / with["subspaces", m]) " and " two(with["cbdpt", m] / with["subspaces", m])
 }
+function two(v) { return sprintf(v < 0.995 ? "%.2f" : "%.1f", v) }
 END {
     if (split(alone["subspaces"], cell, / *\| */))
         printf "== alone\n%s times the error of `bdpt` by mse8 on the scenes of this tree, and %s by 8x8\n", cell[1], cell[2]
