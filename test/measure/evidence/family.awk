@@ -23,6 +23,7 @@ function begin(name) { section = name; open = 0 }
 /^\|/ && section == "choice" { row[$0] = 1 }
 /^\|/ && section == "services" { split($0, cell, / *\| */); for (m = 1; m <= 3; m++) with[cell[2], m] = cell[m + 3] + 0 }
 /^\|/ && section == "services" && $0 in row && $2 !~ /^(method|pt|lt|bins|-)/ && !/^\|-/ { next } # as without services
+/^\| (subspaces over )?best rival \| - \| - \| - \| - / { next } # not known
 /^\|/ && section != "" {
     if (!open++) print "== " section
     print

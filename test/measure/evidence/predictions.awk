@@ -77,7 +77,7 @@ END {
         printf "| %s | %d | %d | %.3f | %.2f %s |\n", measure, cases[measure], right[measure], \
             mean_cost(measure), worst[measure], where[measure]
     }
-    printf "== right\n%d of %d\n== costs\n%s (mse8), %s (relmse) and %s (8x8)\n", right["mse8"], cases["mse8"],
-        cost_of("mse8"), cost_of("relmse"), cost_of("8x8")
+    printf "== right\n%d (mse8), %d (relmse) and %d (8x8) of %d\n== costs\n%s (mse8), %s (relmse) and %s (8x8)\n", right["mse8"], right["relmse"],
+        right["8x8"], cases["mse8"], cost_of("mse8"), cost_of("relmse"), cost_of("8x8")
     exit !(rms <= most && prices >= n)
 }
