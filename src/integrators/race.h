@@ -6,7 +6,7 @@
  * Each pixel is one of a cell of pixels, and splats anywhere in the cell count as its own.
  *
  * What another runner would have made of the same paths follows from their weights [Grittmann 2022]. Let S be the sum
- * in (1) of mis.h, of n_i p_i over all strategies i of a path. Let S_k be that of runner k, and x what the path
+ * in (1) of mis.h, of p_i over all strategies i of a path. Let S_k be that of runner k, and x what the path
  * contributes to the first runner. To runner k it contributes x S / S_k, in S_k / S times as many samples. So its
  * second moment, x^2, becomes x^2 S / S_k. Three kinds of strategies have other counts: connections at a first hit,
  * later connections, and splats. Their shares in S are measured: the race takes the same samples again, each time with

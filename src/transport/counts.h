@@ -14,7 +14,7 @@
  * add up to 1.
  *
  * Draws from a pool have a bound M: where few light vertices are useful, the same ones are drawn again and again. Draws
- * that would count as x samples, if they were independent, count as x / (1 + x / M), less than M.
+ * that would count as x samples of an endless pool count as x / (1 + x / M), less than M.
  */
 #ifndef ASBDPT_COUNTS_H
 #define ASBDPT_COUNTS_H
