@@ -1,6 +1,6 @@
 # best.awk, after better.awk: of runs.csv of `asbdpt-lab family`, mse8 of subspaces over that of the best rival of each
-# scene, which is found on the same seeds, so it flatters rivals; and over that of lvc, in the scenes that nothing was
-# chosen on (-v kinds=, see equal.awk). Sections best and unseen-lvc.
+# scene, which is found on the same seeds, so it flatters rivals; the same, and over that of lvc, in the scenes that
+# nothing was chosen on (-v kinds=, see equal.awk). Sections best, unseen-best and unseen-lvc.
 BEGIN {
     FS = ","
     while (kinds != "" && (getline line < kinds) > 0)
@@ -26,9 +26,11 @@ END {
         for (r = 1; r <= rivals; r++)
             if (!((rival[r], s) in marked) && (e = error(rival[r], s)) > 0 && (!best || e < best)) best = e
         take("best", 1, s, best > 0 ? error("subspaces", s) / best : 0)
+        if (s in unseen) take("unseen", 1, s, best > 0 ? error("subspaces", s) / best : 0)
         e = error("lvc", s)
         if (s in unseen) take("lvc", 1, s, e > 0 ? error("subspaces", s) / e : 0)
     }
-    printf "== best\n%s\n== unseen-lvc\n%s\n", interval("best", 1), interval("lvc", 1)
+    printf "== best\n%s\n== unseen-best\n%s\n== unseen-lvc\n%s\n", interval("best", 1), interval("unseen", 1),
+        interval("lvc", 1)
     exit !number["best", 1]
 }
