@@ -3,7 +3,7 @@
 # scene; without-relmse: those over the better without the best by relmse; better-..., losses-... and worst, see
 # better.awk. With -v say=SCENE, SCENE: mse8 over bdpt. Of two files, with 16 and 64 samples: sizes, the same by scenes, a
 # line where learning left no time for a sample; and first-better-..., first-losses-... of the first. With -v kinds=,
-# a file of scenes and their kinds, a section for each kind: both means; KIND-rest, without its two worst scenes; and
+# a file of scenes and their kinds, data, lines of the figure, and a section for each kind: both means; KIND-rest, without its two worst scenes; and
 # halves, of the scenes that nothing was chosen on, every second of the file from the first, and of the others; of the
 # first unseen-MEASURE and unseen-rest, without its worst scene by relmse. With -v runners=, runners.txt, light: the mean
 # of the scenes that not all seeds render by a path tracer.
@@ -103,6 +103,15 @@ END {
     printf "== without-relmse\n%s (relmse) and %s (8x8) without `%s`\n", mean_but("all", 2, best),
         mean_but("all", 3, best), scene[best]
     answers("all", "")
+    if (rows) {
+        print "== data" # SCENE, mse8 and its ends over the better one, 8x8 or -
+        for (i = 1; i <= n; i++) if (q[i] > 0) {
+            split(cell("subspaces", "mse8", i), ends, /[][, ]+/)
+            w = over(file, "mse8", i) / least(ends[1])
+            printf "%s %.3f %.3f %.3f %s\n", scene[i], w * least(ends[1]), w * ends[2], w * ends[3], \
+                (over(file, "8x8", i) > 0 ? sprintf("%.3f", over(file, "8x8", i)) : "-")
+        }
+    }
     if (file > 1) { sizes(); answers("first", "first-") }
     if (rows) halves()
     if (traced) printf "== light\n%.2f\n", mean_of("light", 1)
