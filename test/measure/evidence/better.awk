@@ -11,6 +11,12 @@ function over_better(asbdpt, pt) {
 }
 function least(v) { return v + 0 > 0 ? v + 0 : 0.0005 } # what is printed as 0.000 is taken for half of the last digit
 
+# unseen_scenes: into out, the scenes that nothing was chosen on: every second of a file of scenes, from the first.
+function unseen_scenes(file, out,    line, rows, part) {
+    while ((getline line < file) > 0) if (line !~ /^#/ && ++rows % 2) { split(line, part, " "); out[part[1]] }
+    close(file)
+}
+
 # take: a ratio of a scene, among those of a group and measure; 0 is counted as not known.
 function take(group, m, where, v) {
     if (v <= 0) { lost[group, m]++; return }

@@ -10,8 +10,10 @@
 BEGIN {
     while (kinds != "" && (getline < kinds) > 0) {
         kind[$1] = $2
-        if (!/^#/) half[$1] = ++rows % 2 ? "not used for tuning" : "used for tuning"
+        if (!/^#/) { half[$1] = "used for tuning"; rows++ }
     }
+    if (rows) { close(kinds); unseen_scenes(kinds, unseen) }
+    for (s in unseen) half[s] = "not used for tuning"
     while (runners != "" && (getline < runners) > 0)
         if (/^\| others \| [^ ]+ \|( guided| plain)+ \|$/) { tracer[$4]; traced++ }
 }

@@ -1,7 +1,7 @@
 # family.awk: sections of doc/measured from family.md of `asbdpt-lab family`. Of each half, choice and services:
 # HALF, the table of means; HALF-mse8, HALF-relmse, HALF-8x8, of all scenes; HALF-claims. bring: of each method that
 # can have services, the means of the choice alone and the factor of services, by mse8 and in 8x8. alone: those of the
-# choice of subspaces in words. near: with services, the means of lvc and cbdpt over that of subspaces. Rows of services
+# choice of subspaces in words. Rows of services
 # that are those of the choice, of methods without services, are left out, but for pt, lt and bins.
 function begin(name) { section = name; open = 0 }
 /^## The choice alone/ { half = "choice" }
@@ -21,7 +21,6 @@ function begin(name) { section = name; open = 0 }
     next
 }
 /^\|/ && section == "choice" { row[$0] = 1 }
-/^\|/ && section == "services" { split($0, cell, / *\| */); for (m = 1; m <= 3; m++) with[cell[2], m] = cell[m + 3] + 0 }
 /^\|/ && section == "services" && $0 in row && $2 !~ /^(method|pt|lt|bins|-)/ && !/^\|-/ { next } # as without services
 /^\| (subspaces over )?best rival \| - \| - \| - \| - / { next } # not known
 /^\|/ && section != "" {
@@ -29,14 +28,8 @@ function begin(name) { section = name; open = 0 }
     print
     n++
 }
-function both(m) { # lvc and cbdpt over subspaces
-    return two(with["lvc", m] / with["subspaces", m]) " and " two(with["cbdpt", m] / with["subspaces", m])
-}
-function two(v) { return sprintf(v < 0.995 ? "%.2f" : "%.1f", v) }
 END {
     if (split(alone["subspaces"], cell, / *\| */))
         printf "== alone\n%s times the error of `bdpt` by mse8 on the scenes of this tree, and %s by 8x8\n", cell[1], cell[2]
-    if (with["lvc", 1] > 0 && with["cbdpt", 1] > 0 && with["subspaces", 1] > 0)
-        printf "== near\n%s times its error by mse8, %s by relmse and %s by 8x8\n", both(1), both(2), both(3)
     exit !n
 }

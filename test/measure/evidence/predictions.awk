@@ -33,7 +33,6 @@ FILENAME ~ /runs.csv$/ {
     for (i = 3; i <= columns; i++) keep(measure, name[i], cell[i])
 }
 function mean_cost(measure) { return cases[measure] ? exp(logs[measure] / cases[measure]) : 0 }
-function cost_of(measure) { return sprintf("%.2f", mean_cost(measure)) }
 END {
     kinds = split("all quarter quarter_first guided plain", runners, " ")
     for (k = 1; k <= n; k++) {
@@ -77,7 +76,7 @@ END {
         printf "| %s | %d | %d | %.3f | %.2f %s |\n", measure, cases[measure], right[measure], \
             mean_cost(measure), worst[measure], where[measure]
     }
-    printf "== right\n%d (mse8), %d (relmse) and %d (8x8) of %d\n== costs\n%s (mse8), %s (relmse) and %s (8x8)\n", right["mse8"], right["relmse"],
-        right["8x8"], cases["mse8"], cost_of("mse8"), cost_of("relmse"), cost_of("8x8")
+    printf "== right\n%d (mse8), %d (relmse) and %d (8x8) of %d\n", right["mse8"], right["relmse"], right["8x8"], cases["mse8"]
+    printf "== costs\n%.2f (mse8), %.2f (relmse) and %.2f (8x8)\n", mean_cost("mse8"), mean_cost("relmse"), mean_cost("8x8")
     exit !(rms <= most && prices >= n)
 }
