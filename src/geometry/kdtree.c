@@ -2,7 +2,7 @@
  *
  * A ray goes front to back: of an inner node's two cells the one on its side is visited first, the other waits on a
  * stack. A ray that asks for the first hit does not visit cells behind it. A shadow ray takes any hit, and goes back to
- * front: walls are far from where most rays begin, and what shades a lamp is near it.
+ * front: walls are far from where most rays begin, and what shades a light is near it.
  *
  * No hit may be lost to rounding, so a plane is a slab: the ray enters it at t_lo and leaves it at t_hi, and both
  * cells extend over it. Its half width, 1e-14 of the scene's size, is a hundred times what the triangle test and

@@ -1,5 +1,5 @@
-/* race.h: should there be a light sub-path for each pixel of this scene, for every four, or none? And are connections at
- * first hits enough? A race before the render decides it.
+/* race.h: should there be a light sub-path for each pixel of this scene, for every four, or none? And are connections
+ * at first hits enough? A race before the render decides it.
  *
  * Runners differ in their numbers of samples (struct numbers). The first has the most. It takes SAMPLES samples of some
  * pixels with random numbers that the render does not use, and as many with others. The difference shows its variance.
@@ -17,7 +17,7 @@
  * replaced by a line, as in the loss of [Huber 1964]. Direct light at a first hit has less variance than its second
  * moment says, since its samples are stratified. Its growth is multiplied by the share that is variance. A path tracer
  * that chooses lights by power has other direct light, so it takes samples of its own. Light that the camera sees
- * directly is left out: it is the same for all runners, and a pixel on the edge of a lamp would hide all other noise.
+ * directly is left out: it is the same for all runners, and a pixel on a light's edge would hide all other noise.
  *
  * The runner of the least variance times price wins. The price counts vertices and connections, so the same runner wins
  * on every machine.

@@ -134,12 +134,12 @@ static void learn_uses(struct learning *l, long n)
 static void build_direct(struct learning *l)
 {
     const struct light_set *lights = &l->job->scene->lights;
-    double *e = mem_alloc((size_t)lights->n_cells, sizeof *e);
+    double *base = mem_alloc((size_t)lights->n_cells, sizeof *base);
     for (int cell = 0; cell < lights->n_cells; cell++)
-        e[cell] = alias_pmf(&lights->choice, cell);
+        base[cell] = alias_pmf(&lights->choice, cell);
     l->tables->direct = table_build(&l->direct, regions_axis(&l->tables->regions),
-                                    (struct axis){lights->n_cells, NULL, NULL}, e, DIRECT_DELTA, false, true);
-    free(e);
+                                    (struct axis){lights->n_cells, NULL, NULL}, base, DIRECT_DELTA, false, true);
+    free(base);
 }
 
 /* --- rays from lights -------------------------------------------------------------------------------- */
@@ -174,7 +174,7 @@ static void learn_emission(struct learning *l, long n)
     l->columns = axis.axis;
     table_sums_init(&l->sums, 1, axis.axis.n);
     lessons_learn(l, &pass, 0, n);
-    l->tables->emission = table_build(&l->sums, (struct axis){1, NULL, NULL}, axis.axis, axis.e,
+    l->tables->emission = table_build(&l->sums, (struct axis){1, NULL, NULL}, axis.axis, axis.base,
                                       l->options->emission, true, true);
     emission_axis_free(&axis);
 }

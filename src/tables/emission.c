@@ -16,14 +16,14 @@ struct emission_axis emission_axis_new(const struct light_set *lights)
 {
     size_t n = 1 + (size_t)lights->n_cells * NODES;
     struct emission_axis a = {.above = mem_alloc(n, sizeof *a.above), .level = mem_alloc(n, sizeof *a.level),
-                              .e = mem_alloc(n, sizeof *a.e)};
+                              .base = mem_alloc(n, sizeof *a.base)};
     a.level[0] = LEVELS;
     for (int cell = 0; cell < lights->n_cells; cell++)
         for (int side = 1, level = LEVELS - 1, node = 1 + cell * NODES, wider = 0; level >= 0; level--) {
             for (int i = 0; i < side * side; i++) {
                 a.above[node + i] = side == 1 ? 0 : wider + i / side / 2 * (side / 2) + i % side / 2;
                 a.level[node + i] = level;
-                a.e[node + i] = side == SIDE ? alias_pmf(&lights->choice, cell) / BINS : 0;
+                a.base[node + i] = side == SIDE ? alias_pmf(&lights->choice, cell) / BINS : 0;
             }
             wider = node;
             node += side * side;
@@ -37,7 +37,7 @@ void emission_axis_free(struct emission_axis *a)
 {
     free(a->above);
     free(a->level);
-    free(a->e);
+    free(a->base);
 }
 
 int emission_column(int cell, const double square[2])

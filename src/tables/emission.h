@@ -1,10 +1,10 @@
 /* emission.h: how light sub-paths leave lights: by power, or by a table, in directions that lead to places where the
  * camera can use light.
  *
- * Emission by power chooses a light cell c with probability e(c), a point of the cell, and with a point of the unit
+ * Emission by power chooses a light cell c with probability base(c), a point of the cell, and with a point of the unit
  * square the ray: its direction, or for lights at infinity its origin on a disk. The square is cut into SIDE x SIDE
- * bins. A table (table.h) has one row and a column for each bin of each cell, with e(c) / BINS for e. Above the bins
- * are 4 x 4 and 2 x 2 wider ones, the cell, and all cells. Learning traces rays, and squares the worth of each
+ * bins. A table (table.h) has one row and a column for each bin of each cell, whose base is base(c) / BINS. Above the
+ * bins are 4 x 4 and 2 x 2 wider ones, the cell, and all cells. Learning traces rays, and squares the worth of each
  * [Rath 2020]: probabilities in proportion to the root of the mean square minimise the variance of the sum of worths.
  *
  * A ray of the table has `ratio` times the density of light.h. The density of y_0 stays as it is. So p_i has the factor
@@ -20,11 +20,11 @@
 #include "scene/light.h"
 #include "tables/table.h"
 
-/* The tree of columns, and e [axis.n]; emission_axis_free releases them. */
+/* The tree of columns, and base [axis.n]; emission_axis_free releases them. */
 struct emission_axis {
     struct axis axis;
     int *above, *level; /* of the axis; owned */
-    double *e;          /* owned */
+    double *base;       /* owned */
 };
 struct emission_axis emission_axis_new(const struct light_set *lights);
 void emission_axis_free(struct emission_axis *a);

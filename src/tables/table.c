@@ -56,16 +56,16 @@ static void find_means(const struct table_sums *s, struct axis row, struct axis 
 }
 
 /* Replace a row of means by its ratios; all 1 if no column that can be chosen is worth anything. */
-static void find_ratios(double *m, const double *e, int n, double delta, bool root)
+static void find_ratios(double *m, const double *base, int n, double delta, bool root)
 {
     double sum = 0;
     for (int c = 0; c < n; c++)
-        sum += e[c] * (m[c] = root ? sqrt(m[c]) : m[c]);
+        sum += base[c] * (m[c] = root ? sqrt(m[c]) : m[c]);
     for (int c = 0; c < n; c++)
         m[c] = sum > 0 ? (1 - delta) * m[c] / sum + delta : 1;
 }
 
-struct table table_build(struct table_sums *s, struct axis row, struct axis column, const double *e, double delta,
+struct table table_build(struct table_sums *s, struct axis row, struct axis column, const double *base, double delta,
                          bool root, bool drawn)
 {
     struct table t = {row.n, column.n, NULL, NULL};
@@ -80,21 +80,21 @@ struct table table_build(struct table_sums *s, struct axis row, struct axis colu
     }
     for (int r = 0; r < t.rows; r++) {
         double *ratio = &t.ratio[(size_t)r * n];
-        find_ratios(ratio, e, column.n, delta, root);
+        find_ratios(ratio, base, column.n, delta, root);
         for (size_t c = 0; c < n && drawn; c++)
-            t.before[(size_t)r * (n + 1) + c + 1] = t.before[(size_t)r * (n + 1) + c] + e[c] * ratio[c];
+            t.before[(size_t)r * (n + 1) + c + 1] = t.before[(size_t)r * (n + 1) + c] + base[c] * ratio[c];
     }
     free(s->weight);
     return t;
 }
 
-struct table table_of_row(const double *m, const double *e, int n, double delta)
+struct table table_of_row(const double *m, const double *base, int n, double delta)
 {
     struct table t = {m != NULL ? 1 : 0, n, NULL, NULL};
     if (m != NULL) {
         t.ratio = mem_alloc((size_t)n, sizeof *t.ratio);
         memcpy(t.ratio, m, (size_t)n * sizeof *m);
-        find_ratios(t.ratio, e, n, delta, false);
+        find_ratios(t.ratio, base, n, delta, false);
     }
     return t;
 }

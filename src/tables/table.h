@@ -6,13 +6,13 @@
  * Rows and columns may be nodes of trees, in which a node contains those below it: places on several levels, parts of a
  * light. In the pair above, both nodes are one level up. The top pair is regularised towards the mean of all samples.
  *
- * Let e(c) be the probability of a column if nothing were learnt. A choice by row r has the probability
- *     e(c) ratio(r,c),      ratio(r,c) = (1 - delta) m(r,c) / sum_c e(c) m(r,c) + delta,
+ * Let base(c) be the probability of a column if nothing were learnt. A choice by row r has the probability
+ *     base(c) ratio(r,c),      ratio(r,c) = (1 - delta) m(r,c) / sum_c base(c) m(r,c) + delta,
  * a defensive mixture [Hesterberg 1995]. The MIS weights need the ratio. Columns are drawn by inversion of cumulative
  * sums, which keeps strata and low discrepancy.
  *
  * The tables of a render do not change while it takes samples, so every choice is unbiased, and every strategy finds
- * the same ratios for a path. An empty table chooses by e: all ratios are 1.
+ * the same ratios for a path. An empty table chooses by base: all ratios are 1.
  *
  * Tests: test_table.c, test_mis.c.
  */
@@ -49,16 +49,16 @@ struct table {
 
 /* table_build: the table of these sums; table_free releases it.
  *   row     a tree, or one row
- *   e       [column.n], probabilities; 0: the column is never drawn
+ *   base    [column.n], probabilities; 0: the column is never drawn
  *   delta   (0,1]
  *   root    use the square root of the mean, for samples whose worths are squares
  *   drawn   make what table_draw needs */
-struct table table_build(struct table_sums *s, struct axis row, struct axis column, const double *e, double delta,
+struct table table_build(struct table_sums *s, struct axis row, struct axis column, const double *base, double delta,
                          bool root, bool drawn);
 void table_free(struct table *t);
 
 /* table_of_row: a table of one row, by these mean worths [n]; empty if m is NULL. */
-struct table table_of_row(const double *m, const double *e, int n, double delta);
+struct table table_of_row(const double *m, const double *base, int n, double delta);
 
 /* table_row: the ratios of a row, [columns]; a table of one row has it for all. table_ratio: one of them; 1 if the
  * table is empty. */

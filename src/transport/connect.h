@@ -31,7 +31,7 @@ struct connection connect_hit(const struct scene *scene, const struct counts *co
                               const struct vertex *z, int t);
 
 /* connect_direct: z is an eye vertex, t >= 2. The light point is drawn with `sampler`, as number i of n points whose
- * lights are stratified: of two points on a lamp of two triangles, each triangle has one.
+ * lights are stratified: of two points on a light of two triangles, each triangle has one.
  *   y0  out: the point; its light is -1 if there is none */
 struct connection connect_direct(const struct scene *scene, const struct counts *counts, const struct vertex *z,
                                  struct sampler *sampler, int i, int n, struct light_point *y0);

@@ -5,9 +5,9 @@
  *   pair    s >= 2, t >= 2 connection to a light vertex
  *   lens    s >= 2, t = 1  connection of a light vertex to the lens
  *
- * The number n of a strategy for a path is a function of the two ends of the connecting edge: of their places (tables.h)
- * and of the kind of the eye end. A walk that arrives at the second end knows both, so every strategy computes the same
- * number for the same path.
+ * The number n of a strategy for a path is a function of the two ends of the connecting edge: of their places
+ * (tables.h) and of the kind of the eye end. A walk that arrives at the second end knows both, so every strategy
+ * computes the same number for the same path.
  *
  * The balance heuristic compares second moments. The samples of some strategies are better distributed than independent
  * samples and have less variance. Such a strategy deserves a higher count, a credit [Grittmann 2019]. The weights still

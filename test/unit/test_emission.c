@@ -92,7 +92,7 @@ static struct table random_table(const struct scene *s, struct rng *r, double de
         double worth = bin % 7 * (1 + cell % 5);
         table_sums_add(&sums, one, axis.axis, 0, emission_column(cell, u), worth * worth, 1);
     }
-    struct table out = table_build(&sums, one, axis.axis, axis.e, delta, true, true);
+    struct table out = table_build(&sums, one, axis.axis, axis.base, delta, true, true);
     emission_axis_free(&axis);
     return out;
 }
@@ -128,7 +128,7 @@ static void check_emitted(struct test *t, const struct scene *s)
         off += fabs(emission_pdf(&table, &s->lights, &at, p, ray.d) / pdf - 1) > 1e-6;
     }
     for (size_t i = 0; i < n; i++) {
-        power[i] = (double)draws * axis.e[i];
+        power[i] = (double)draws * axis.base[i];
         wanted[i] = power[i] * table_ratio(&table, 0, (int)i);
         least = fmin(least, table_ratio(&table, 0, (int)i));
     }
@@ -235,7 +235,7 @@ static void test_root(struct test *t)
         const double u[2] = {(i % 64 + 0.5) / 64, (i / 64 % 8 + 0.5) / 8};
         table_sums_add(&sums, one, axis.axis, 0, emission_column(0, u), u[0] < 0.5 ? 9 : i % 4 == 0 ? 64 : 0, 1);
     }
-    struct table e = table_build(&sums, one, axis.axis, axis.e, delta, true, true);
+    struct table e = table_build(&sums, one, axis.axis, axis.base, delta, true, true);
     for (int k = 0; k < 2; k++) {
         const double u[2] = {k, k};
         double ratio = table_ratio(&e, 0, emission_column(0, u)), expected = delta + (1 - delta) * (3 + k) / 3.5;

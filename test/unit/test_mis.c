@@ -141,7 +141,7 @@ static struct tables learn_nothing(const struct scene *scene)
         even[i] = 1.0 / places.n;
     l.direct = table_build(&direct, places, cells, e, 0.1, false, true);
     l.pairs = table_build(&pairs, places, places, even, 0.1, false, false);
-    l.emission = table_build(&rays, one, emission.axis, emission.e, 0.1, true, true);
+    l.emission = table_build(&rays, one, emission.axis, emission.base, 0.1, true, true);
     emission_axis_free(&emission);
     free(e);
     return l;

@@ -9,7 +9,7 @@
  * balance heuristic over members m. The bias is that of another's light and visibility; it falls with the radius, and
  * in a cluster of one L_j is what path tracing finds.
  *
- * The graph has circles, since a cluster has vertices of any depth. So L begins black and is made anew by the L of the
+ * The graph has circles, since a cluster has vertices of any depth. So L begins black and is made again by the L of the
  * iteration before: after n iterations it has what comes over up to n edges. There are as many as paths may have, which
  * leaves out longer ones as pt does, or `iterations` if that is less. With iterations=0 clusters are of equal depth and
  * one sweep from the last vertices to the first has it all. The last vertices of the longest walks have no second edge:
