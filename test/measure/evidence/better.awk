@@ -57,15 +57,20 @@ function commas(text,    first) {
     match(text, /^[0-9]+/); first = RLENGTH - 3
     return substr(text, 1, first) "," substr(text, first + 1)
 }
-# worst: of a group, by all measures.
-function worst_of(group) {
-    return two(most[group, 1]) " (mse8), " two(most[group, 2]) " (relmse) and " two(most[group, 3]) " (8x8)"
+# three: three numbers, by each measure.
+function three(a, b, c) { return two(a) " (mse8), " two(b) " (relmse) and " two(c) " (8x8)" }
+# row: of a group, cells of a table: the means by each measure, and in how many scenes asbdpt has more error.
+function row(group,    m, text, losses, each, same) {
+    same = number[group, 1] == number[group, 2] && number[group, 2] == number[group, 3]
+    for (m = 1; m <= 3; m++) {
+        text = text interval(group, m) " | "
+        losses = losses (m > 1 ? ", " : "") above[group, m]
+        each = each (m > 1 ? ", " : "") above[group, m] " of " number[group, m]
+    }
+    return text (same ? losses " of " number[group, 1] : each)
 }
-# answers: of a group the sections better-MEASURE, losses-MEASURE and worst, their names after `before`.
-function answers(group, before,    m, name) {
-    split("mse8 relmse 8x8", name, " ")
-    for (m = 1; m <= 3; m++)
-        printf "== %sbetter-%s\n%s\n== %slosses-%s\n%d of %d\n", before, name[m], interval(group, m), before, name[m],
-            above[group, m], number[group, m]
-    printf "== %sworst\n%s\n== %sworst-relmse\n%s\n", before, worst_of(group), before, two(most[group, 2])
+# answers: of a group the sections row and worst, their names after `before`.
+function answers(group, before) {
+    printf "== %srow\n%s\n== %sworst\n%s\n", before, row(group), before,
+        three(most[group, 1], most[group, 2], most[group, 3])
 }

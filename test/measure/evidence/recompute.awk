@@ -1,7 +1,7 @@
 # recompute.awk RUNS.csv NAME.txt: computes again from every run the geometric means over scenes of the squared errors
 # over the first method's after the same CPU time, and their intervals, Student's at 95 % on the logarithms. It compares
-# these with a stored table: the rows of methods in the sections of both halves, or the row of means of equal.awk. Exit
-# status 1 if a number differs or none was compared.
+# these with a stored table: the rows of methods in the sections of both halves, or the row of better.awk. Exit status 1
+# if a number differs or none was compared.
 BEGIN {
     while ((getline < ARGV[2]) > 0) { # numbers that are not there: the noise of a reference, which runs do not tell
         if (/^== /) section = $0
@@ -61,11 +61,6 @@ section ~ /^(choice|services)$/ && /^\| / {
     split($0, c, / *\| */)
     for (k = 1; k <= 3; k++) if ((section, c[2], scene[1], 1) in sum) compare(section, c[2], k, " " c[3 + k])
 }
-/^\| \*\*geometric mean\*\*.*\[/ {
-    split($0, c, / *\| */); of = ("all", first, scene[1], 1) in sum ? "all" : "services"
-    compare(of, "pt", 1, " " c[3])
-    for (k = 1; k <= 3; k++) compare(of, "subspaces", k, " " c[3 + k])
-}
 # The default over the better of bdpt and pt, each measure with its own better one. printed: what it is known to as a
 # quotient of numbers with three digits after the point.
 function over_better(h, ours, s, k,    a, b, p) {
@@ -89,17 +84,28 @@ section == "data" && split($0, c, " ") == 10 { # of structures.awk
         else if (!near(c[3 * k - 1], v, printed)) wrong("all", c[1], k, " " c[3 * k - 1], v)
     }
 }
-section ~ /^(better|losses)-/ && /^[0-9]/ { # of equal.awk
+# row: of better.awk, "MEAN [LOW, HIGH] | ... | ... | LOSSES of SCENES by each measure".
+section == "row" && split($0, c, / *\| */) == 4 {
     h = ("all", first, scene[1], 1) in sum ? "all" : "services"
-    for (k = 1; substr(square[k], 1, 6) != substr(section, 8, 6) && k < 3; k++) ;
-    mean = above = number = by = 0
     ours = (h, "asbdpt", scene[1], 1) in sum ? "asbdpt" : "subspaces"
-    for (i = 1; i <= scenes; i++) if ((v = over_better(h, ours, scene[i], k)) > 0) {
-        mean += log(v); above += v > 1; number++; by += printed
+    split(c[4], lost, ", ")
+    for (k = 1; k <= 3; k++) {
+        mean = squares = above = least = number = by = 0
+        for (i = 1; i <= scenes; i++) if ((v = over_better(h, ours, scene[i], k)) > 0) {
+            mean += log(v); squares += log(v) ^ 2; number++; by += printed
+            above += v > 1 - printed; least += v > 1 + printed # 1.000 may be either
+        }
+        mean /= number; by /= number
+        error = number > 30 ? 1.96 + 2.4 / (number - 1) : t[number - 1]
+        error *= sqrt((squares - number * mean ^ 2) / (number - 1) / number)
+        gsub(/[][,]/, " ", c[k]); split(c[k], stored, " ")
+        compared++
+        if (!near(stored[1], exp(mean), by) || lost[k] + 0 > above || lost[k] + 0 < least || \
+            (lost[k] " " lost[3]) !~ " of " number || \
+            (number > 4 && !(near(stored[2], exp(mean - error), 2 * by) && near(stored[3], exp(mean + error), 2 * by))))
+            wrong(h, section, k, " " c[k] " " c[4], sprintf("%.3f %.3f %.3f, %d of %d", exp(mean), exp(mean - error),
+                exp(mean + error), above, number))
     }
-    compared++
-    if (section ~ /^b/ ? !near($1, exp(mean / number), by / number) : $0 != above " of " number)
-        wrong(h, section, k, " " $0, exp(mean / number) ", " above " of " number)
 }
 END {
     for (k = 1; k <= 3 && 1 in missing; k++)

@@ -33,9 +33,7 @@ END {
         }
     }
     if (!number["median", 1] || !number["median", 2] || !number["median", 3]) exit 1
-    printf "== median\n%.2f (mse8), %.2f (relmse) and %.2f (8x8), with more error in %d, %d and %d scenes\n",
-        mean_of("median", 1), mean_of("median", 2), mean_of("median", 3), above["median", 1], above["median", 2],
-        above["median", 3]
+    print "== median\n" row("median")
     printf "== time\n%.0f %% more CPU time than `bdpt` (at most %.0f %%)\n", 100 * (mean_of("time", 1) - 1),
         100 * (most["time", 1] - 1)
 }

@@ -24,7 +24,7 @@ names() { awk -F , 'NR > 1 && !seen[$1]++ { print $1 }' "doc/measured/$1.csv"; }
         chosen published "$PUBLISHED/$name/scene.pbrt" "$name" --res 320 --maxdepth 8
     done
     [ ! -d "${OTHERS-}" ] || for name in $(names others); do
-        chosen others "$OTHERS/$name/scene.pbrt" "$name" --res 160
+        chosen others "$OTHERS/$name/scene.pbrt" "$name" --res 320
     done
     for name in $(names structures); do
         build/test --structure "${name%%-*}" >"$out/scenes/$name.pbrt"

@@ -1,7 +1,7 @@
 # structures.awk, after better.awk: asbdpt over the better of bdpt and pt, by each measure, in scenes NUMBER-KIND, from
 # equal-time.md of `asbdpt-lab equal-time`. Sections: kinds, a row for each; all, in words; mean, over bdpt by mse8;
-# by-kind, the means over kinds; better-..., losses-... and worst, see better.awk; worst-KIND, the worst of it; sure, in how many scenes intervals tell; data, lines
-# "SCENE MSE8 LOW HIGH RELMSE LOW HIGH 8x8 LOW HIGH", "-" without a number.
+# by-kind, the means over kinds; row and worst, see better.awk; worst-KIND, the worst of it; sure, in how many scenes
+# intervals tell; data, lines "SCENE MSE8 LOW HIGH RELMSE LOW HIGH 8x8 LOW HIGH", "-" without a number.
 # With -v worst= and -v mean=: exit status 1 beyond them by mse8, or where asbdpt has a mark.
 function over(s, measure,    v, part, a) { # and its interval
     a = ratio["asbdpt", measure, s]
@@ -59,7 +59,8 @@ END {
     printf "== sure\nis below 1 in %d scenes by mse8, %d by relmse, %d by 8x8; above 1 in %d, %d, %d.\n", better[1], better[2], \
         better[3], worse[1], worse[2], worse[3]
     answers("**all**", "")
-    for (j = 1; j < kinds; j++) printf "== worst-%s\n%s\n", order[j], worst_of(order[j])
+    for (j = 1; j < kinds; j++) printf "== worst-%s\n%s\n", order[j], \
+        three(most[order[j], 1], most[order[j], 2], most[order[j], 3])
     printf "== data\n%s", data
     if (mean && mean_of("**all**", 1) > mean) {
         bad = 1
