@@ -8,7 +8,7 @@
 #   sh test/measure/peers.sh rays_table <OUT/rays.txt
 # DIR/pbrt-v3 and DIR/SmallVCM are their repositories; a program DIR/pbrt or DIR/smallvcm is taken as it is. PUBLISHED
 # has the published scenes in pbrt-v3's format; the room of SmallVCM is scenes/test/smallvcm-1.pbrt.
-# A sample path costs what more samples cost, so that reading and building are not in it: the least of three runs, of
+# A sample path costs what more samples cost, so that reading and building are not in it: the least of five runs, of
 # all programs in turn.
 set -u
 . test/measure/pbrt.sh
@@ -51,8 +51,8 @@ ours_run() {
 }
 # costs RUN FEW MORE: of theirs and of ours: microseconds of CPU for a path with one thread, with two; MiB.
 costs() {
-    for threads in 1 2; do
-        for run in "$1" ours_run "$1" ours_run "$1" ours_run; do
+    for threads in 1 1 1 1 1 2 2 2 2 2; do
+        for run in "$1" ours_run; do
             echo "$run $threads $($run "$2" $threads cpu) $($run "$3" $threads cpu)"
         done
     done >"$dir/costs"
