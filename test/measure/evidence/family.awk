@@ -30,6 +30,6 @@ function begin(name) { section = name; open = 0 }
 }
 END {
     if (split(alone["subspaces"], cell, / *\| */))
-        printf "== alone\n%s times the error of `bdpt` by mse8 on the scenes of this tree, and %s by 8x8\n", cell[1], cell[2]
+        printf "== alone\n%s (mse8) and %s (8x8)\n", cell[1], cell[2]
     exit !n
 }
