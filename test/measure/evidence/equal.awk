@@ -1,7 +1,7 @@
 # equal.awk, after better.awk: sections of doc/measured from family.md of `asbdpt-lab family`, where the default is
 # called subspaces; all is over the better of bdpt and pt, unless it is said. Of the last file: table, a line for each
 # scene; data, lines of a figure, "SCENE MSE8 LOW HIGH 8x8"; row and worst, see better.awk. With -v say=SCENE, SCENE:
-# its mse8 over bdpt. With -v but=, names of scenes: rest, the means without them. Of two files, with 16 and 64 samples:
+# its mse8 over bdpt. With -v but=, names of scenes: rest, the means without them, and unseen-rest. Of two files, with 16 and 64 samples:
 # sizes, the same by scenes; first-row and first-worst of the first. With -v kinds=, a file of scenes and their kinds:
 # kinds, the means of each; unseen-row and unseen-worst, of the scenes that nothing was chosen on. With -v runners=,
 # runners.txt: light, the mean of the scenes that not all seeds render by a path tracer.
@@ -81,6 +81,7 @@ function sizes(    i, f, m, q) {
     for (m = 1; m <= 6; m++) printf(" %.2f |", (m < 4 ? mean_of("first", m) : mean_of("all", m - 3)))
     print ""
 }
+function means(group) { return three(mean_of(group, 1), mean_of(group, 2), mean_of(group, 3)) }
 END {
     if (!n) exit 1
     for (i = 1; i <= n; i++) {
@@ -92,14 +93,18 @@ END {
             take(k, m, scene[i], v)
             if (scene[i] in unseen) take("unseen", m, scene[i], v)
             if (!(scene[i] in tracer)) take("light", m, scene[i], v)
-            if (!(scene[i] in left_out)) take("rest", m, scene[i], v)
+            if (!(scene[i] in left_out)) {
+                take("rest", m, scene[i], v)
+                if (scene[i] in unseen) take("unseen-rest", m, scene[i], v)
+            }
         }
     }
     table()
     data()
     answers("all", "")
     for (i = 1; i <= n; i++) if (scene[i] == say) printf "== %s\n%s\n", say, value[file, "subspaces", "mse8", i]
-    if (but != "") printf "== rest\n%s\n", three(mean_of("rest", 1), mean_of("rest", 2), mean_of("rest", 3))
+    if (but != "") printf "== rest\n%s\n", means("rest")
+    if (but != "" && kinds != "") printf "== unseen-rest\n%s\n", means("unseen-rest")
     if (file > 1) { sizes(); answers("first", "first-") }
     if (kinds != "") answers("unseen", "unseen-")
     if (traced) printf "== light\n%.2f\n", mean_of("light", 1)
