@@ -13,6 +13,7 @@ FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
     seconds[l, s] += $at["seconds"]
     marked[l, s] = $at["mark"]
 }
+function floor(v) { return v < 0.0005 ? 0.0005 : v } # as better.awk
 function median(l, s, k,    n, i, j, x, y) { # of a method's seeds, by insertion
     n = seeds[l, s]
     for (i = 1; i <= n; i++) {
@@ -27,9 +28,9 @@ END {
         s = scene[j]
         take("time", 1, s, seconds["subspaces", s] / seconds["bdpt", s])
         for (k = 1; k <= 3; k++) {
-            ours = median("subspaces", s, k); better = median("bdpt", s, k); pt = median("pt", s, k)
-            if ((marked["pt", s] == "" || marked["subspaces", s] != "") && pt > 0 && pt < better) better = pt
-            take("median", k, s, better > 0 ? ours / better : 0)
+            bdpt = median("bdpt", s, k); ours = median("subspaces", s, k) / bdpt; pt = median("pt", s, k) / bdpt
+            counts = bdpt > 0 && (marked["pt", s] == "" || marked["subspaces", s] != "") && pt > 0 && pt < 1
+            take("median", k, s, bdpt > 0 && ours > 0 ? floor(ours) / (counts ? floor(pt) : 1) : 0)
         }
     }
     if (!number["median", 1] || !number["median", 2] || !number["median", 3]) exit 1
