@@ -23,11 +23,11 @@ why() {
     case $1 in
     "make test" | "make check"* | "make mutants" | "make "*san | *run.sh* | *course.sh*) echo "other tests" ;;
     "make portability" | "make ref" | "make gallery" | "make experiments" | "make web" | "make inject" | \
-        "make evidence"* | *"equal-time"* | *out/gallery* | *"-lab family"* | *"tune.sh"* | *"conform/measure.sh"* | \
+        "make evidence"* | *"equal-time"* | *out/gallery* | *"-lab family"* | *"tune.sh"* | \
         *"ajar.pbrt -o out/ajar.png "*) echo "over a minute" ;;
     "make install"* | "make clean") echo "changes the system or the tree" ;;
     *resampling*) echo "a method that the page adds" ;;
-    *"conform out/pbrt") ls out/pbrt/*.pfm >/dev/null 2>&1 || echo "pbrt-v3 is not there" ;;
+    *"conform out/pbrt") command -v "${PBRT:-pbrt}" >/dev/null || echo "pbrt-v3 is not there" ;; # as kit.sh: need
     *"verify --images A"*) echo "placeholder" ;;
     *) echo "$1" | grep -Eq '(^|[ /])[A-Z]{2,}([ ./]|$)|\.\.\.' && echo "placeholder" ;;
     esac
