@@ -17,11 +17,11 @@ function unseen_scenes(file, out,    line, rows, part) {
     close(file)
 }
 
-# take: a ratio of a scene, among those of a group and measure; 0 is counted as not known.
-function take(group, m, where, v) {
+# take: a ratio, among those of a group and measure; 0 is counted as not known.
+function take(group, m, v) {
     if (v <= 0) { lost[group, m]++; return }
     logs[group, m] += log(v); squares[group, m] += log(v) ^ 2; number[group, m]++; above[group, m] += v > 1
-    if (v > most[group, m]) { most[group, m] = v; where_most[group, m] = where }
+    if (v > most[group, m]) most[group, m] = v
 }
 function mean_of(group, m) { return number[group, m] ? exp(logs[group, m] / number[group, m]) : 0 }
 # interval: geometric mean with its 95 % interval, Student's on the logarithms, if there are five scenes.
@@ -38,12 +38,20 @@ function student(n,    z) {
     return z + (z ^ 3 + z) / (4 * n) + (5 * z ^ 5 + 16 * z ^ 3 + 3 * z) / (96 * n ^ 2) + \
         (3 * z ^ 7 + 19 * z ^ 5 + 17 * z ^ 3 - 15 * z) / (384 * n ^ 3)
 }
-# cells: of a group: for each measure the mean with its interval, the worst scene, and in how many scenes it is above 1.
-function cells(group, names,    m, text) {
+# cells: of a group: for each measure the mean with its interval, the worst, and in how many scenes it is above 1.
+function cells(group,    m, text) {
     for (m = 1; m <= 3; m++)
-        text = text sprintf(" %s | %.2f%s | %d |", interval(group, m), most[group, m],
-            names ? " `" where_most[group, m] "`" : "", above[group, m])
+        text = text sprintf(" %s | %.2f | %d |", interval(group, m), most[group, m], above[group, m])
     return text
+}
+# median_of: of x[1] to x[n], which it sorts.
+function median_of(x, n,    i, j, y) {
+    for (i = 1; i <= n; i++) {
+        y = x[i]
+        for (j = i - 1; j >= 1 && x[j] > y; j--) x[j + 1] = x[j]
+        x[j + 1] = y
+    }
+    return n % 2 ? x[(n + 1) / 2] : (x[n / 2] + x[n / 2 + 1]) / 2
 }
 # two: a number in two digits: 0.59, 1.2, 12, 490,000.
 function two(v,    unit, text) {
@@ -57,8 +65,10 @@ function commas(text,    first) {
     match(text, /^[0-9]+/); first = RLENGTH - 3
     return substr(text, 1, first) "," substr(text, first + 1)
 }
-# three: three numbers, by each measure.
+# means_of, worst_of: of a group, by each measure, in words.
 function three(a, b, c) { return two(a) " (mse8), " two(b) " (relmse) and " two(c) " (8x8)" }
+function means_of(group) { return three(mean_of(group, 1), mean_of(group, 2), mean_of(group, 3)) }
+function worst_of(group) { return three(most[group, 1], most[group, 2], most[group, 3]) }
 # row: of a group, cells of a table: the means by each measure, and in how many scenes asbdpt has more error.
 function row(group,    m, text, losses, each, same) {
     same = number[group, 1] == number[group, 2] && number[group, 2] == number[group, 3]
@@ -71,6 +81,5 @@ function row(group,    m, text, losses, each, same) {
 }
 # answers: of a group the sections row and worst, their names after `before`.
 function answers(group, before) {
-    printf "== %srow\n%s\n== %sworst\n%s\n", before, row(group), before,
-        three(most[group, 1], most[group, 2], most[group, 3])
+    printf "== %srow\n%s\n== %sworst\n%s\n", before, row(group), before, worst_of(group)
 }

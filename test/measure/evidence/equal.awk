@@ -1,11 +1,11 @@
 # equal.awk, after better.awk: sections of doc/measured from family.md of `asbdpt-lab family`, where the default is
 # called subspaces; all is over the better of bdpt and pt, unless it is said. Of the last file: table, a line for each
 # scene; data, lines of a figure, "SCENE MSE8 LOW HIGH 8x8"; row and worst, see better.awk. With -v say=SCENE, SCENE:
-# its mse8 over bdpt. With -v but=, names of scenes: rest, the means without them, with
-# -v kinds= also rest-row, unseen-rest and typical, the median over scenes by mse8. Of two files, with 16 and 64 samples:
-# sizes, the same by scenes; first-row and first-worst of the first. With -v kinds=, a file of scenes and their kinds:
-# kinds, the means of each; unseen-row and unseen-worst, of the scenes that nothing was chosen on. With -v runners=,
-# runners.txt: light, the mean of the scenes that not all seeds render by a path tracer.
+# its mse8 over bdpt. With -v but=, names of scenes: rest, the means without them, with -v kinds= also rest-row,
+# and typical, the median over scenes by mse8. Of two files, with 16 and 64 samples: sizes, the same by
+# scenes; first-row and first-worst of the first. With -v kinds=, a file of scenes and their kinds: kinds, the means of
+# each; unseen-row and unseen-worst, of the scenes that nothing was chosen on. With -v runners=, runners.txt: light, the
+# mean of the scenes that not all seeds render by a path tracer.
 BEGIN {
     while (kinds != "" && (getline < kinds) > 0) kind[$1] = $2
     if (kinds != "") { close(kinds); unseen_scenes(kinds, unseen) }
@@ -73,7 +73,7 @@ function sizes(    i, f, m, q) {
         printf "| %s |", scene[i]
         for (f = 1; f <= 2; f++) for (m = 1; m <= 3; m++) {
             q = over(f, name[m], i)
-            if (f == 1) take("first", m, scene[i], q)
+            if (f == 1) take("first", m, q)
             printf((q > 0 ? (q > 1 ? " **%.2f** |" : " %.2f |") : " **-** |"), q)
         }
         print ""
@@ -83,14 +83,11 @@ function sizes(    i, f, m, q) {
     print ""
 }
 # typical: the median over scenes by mse8, of all or of those that nothing was chosen on.
-function typical(only,    i, j, k, v, x) {
-    for (i = 1; i <= n; i++) if ((v = over(file, "mse8", i)) > 0 && (!only || scene[i] in unseen)) {
-        for (j = k++; j >= 1 && x[j] > v; j--) x[j + 1] = x[j]
-        x[j + 1] = v
-    }
-    return (x[int((k + 1) / 2)] + x[int(k / 2) + 1]) / 2
+function typical(only,    i, k, v, x) {
+    for (i = 1; i <= n; i++)
+        if ((v = over(file, "mse8", i)) > 0 && (!only || scene[i] in unseen)) x[++k] = v
+    return median_of(x, k)
 }
-function means(group) { return three(mean_of(group, 1), mean_of(group, 2), mean_of(group, 3)) }
 END {
     if (!n) exit 1
     for (i = 1; i <= n; i++) {
@@ -98,24 +95,20 @@ END {
         if (k != "" && !count[k]++) order[++groups] = k
         for (m = 1; m <= 3; m++) {
             v = over(file, name[m], i)
-            take("all", m, scene[i], v)
-            take(k, m, scene[i], v)
-            if (scene[i] in unseen) take("unseen", m, scene[i], v)
-            if (!(scene[i] in tracer)) take("light", m, scene[i], v)
-            if (!(scene[i] in left_out)) {
-                take("rest", m, scene[i], v)
-                if (scene[i] in unseen) take("unseen-rest", m, scene[i], v)
-            }
+            take("all", m, v)
+            take(k, m, v)
+            if (scene[i] in unseen) take("unseen", m, v)
+            if (!(scene[i] in tracer)) take("light", m, v)
+            if (!(scene[i] in left_out)) take("rest", m, v)
         }
     }
     table()
     data()
     answers("all", "")
     for (i = 1; i <= n; i++) if (scene[i] == say) printf "== %s\n%s\n", say, value[file, "subspaces", "mse8", i]
-    if (but != "") printf "== rest\n%s\n", means("rest")
+    if (but != "") printf "== rest\n%s\n", means_of("rest")
     if (but != "" && kinds != "")
-        printf "== unseen-rest\n%s\n== rest-row\n%s\n== typical\n%.2f, of those not used for tuning %.2f\n",
-            means("unseen-rest"), row("rest"), typical(0), typical(1)
+        printf "== rest-row\n%s\n== typical\n%.2f, of those not used for tuning %.2f\n", row("rest"), typical(0), typical(1)
     if (file > 1) { sizes(); answers("first", "first-") }
     if (kinds != "") answers("unseen", "unseen-")
     if (traced) printf "== light\n%.2f\n", mean_of("light", 1)

@@ -14,23 +14,18 @@ FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
     marked[l, s] = $at["mark"]
 }
 function floor(v) { return v < 0.0005 ? 0.0005 : v } # as better.awk
-function median(l, s, k,    n, i, j, x, y) { # of a method's seeds, by insertion
-    n = seeds[l, s]
-    for (i = 1; i <= n; i++) {
-        y = error[l, s, k, i]
-        for (j = i - 1; j >= 1 && x[j] > y; j--) x[j + 1] = x[j]
-        x[j + 1] = y
-    }
-    return n % 2 ? x[(n + 1) / 2] : (x[n / 2] + x[n / 2 + 1]) / 2
+function median(l, s, k,    i, x) { # of a method's seeds
+    for (i = 1; i <= seeds[l, s]; i++) x[i] = error[l, s, k, i]
+    return median_of(x, seeds[l, s])
 }
 END {
     for (j = 1; j <= scenes; j++) {
         s = scene[j]
-        take("time", 1, s, seconds["subspaces", s] / seconds["bdpt", s])
+        take("time", 1, seconds["subspaces", s] / seconds["bdpt", s])
         for (k = 1; k <= 3; k++) {
             bdpt = median("bdpt", s, k); ours = median("subspaces", s, k) / bdpt; pt = median("pt", s, k) / bdpt
             counts = bdpt > 0 && (marked["pt", s] == "" || marked["subspaces", s] != "") && pt > 0 && pt < 1
-            take("median", k, s, bdpt > 0 && ours > 0 ? floor(ours) / (counts ? floor(pt) : 1) : 0)
+            take("median", k, bdpt > 0 && ours > 0 ? floor(ours) / (counts ? floor(pt) : 1) : 0)
         }
     }
     if (!number["median", 1] || !number["median", 2] || !number["median", 3]) exit 1

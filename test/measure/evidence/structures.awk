@@ -23,7 +23,7 @@ function over(s, measure,    v, part, a) { # and its interval
 END {
     for (i = 3; i <= columns; i++) {
         s = name[i]
-        take("over bdpt", 1, s, least(ratio["asbdpt", "mse8:", s]))
+        take("over bdpt", 1, least(ratio["asbdpt", "mse8:", s]))
         missed += ratio["pt", "mse8:", s] ~ /[a-z]/
         if (ratio["asbdpt", "mse8:", s] ~ /[a-z]/) dark = dark (dark ? ", `" : " in `") s "`"
         line = s " " over(s, "mse8:") " " over(s, "relmse:") " " over(s, "8x8:")
@@ -33,8 +33,8 @@ END {
         scenes["**all**"]++
         split(line, part, " ")
         for (m = 1; m <= 3; m++) {
-            take(kind, m, s, part[3 * m - 1] + 0)
-            take("**all**", m, s, part[3 * m - 1] + 0)
+            take(kind, m, part[3 * m - 1] + 0)
+            take("**all**", m, part[3 * m - 1] + 0)
             better[m] += part[3 * m + 1] + 0 > 0 && part[3 * m + 1] + 0 < 1
             worse[m] += part[3 * m] + 0 > 1
         }
@@ -47,20 +47,19 @@ END {
     print "== kinds\n| structure | scenes | mse8 | worst | above 1 | relmse | worst | above 1 | 8x8 | worst | above 1 |"
     print "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
     order[++kinds] = "**all**"
-    for (j = 1; j <= kinds; j++) print "| " order[j] " | " scenes[order[j]] " |" cells(order[j], 0)
+    for (j = 1; j <= kinds; j++) print "| " order[j] " | " scenes[order[j]] " |" cells(order[j])
     print "\n![Squared error of asbdpt over the better of bdpt and pt, in each generated scene](structures.svg)"
     print "== all"
     printf "Marks: `bdpt` in %d, `pt` in %d, `asbdpt`%s. No number: by mse8 in %d, by relmse in %d, by 8x8 in %d.\n", \
         first_marked, missed, dark ? dark : " in none", lost["**all**", 1], lost["**all**", 2], lost["**all**", 3]
     print "== mean\n" interval("over bdpt", 1)
-    for (j = 1; j < kinds; j++) for (m = 1; m <= 3; m++) take("kinds", m, order[j], mean_of(order[j], m))
+    for (j = 1; j < kinds; j++) for (m = 1; m <= 3; m++) take("kinds", m, mean_of(order[j], m))
     printf "== by-kind\n%s (mse8), %s (relmse) and %s (8x8)\n", \
         interval("kinds", 1), interval("kinds", 2), interval("kinds", 3)
     printf "== sure\nis below 1 in %d scenes by mse8, %d by relmse, %d by 8x8; above 1 in %d, %d, %d.\n", better[1], better[2], \
         better[3], worse[1], worse[2], worse[3]
     answers("**all**", "")
-    for (j = 1; j < kinds; j++) printf "== worst-%s\n%s\n", order[j], \
-        three(most[order[j], 1], most[order[j], 2], most[order[j], 3])
+    for (j = 1; j < kinds; j++) printf "== worst-%s\n%s\n", order[j], worst_of(order[j])
     printf "== data\n%s", data
     if (mean && mean_of("**all**", 1) > mean) {
         bad = 1
