@@ -71,7 +71,7 @@ $(BUILD)/flags $(BUILD)/files: FORCE
 	@echo "$$NOW" | cmp -s - $@ || echo "$$NOW" >$@
 $(BUILD)/suites.h: test/unit/suites.awk $(wildcard test/unit/*.c)
 	@mkdir -p $(@D)
-	@awk -f $^ | cmp -s - $@ || awk -f $^ >$@
+	@awk -f $^ >$@.new && { cmp -s $@.new $@ || cp $@.new $@; }
 
 -include $(wildcard $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d $(BUILD)/obj/*/*/*/*.d)
 

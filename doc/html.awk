@@ -8,9 +8,9 @@
 function escape(s) { gsub(/&/, "\\&amp;", s); gsub(/</, "\\&lt;", s); gsub(/>/, "\\&gt;", s); return s }
 
 # x_0, y_(s-1), m^2 of escaped text; names of two letters or more before an underscore are operators or functions.
-function formula(s, inline,    out, base, index_, mark) {
+function formula(s, in_text,    out, base, index_, mark) {
     gsub(/&lt;=/, "\\&le;", s); gsub(/&gt;=/, "\\&ge;", s)
-    if (!inline) {
+    if (!in_text) {
         gsub(/\.\.\./, "\\&hellip;", s)
         s = word(s, "integral", "\\&int;")
         gsub(/sqrt\(/, "\\&radic;(", s)
@@ -204,7 +204,7 @@ BEGIN {
 source { printf "<span id=\"L%d\" class=\"n\">%4d</span> %s\n", FNR, FNR, title ~ /\.[ch]$/ ? colour($0) : escape($0); next }
 
 fence && /^ *```/ { fence = 0; print "</pre>"; next }
-fence { print fence == 2 ? colour($0) : escape($0); next }
+fence { print (fence == 2 ? colour($0) : escape($0)); next }
 /^ *```/ { flush(); fence = /```c$/ ? 2 : 1; printf "<pre>"; next }
 /^<!-- .* -->$/ { next }
 { gsub(/<!-- [a-z][^>]* -->/, "") } # marks of measured numbers

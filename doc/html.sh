@@ -1,8 +1,10 @@
 #!/bin/sh
 # html.sh OUT: all documents as static HTML in OUT, with the sources they link to; `make doc` calls it. Needs sh and awk.
+# It ends where one of its commands fails, so no command whose status counts begins a pipeline.
+set -eu
 out=$1
 rm -rf "$out"
-mkdir -p "$out" || exit 1
+mkdir -p "$out"
 cat >"$out/style.css" <<'STYLE'
 :root { color-scheme: light dark; }
 body { max-width: 46em; margin: 0 auto; padding: 0 1em 4em; font: 1rem/1.55 Georgia, "Times New Roman", serif; }
@@ -89,7 +91,8 @@ page() {
     [ "$root" = . ] || root=${root#./}
     [ -d "$out/${1%"$rest"}" ] || mkdir -p "$out/${1%"$rest"}"
     case $1 in
-    *.md) math=0 && case $1 in README.md) math=2 ;;
+    *.md) math=0
+        case $1 in README.md) math=2 ;;
         doc/tour/* | doc/course/* | doc/method.md | doc/dissertation.md | doc/design-notes.md | doc/add-a-method.md) math=1 ;; esac
         awk -v root="$root" -v math=$math -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -f doc/math.awk -f doc/html.awk "$1" \
             >"$out/${1%.md}.html" ;;
@@ -98,9 +101,11 @@ page() {
     esac
 }
 
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 documents=$(find . \( -name 'build*' -o -name out -o -name .git \) -prune -o -name '*.md' -print | sed 's/^\.\///' | sort)
 # What they link to, as paths from the top.
-linked=$(awk '
+awk '
         { folder = index(FILENAME, "/") ? FILENAME : "."; sub(/\/[^\/]*$/, "", folder) }
         { while (match($0, /\]\([^() ]+\)/)) {
             url = substr($0, RSTART + 2, RLENGTH - 3)
@@ -115,9 +120,9 @@ linked=$(awk '
             path = kept[1]
             for (i = 2; i <= depth; i++) path = path "/" kept[i]
             print path
-        } }' $documents | sort -u)
-for file in $documents $linked; do
-    [ -f "$file" ] && page "$file"
+        } }' $documents >"$work/linked"
+for file in $documents $(sort -u "$work/linked"); do
+    if [ -f "$file" ]; then page "$file"; fi
 done
 
 # The first page: images, all pages, the small programs, and the headings of all pages to search in.
@@ -130,16 +135,18 @@ done
     sed -n '/^|/{s,](,](doc/,g;s,](doc/\.\./,](,g;p;}' doc/README.md
     printf '\n## Eight programs, from a ray to the whole method\n\n[How to read them](doc/mini/README.md)\n\n| program | what is new | image |\n|---|---|---|\n'
     sed -n 's,^| \([1-8]\) | \(\[.*\]\)(\(.*\)) | \(.*\) | [0-9]* |$,| \2(doc/mini/\3) | \4 | ![](doc/mini/figures/\1.png) |,p' doc/mini/README.md
-} >"$out/index.md"
+} >"$work/index.md"
+awk -v root=. -v title=asbdpt -f doc/math.awk -f doc/html.awk "$work/index.md" >"$work/index.html"
 {
-    awk -v root=. -v title=asbdpt -f doc/math.awk -f doc/html.awk "$out/index.md" | sed '$d'
+    sed '$d' "$work/index.html"
     echo '<h2 id="headings">Headings</h2><p><label>Search <input id="search" type="search"></label></p><ul id="list">'
     for file in $documents; do
         page=${file%.md}.html
-        sed -n 's,^<h[12] id="\([^"]*\)">\(.*\)</h[12]>$,\1 \2,p' "$out/$page" | awk -v page="$page" '
+        sed -n 's,^<h[12] id="\([^"]*\)">\(.*\)</h[12]>$,\1 \2,p' "$out/$page" >"$work/headings"
+        awk -v page="$page" '
             { id = $1; sub(/^[^ ]* /, ""); gsub(/<[^>]*>/, "") }
             NR == 1 { title = $0 }
-            { print "<li><a href=\"" page "#" id "\">" title (NR > 1 ? ": " $0 : "") "</a></li>" }'
+            { print "<li><a href=\"" page "#" id "\">" title (NR > 1 ? ": " $0 : "") "</a></li>" }' "$work/headings"
     done
     cat <<'END'
 </ul>
@@ -152,5 +159,4 @@ document.getElementById('search').oninput = event => {
 </body></html>
 END
 } >"$out/index.html"
-rm "$out/index.md"
 echo "wrote $(find "$out" -name '*.html' | wc -l | tr -d ' ') pages; begin with $out/index.html"

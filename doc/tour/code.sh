@@ -24,7 +24,7 @@ for page in doc/tour/[01]*.md; do
             while ((getline line < (folder path)) > 0) {
                 if (!inside && line ~ ("^[a-z].*[ *]" name "\\(") && line !~ /;$/) inside = 1
                 if (!inside) continue
-                if (!here && index(line, from)) { here = 1; match(line, /^ */); indent = RLENGTH }
+                if (!here && (from == "" || index(line, from))) { here = 1; match(line, /^ */); indent = RLENGTH }
                 if (here && shown < n) { print substr(line, substr(line, 1, indent) ~ /^ *$/ ? indent + 1 : 1); shown++ }
                 if (line ~ /^}/ || line ~ /^[a-z].*}$/) break
             }

@@ -31,7 +31,7 @@ END {
             v = digit * exp(power * log(10))
             if (v < least * 0.999 || v > most * 1.001) continue
             printf "<path d='M%g 54V%g' stroke='#222' stroke-opacity='%g'/><text x='%g' y='%g' text-anchor='middle'>%.2g</text>\n",
-                place(v), bottom, power == 0 && digit == 1 ? 1 : 0.15, place(v), bottom + 16, v
+                place(v), bottom, (power == 0 && digit == 1 ? 1 : 0.15), place(v), bottom + 16, v
         }
     for (i = 1; i <= NR; i++) {
         y = 70 + 22 * (i - 1)

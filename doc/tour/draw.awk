@@ -15,8 +15,9 @@ $1 == "size" {
 $1 == "line" || $1 == "dash" || $1 == "arrow" || $1 == "shape" {
     d = "M" $3 " " $4
     for (i = 5; i < NF; i += 2) d = d "L" $i " " $(i + 1)
-    printf "<path d='%s' fill='%s' stroke='%s' stroke-width='%s'%s/>\n", $1 == "shape" ? d "Z" : d, $1 == "shape" ? colour[$2] : "none",
-        $1 == "shape" ? "none" : colour[$2], $2 == "wall" ? 3 : $2 == "link" ? 2.5 : 1.6, $1 == "dash" ? " stroke-dasharray='4 4'" : ""
+    printf "<path d='%s' fill='%s' stroke='%s' stroke-width='%s'%s/>\n", ($1 == "shape" ? d "Z" : d),
+        ($1 == "shape" ? colour[$2] : "none"), ($1 == "shape" ? "none" : colour[$2]),
+        ($2 == "wall" ? 3 : $2 == "link" ? 2.5 : 1.6), ($1 == "dash" ? " stroke-dasharray='4 4'" : "")
     if ($1 == "arrow") { # its head, along the last piece
         dx = $(NF - 1) - $(NF - 3); dy = $NF - $(NF - 2); l = sqrt(dx * dx + dy * dy); dx /= l; dy /= l
         printf "<path d='M%g %gL%g %gL%g %gZ' fill='%s'/>\n", $(NF - 1), $NF, $(NF - 1) - 9 * dx + 4 * dy, $NF - 9 * dy - 4 * dx,
@@ -26,7 +27,8 @@ $1 == "line" || $1 == "dash" || $1 == "arrow" || $1 == "shape" {
 }
 $1 == "dot" { printf "<circle cx='%g' cy='%g' r='5' fill='%s'/>\n", $3, $4, colour[$2]; next }
 $1 == "box" {
-    printf "<rect x='%g' y='%g' width='%g' height='%g' fill='%s' stroke='#888'/>\n", $3, $4, $5, $6, $2 == "none" ? "none" : colour[$2]
+    printf "<rect x='%g' y='%g' width='%g' height='%g' fill='%s' stroke='#888'/>\n", $3, $4, $5, $6,
+        ($2 == "none" ? "none" : colour[$2])
     next
 }
 $1 == "arc" {
@@ -38,8 +40,8 @@ $1 == "arc" {
 $1 == "text" {
     words = $0
     sub(/^ *text +[a-z]+ +[-0-9.]+ +[-0-9.]+ +/, "", words)
-    printf "<text x='%g' y='%g'%s>%s</text>\n", $3, $4, $2 == "middle" ? " text-anchor='middle'" : $2 == "right" ? " text-anchor='end'" : \
-        $2 == "bold" ? " font-weight='bold'" : "", indices(words)
+    printf "<text x='%g' y='%g'%s>%s</text>\n", $3, $4, ($2 == "middle" ? " text-anchor='middle'" : \
+        $2 == "right" ? " text-anchor='end'" : $2 == "bold" ? " font-weight='bold'" : ""), indices(words)
     next
 }
 { print "draw.awk: line " NR ": what is " $1 "?" > "/dev/stderr"; bad = 1; exit 1 }

@@ -193,7 +193,7 @@ fill() {
 drift() {
     notes >"$dir/notes"
     for page in $(pages); do
-        [ ! -f "$1/$page" ] || { filled "$1/$page" | cmp -s - "$1/$page" || echo "$page"; }
+        [ ! -f "$1/$page" ] || { filled "$1/$page" >"$dir/page" && cmp -s "$dir/page" "$1/$page" || echo "$page"; }
     done
 }
 # near FILE FILE PERCENT: are they the same, but for numbers, which may differ by so much?

@@ -11,9 +11,9 @@ program() {
 }
 for file in src/cli/program.c test/lab/main.c test/unit/main.c; do program >$file; done
 for file in test/fuzz/targets.c test/fuzz/hostile.c; do echo 'typedef int none;' >$file; done
-# header NUMBER, source NUMBER: what is said is their sum, and what the compiler defines.
-header() { printf 'enum { HEADER = %s };\nint word(void);\n' "$1" >src/base/word.h; }
-source() {
+# write_header NUMBER, write_source NUMBER: what is said is their sum, and what the compiler defines.
+write_header() { printf 'enum { HEADER = %s };\nint word(void);\n' "$1" >src/base/word.h; }
+write_source() {
     printf '#include "base/word.h"\n#ifndef FLAG\n#define FLAG 0\n#endif\n' >src/base/word.c
     echo "int word(void) { return HEADER + $1 + FLAG; }" >>src/base/word.c
 }
@@ -27,7 +27,7 @@ builds() {
     done
 }
 
-header 100 && source 1
+write_header 100 && write_source 1
 what="nothing was built"
 expect 0 '' "${MAKE:-make}" CC="$cc"
 check [ ! -e build/test ]
@@ -35,11 +35,11 @@ expect 0 '' "${MAKE:-make}" CC="$cc" build/test
 builds 101 CC="$cc"
 check [ "$(grep -c '^  ' stdout.txt)" = 0 ] # nothing is built again
 what="an edit of a source"
-source 2
+write_source 2
 builds 102 CC="$cc"
 check [ "$(grep -c 'obj/' stdout.txt)" = 1 ] # no other is compiled again
 what="an edit of a header"
-header 200
+write_header 200
 builds 202 CC="$cc"
 what="other flags"
 builds 212 CC="$cc" CFLAGS=-DFLAG=10

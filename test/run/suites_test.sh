@@ -15,7 +15,7 @@ exit 1
 END
 cat >where <<'END'
 case $PWD in *' '*) ;; *) exit 1 ;; esac
-case $TMPDIR in *' '*[!\ -~]*) ;; *) exit 1 ;; esac
+case $TMPDIR in *"$(printf ' w\303\266rds')") ;; *) exit 1 ;; esac
 [ "$(umask)" = 0077 ] && [ -f Makefile ]
 END
 chmod +x pass && PATH=$dir:$PATH

@@ -1,7 +1,8 @@
 # recompute.awk RUNS.csv NAME.txt: computes again from every run the geometric means over scenes of the squared errors
 # over the first method's after the same CPU time, and their intervals, Student's at 95 % on the logarithms. It compares
-# these with a stored table: the rows of methods in the sections of both halves, or the row of better.awk. Exit status 1
-# if a number differs or none was compared.
+# these with a stored table: the rows of methods in the sections of both halves, or the row of better.awk. Of one scene
+# it computes no interval: the stored one is over seeds, with the noise of a reference, which runs do not tell. Exit
+# status 1 if a number differs or none was compared.
 BEGIN {
     while ((getline < ARGV[2]) > 0) { # numbers that are not there: the noise of a reference, which runs do not tell
         if (/^== /) section = $0
@@ -45,10 +46,11 @@ function compare(half, method, k, text,    i, x, a, b, mean, squares, error, sto
         x[i] = log(a / b); mean += x[i] / scenes
     }
     for (i = 1; i <= scenes; i++) squares += (x[i] - mean) ^ 2
-    error = t[scenes - 1] * sqrt(squares / (scenes - 1) / scenes)
+    error = scenes > 1 ? t[scenes - 1] * sqrt(squares / (scenes - 1) / scenes) : 0
     gsub(/[][*,]/, " ", text); split(text, stored, " ")
     compared++
-    return near(stored[1], exp(mean)) && near(stored[2], exp(mean - error)) && near(stored[3], exp(mean + error)) || \
+    return near(stored[1], exp(mean)) && (scenes == 1 || \
+        near(stored[2], exp(mean - error)) && near(stored[3], exp(mean + error))) || \
         wrong(half, method, k, text, sprintf("%.3f [%.3f, %.3f]", exp(mean), exp(mean - error), exp(mean + error)))
 }
 function wrong(half, method, k, text, runs) {
@@ -95,9 +97,10 @@ section == "row" && split($0, c, / *\| */) == 4 {
             mean += log(v); squares += log(v) ^ 2; number++; by += printed
             above += v > 1 - printed; least += v > 1 + printed # 1.000 may be either
         }
+        if (!number) { wrong(h, section, k, " " c[k], "nothing"); continue }
         mean /= number; by /= number
         error = number > 30 ? 1.96 + 2.4 / (number - 1) : t[number - 1]
-        error *= sqrt((squares - number * mean ^ 2) / (number - 1) / number)
+        if (number > 1) error *= sqrt((squares - number * mean ^ 2) / (number - 1) / number)
         gsub(/[][,]/, " ", c[k]); split(c[k], stored, " ")
         compared++
         if (!near(stored[1], exp(mean), by) || lost[k] + 0 > above || lost[k] + 0 < least || \

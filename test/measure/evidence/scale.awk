@@ -60,8 +60,8 @@ END {
             continue
         }
         printf "| %s %s to %s: %s | %.3g | %.3g | | %s | %.2g | %s | %.2f at %s |\n", axis, power(size[axis, 1]),
-            power(size[axis, sizes[axis]]), name, first, last, says[part[3]], a, part[3] == "constant" ? "" : \
-            sprintf("%.2g", b), worst, power(size[axis, at])
+            power(size[axis, sizes[axis]]), name, first, last, says[part[3]], a, \
+            (part[3] == "constant" ? "" : sprintf("%.2g", b)), worst, power(size[axis, at])
     }
     print "== data"
     for (k in value) {
