@@ -1,4 +1,6 @@
 # asbdpt: `make help` lists the targets. Needs a C99 compiler, GNU make (3.81 will do), libm and POSIX threads.
+# The next line is a message to BSD make, and to GNU make a rule that nothing uses.
+.error : asbdpt needs GNU make (gmake), or the line in doc/portability.md that builds without any make
 CC      = cc
 export CC
 BUILD   = build
@@ -15,7 +17,9 @@ WARN    = -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wstrict-protot
 OPT     = -O3 $(LTO)
 FLAGS   = $(WARN) $(OPT) -Isrc -ffp-contract=off -fno-math-errno -pthread
 LIBS    = -lm -lpthread
-LTO     = $(eval LTO := $$(shell sh test/run/lto.sh $$(CC)))$(LTO)# asked of the compiler at the first use, once
+# These are asked of the compiler at the first use, once.
+LTO     = $(eval LTO := $$(shell sh test/run/compiler.sh lto $$(CC)))$(LTO)
+DEPEND  = $(eval DEPEND := $$(shell sh test/run/compiler.sh depend $$(CC)))$(DEPEND)
 
 OBJECTS  = $(patsubst src/%.c,$(BUILD)/obj/%.o,$(wildcard src/*/*.c))
 LABS     = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/lab/*.c test/lab/*/*.c)) \
@@ -23,9 +27,6 @@ LABS     = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/lab/*.c tes
 TARGETS  = $(BUILD)/obj/test/fuzz/targets.o $(BUILD)/obj/test/fuzz/hostile.o
 TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/unit/*.c)) $(TARGETS)
 PROGRAMS = asbdpt asbdpt-lab $(addprefix $(BUILD)/,test fuzz inject inject-lab embree)
-
-.BEGIN: # which other makes do before anything else, and GNU make never
-	@echo "This Makefile needs GNU make (gmake); doc/portability.md has a line that builds without any make." >&2; exit 1
 
 # The tests, too, if they were built before: what is run is never older than its sources.
 all: asbdpt asbdpt-lab $(wildcard $(BUILD)/test) ## build ./asbdpt, the renderer, and ./asbdpt-lab, the laboratory (the default)
@@ -50,11 +51,11 @@ $(PROGRAMS): $(BUILD)/files
 
 $(BUILD)/obj/test/%.o: test/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(SAY)$(CC) $(FLAGS) $(TESTED) -Itest -Itest/lab -Itest/unit -I$(BUILD) -MMD -MP $(CFLAGS) -c -o $@ $<
+	$(SAY)$(CC) $(FLAGS) $(TESTED) -Itest -Itest/lab -Itest/unit -I$(BUILD) $(DEPEND) $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(SAY)$(CC) $(FLAGS) -MMD -MP $(CFLAGS) -c -o $@ $<
+	$(SAY)$(CC) $(FLAGS) $(DEPEND) $(CFLAGS) -c -o $@ $<
 
 # Tests are built quickly: without optimisation of the whole, and what only tests with little of its own.
 NO_LTO = $(if $(LTO),-fno-lto)
@@ -63,8 +64,10 @@ $(TESTS): | $(BUILD)/suites.h
 $(BUILD)/test: AT_LINK = $(NO_LTO)
 $(BUILD)/fuzz: AT_LINK = -fsanitize=fuzzer
 
-# These change when the compiler, its flags or the list of files do. Then all is compiled, or linked, again.
-$(BUILD)/flags: export NOW = $(shell $(CC) --version 2>&1) $(CC) $(FLAGS) $(CFLAGS) $(LDFLAGS)
+# These change when the compiler, its flags or the list of files do. Then all is compiled, or linked, again; as it is if
+# a header changes and the compiler does not write which files include it.
+HEADERS = $(shell cat $(wildcard src/*/*.h test/*/*.h test/*/*/*.h) | cksum)
+$(BUILD)/flags: export NOW = $(shell $(CC) --version 2>&1) $(CC) $(FLAGS) $(CFLAGS) $(LDFLAGS) $(if $(DEPEND),,$(HEADERS))
 $(BUILD)/files: export NOW = $(OBJECTS) $(LABS) $(TESTS)
 $(BUILD)/flags $(BUILD)/files: FORCE
 	@mkdir -p $(@D)
@@ -152,8 +155,9 @@ mutants: ## apply small faults one by one; the tests must catch every one
 layers: ## check that no file includes a higher folder, that no includes go in a circle, that headers compile alone and offer what is used
 	@ABOVE="test/lab/caustics test/lab/rivals test/lab/chains test/lab" sh test/tree/layers.sh src $(CC)
 
-standard: ## check that src calls and includes nothing that differs from machine to machine, except in base/os*.c
+standard: ## check that src calls and includes nothing that differs from machine to machine, except in base/os*.c; nor scripts
 	@sh test/tree/standard.sh
+	@sh test/tree/scripts.sh
 
 references: ## check that every source named in a comment is in doc/references.md, and that all there are used
 	@sh test/tree/references.sh

@@ -5,7 +5,7 @@
 unset MAKEFLAGS MAKELEVEL
 cc=${CC:-cc}
 mkdir -p src/base src/cli test/lab test/fuzz test/unit test/run
-cp "$top/Makefile" . && cp "$top/test/run/lto.sh" test/run && cp "$top/test/unit/suites.awk" test/unit
+cp "$top/Makefile" . && cp "$top/test/run/compiler.sh" test/run && cp "$top/test/unit/suites.awk" test/unit
 program() {
     printf '#include <stdio.h>\n#include "base/word.h"\nint main(void) { return printf("%%d\\n", word()) < 0; }\n'
 }
@@ -51,6 +51,12 @@ builds 222 CC=./compiler
 what="another version of the compiler"
 printf '#!/bin/sh\n[ "$1" != --version ] || { echo 2; exit; }\nexec %s -DFLAG=30 "$@"\n' "$cc" >compiler
 builds 232 CC=./compiler
+what="a compiler that does not write which headers a file includes"
+printf '#!/bin/sh\nfor option; do [ "$option" != -MMD ] || exit; done\nexec %s "$@"\n' "$cc" >compiler
+builds 202 CC=./compiler
+write_header 300
+builds 302 CC=./compiler
+write_header 200
 what="the other of two compilers"
 for other in gcc clang gcc; do
     ! command -v $other >/dev/null || builds 202 CC=$other
@@ -59,7 +65,7 @@ what="no optimisation of the whole"
 builds 202 LTO=
 what="such optimisation"
 builds 202 CC="$cc" V=1
-[ -z "$(sh test/run/lto.sh $cc)" ] || says '-fno-lto.* -o build/test '
+[ -z "$(sh test/run/compiler.sh lto $cc)" ] || says '-fno-lto.* -o build/test '
 what="a file that is gone"
 mv src/base/word.c word.c
 expect 2 'word' "${MAKE:-make}" CC="$cc"
