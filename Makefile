@@ -123,12 +123,15 @@ FACTS = $(foreach name,layers standard references limits links measured faults,"
 check: asbdpt-lab ## facts about sources and documents, in ten seconds
 	@sh test/run/suites.sh $(FACTS)
 
+LONG  = $(foreach name,mini cli keep build,"sh test/run/$(name).sh $(PROGRAM)")
+SHORT = $(foreach name,outputs install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") \
+    "LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB)" "sh test/tree/words_test.sh" \
+    "sh test/run/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
 test: asbdpt asbdpt-lab $(BUILD)/test ## build and run the test suite (three minutes on two cores)
-	@sh test/run/suites.sh "sh test/run/mini.sh $(PROGRAM)" $(foreach name,cli keep build,"sh test/run/$(name).sh $(PROGRAM)") \
-	    $(FACTS) $(BUILD)/test \
-	    $(foreach name,outputs install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") "sh test/tree/words_test.sh" \
-	    "LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB)" \
-	    "sh test/run/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
+	@sh test/run/suites.sh $(LONG) $(FACTS) $(BUILD)/test $(SHORT)
+
+scripts: asbdpt asbdpt-lab ## the same without the suites in C: what depends on the sh and awk of a system
+	@sh test/run/suites.sh $(LONG) $(FACTS) $(SHORT)
 
 check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
 	@sh test/run/suites.sh "sh test/run/course.sh prove" "$(BUILD)/test --slow" "sh test/run/keep.sh $(PROGRAM) 100" \
@@ -144,6 +147,7 @@ check-ref: asbdpt asbdpt-lab ## check that the program still converges to the st
 
 portability: ## build by every compiler, and for every system, that is at hand or emulated; the images must be the same
 	sh test/run/portability.sh
+	sh test/run/tools.sh
 
 hashes: asbdpt asbdpt-lab ## write the checksums of images again, after a change that is meant to change images
 	sh test/run/hashes.sh $(PROGRAM) renew
@@ -222,5 +226,5 @@ help: ## list the targets
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt asbdpt-lab
 
-.PHONY: FORCE all check install uninstall demo gallery experiments web release bench ref test check-long check-ref portability hashes faults mutants \
+.PHONY: FORCE all check install uninstall demo gallery experiments web release bench ref test check-long check-ref portability hashes faults mutants scripts \
 	layers standard references links evidence measured doc figures san tsan stats tidy help clean

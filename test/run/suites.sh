@@ -18,9 +18,10 @@ export TMPDIR
 for command; do
     case $command in
     *' '*) echo "$command" ;;
-    *) "$command" -l | awk -v program="$command" '!/slow/ { all = program " " $1 "\n" all } END { printf "%s", all }' ;;
-    esac
-done >"$work/commands"
+    *) "$command" -l >"$work/suites" &&
+        awk -v program="$command" '!/slow/ { all = program " " $1 "\n" all } END { printf "%s", all }' "$work/suites" ;;
+    esac || { echo "FAILED: $command -l" >&2; exit 1; }
+done >"$work/commands" || exit
 : >"$work/failed"
 tr '\n' '\0' <"$work/commands" | xargs -0 -n 1 -P "$cores" sh -c '
     said=$0/$$ begun=$(date +%s)
