@@ -95,7 +95,7 @@ sub, sup { font-size: 0.72em; line-height: 0; }
     .slides img { width: 24cm; height: 11cm; }
     .sheet h2 ~ h2 { break-before: page; }
     .sheet h2::after { content: "Name: ........................................"; float: right; font: 10.5pt sans-serif; }
-    .sheet h2 ~ p { padding-bottom: 1.7cm; break-inside: avoid; }
+    .sheet h2 ~ p { padding-bottom: 2.1cm; break-inside: avoid; }
 }
 STYLE
 

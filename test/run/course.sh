@@ -19,8 +19,7 @@ SANE="-g -fsanitize=address,undefined -fno-sanitize-recover=undefined" # for wha
 say() { printf '%s\n' "$@"; }
 die() { say "course: $*" >&2; exit 2; }
 
-# In a copy, the tree that it was copied from does the work. `start` wrote both into the copy: .course has the assignment
-# and the tree.
+# In a copy, the tree that it came from does the work: `start` wrote the assignment and the tree into .course.
 if [ -f .course ]; then
     read -r name tree <.course
     case ${1-} in grade) set -- grade "${2:-$name}" "${3:-$PWD}" ;; esac
@@ -116,7 +115,7 @@ start() {
     mkdir -p "$(dirname "$2")" && cp -Rp "$original" "$2" && dig "$1" "$2" && say "$1 $PWD" >"$2/.course" || exit
     say "$(get "$1" title). Read doc/course/$1.md. Yours to write in $2:"
     get "$1" hole | sed 's/^\([^ ]*\) \([^ ]*\).*/    \1: \2/'
-    say "Then, there or here: sh test/run/course.sh grade ${1%%-*} $2"
+    say "Then, in that folder: sh test/run/course.sh grade"
 }
 
 grade() {
