@@ -48,6 +48,7 @@ $(asked | grep -c .) exercises, $(quiz <$answers)"
 copies() {
     (
         mkdir -p "$1/a copy" "$1/its tree/test/run" && echo 'echo "$PWD" "$@"' >"$1/its tree/test/run/course.sh" &&
+            cp -R "$1/its tree/test" "$1/a copy/" &&
             echo "1-alias $1/its tree" >"$1/a copy/.course" && script=$PWD/test/run/course.sh && cd "$1/a copy" &&
             [ "$(sh "$script" grade)" = "$1/its tree grade 1-alias $1/a copy" ] &&
             [ "$(sh "$script" grade 2 ../other)" = "$1/its tree grade 2 $1/a copy/../other" ] &&
