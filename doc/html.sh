@@ -89,13 +89,15 @@ sub, sup { font-size: 0.72em; line-height: 0; }
     pre, tr, img { break-inside: avoid; }
     h2 { break-after: avoid; }
     .slides { font-size: 20pt; page: slides; }
+    .slides pre { font-size: 0.8em; }
     .slides .many :is(td, th) { font-size: 0.8em; padding: 0.25em 0.5em; }
     .slides section { min-height: 0; padding: 0; break-after: page; position: static; }
     .slides section::after { display: none; }
     .slides img { width: 24cm; height: 11cm; }
+    .sheet { padding: 0; }
     .sheet h2 ~ h2 { break-before: page; }
     .sheet h2::after { content: "Name: ........................................"; float: right; font: 10.5pt sans-serif; }
-    .sheet h2 ~ p { padding-bottom: 2.1cm; break-inside: avoid; }
+    .sheet h2 ~ p { padding-bottom: 1.8cm; break-inside: avoid; }
 }
 STYLE
 
