@@ -1,7 +1,8 @@
 # html.awk: a page of Markdown, or a source file (-v source=1), as HTML that needs nothing but itself and its pictures.
-#   awk -v root=../.. -v title=NAME [-v math=1] [-v source=1] -f doc/math.awk -f doc/html.awk FILE >FILE.html
-# root is the way from the page to the top of the HTML tree. The subset of Markdown is that of this tree's documents:
-# headings, paragraphs, lists of one level, tables, indented and fenced code, pictures, links, emphasis, code.
+#   awk -v root=../.. -v title=NAME [-v math=1] [-v source=1] [-v class=NAME] -f doc/math.awk -f doc/html.awk FILE >FILE.html
+# root is the way from the page to the top of the HTML tree, class that of the page's body; in slides every heading begins
+# a section. The subset of Markdown is that of this tree's documents: headings, paragraphs, lists of one level, tables,
+# indented and fenced code, pictures, links, emphasis, code.
 # With math, plain-text formulas are typeset: those of a line of text by indices and Greek letters, blocks by
 # math.awk (not with math=2).
 
@@ -195,7 +196,7 @@ BEGIN {
         " sizeof static struct switch union unsigned void while "
     print "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
     print "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" title "</title>"
-    print "<link rel=\"stylesheet\" href=\"" root "/style.css\"></head><body" (source ? " class=\"source\"" : "") ">"
+    print "<link rel=\"stylesheet\" href=\"" root "/style.css\"></head><body" (class != "" ? " class=\"" class "\"" : "") ">"
     print "<nav><a href=\"" root "/index.html\">asbdpt</a> <a href=\"" root "/doc/tour/README.html\">tour</a> " \
         "<a href=\"" root "/doc/course/README.html\">course</a> <a href=\"" root "/doc/tour/glossary.html\">glossary</a> " \
         "<a href=\"" root "/doc/README.html\">all pages</a></nav>"
@@ -219,6 +220,7 @@ fence { print (fence == 2 ? colour($0) : escape($0)); next }
     match($0, /^#+/)
     n = RLENGTH
     text = substr($0, n + 2)
+    if (class == "slides") print (sections++ ? "</section>" : "") "<section>"
     id = tolower(text); gsub(/[^a-z0-9 -]/, "", id); gsub(/ /, "-", id)
     print "<h" n " id=\"" id "\">" inline(text) "</h" n ">"
     if (n == 2) contents = contents "<a href=\"#" id "\">" inline(text) "</a>\n"
@@ -261,6 +263,7 @@ fence { print (fence == 2 ? colour($0) : escape($0)); next }
 END {
     end_list(); flush()
     if (source) print "</pre>"
+    if (sections) print "</section>"
     if (contents != "") print "<aside>" contents "</aside>"
     print "</body></html>"
 }

@@ -68,7 +68,18 @@ sub, sup { font-size: 0.72em; line-height: 0; }
     .wide:has(.drawing)::before { content: "wider than the screen: scroll \2192"; position: sticky; left: 0; display: block;
         width: max-content; font: 0.8rem sans-serif; color: #777; }
 }
+.slides { max-width: none; padding: 0; font: 3.8vmin/1.4 sans-serif; counter-reset: slide; }
+.slides section { box-sizing: border-box; min-height: 100vh; padding: 3vh 8vw; counter-increment: slide; position: relative; }
+.slides section::after { content: counter(slide); position: absolute; right: 2vw; bottom: 2vh; color: #888; }
+.slides h3 { font-size: 1.4em; }
+.slides h2 { font-size: 2em; padding-top: 12vh; }
+.slides aside { display: none; }
+.slides .wide { background: none; }
+.slides :is(h2, h3, p, ul, ol, table) { margin: 0 0 0.6em; }
+.slides img { display: block; margin: auto; width: 84vw; height: 60vh; object-fit: contain; }
+@media screen { html:has(.slides) { scroll-snap-type: y proximity; } .slides section { scroll-snap-align: start; } }
 @media (prefers-color-scheme: dark) { a { color: #7db8f2; } pre i { color: #7b9; } pre b { color: #e8a; } }
+@page slides { size: A4 landscape; margin: 1.5cm 2cm; }
 @media print {
     body { max-width: none; font-size: 10.5pt; }
     nav { display: none; }
@@ -79,6 +90,16 @@ sub, sup { font-size: 0.72em; line-height: 0; }
     .many code { white-space: normal; }
     pre, tr, img { break-inside: avoid; }
     h2 { break-after: avoid; }
+    .slides { font-size: 20pt; page: slides; }
+    .slides pre { font-size: 0.8em; }
+    .slides .many :is(td, th) { font-size: 0.8em; padding: 0.25em 0.5em; }
+    .slides section { min-height: 0; padding: 0; break-after: page; position: static; }
+    .slides section::after { display: none; }
+    .slides img { width: 24cm; height: 11cm; }
+    .sheet { padding: 0; }
+    .sheet h2 ~ h2 { break-before: page; }
+    .sheet h2::after { content: "Name: ........................................"; float: right; font: 10.5pt sans-serif; }
+    .sheet h2 ~ p { padding-bottom: 1.8cm; break-inside: avoid; }
 }
 STYLE
 
@@ -91,13 +112,16 @@ page() {
     [ "$root" = . ] || root=${root#./}
     [ -d "$out/${1%"$rest"}" ] || mkdir -p "$out/${1%"$rest"}"
     case $1 in
-    *.md) math=0
-        case $1 in README.md) math=2 ;;
-        doc/tour/* | doc/course/* | doc/method.md | doc/dissertation.md | doc/design-notes.md | doc/add-a-method.md) math=1 ;; esac
-        awk -v root="$root" -v math=$math -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -f doc/math.awk -f doc/html.awk "$1" \
+    *.md) class= math=0
+        case $1 in */slides*) class=slides ;; */quiz.md) class=sheet ;; esac
+        case $1 in
+        README.md) math=2 ;;
+        doc/tour/* | doc/course/* | doc/method.md | doc/dissertation.md | doc/design-notes.md | doc/add-a-method.md) math=1 ;;
+        esac
+        awk -v root="$root" -v math=$math -v class=$class -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -f doc/math.awk -f doc/html.awk "$1" \
             >"$out/${1%.md}.html" ;;
     *.png | *.svg | *.html) cp "$1" "$out/$1" ;;
-    *) awk -v root="$root" -v title="$1" -v source=1 -f doc/math.awk -f doc/html.awk "$1" >"$out/$1.html" ;;
+    *) awk -v root="$root" -v title="$1" -v source=1 -v class=source -f doc/math.awk -f doc/html.awk "$1" >"$out/$1.html" ;;
     esac
 }
 

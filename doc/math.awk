@@ -97,7 +97,7 @@ function math_factor(    out, low, high, kept) {
     else if (T[I] == "(" || T[I] == "[") {
         kept = T[I++] == "(" ? ")" : "]"
         out = math_terms(kept); I++
-        if (out !~ /^<mfrac>.*<\/mfrac>$/ || gsub(/<mfrac>/, "<mfrac>", out) > 1)
+        if (kept == "]" || out !~ /^<mfrac>.*<\/mfrac>$/ || gsub(/<mfrac>/, "<mfrac>", out) > 1)
             out = "<mrow class=\"group\"><mo>" (kept == ")" ? "(" : "[") "</mo>" out "<mo>" kept "</mo></mrow>"
     } else if (T[I] == "|") { I++; inside = 1; out = "<mrow><mo>|</mo>" math_terms("|") "<mo>|</mo></mrow>"; inside = 0; I++ }
     else if (T[I] ~ /^[0-9]/) out = "<mn>" T[I++] "</mn>"

@@ -1,6 +1,7 @@
 # check.sh: is the course whole? Read by course.sh, which calls one of these.
 
-# check: every hole applies and compiles, every exercise of the tour has an answer and every answer a mutant.
+# check: every hole applies and compiles, every exercise of the tour has an answer and every answer a mutant, a copy is
+# graded from within, and the answers of the quiz are what their computations give.
 check() {
     dir=$(mktemp -d) && trap 'rm -rf "$dir"' EXIT && cp -R src "$dir/" || exit 2
     bad=0
@@ -32,9 +33,34 @@ check() {
             get "$n" hint | grep -q "^[^ ]* $step " || wrong "assignment $n has no hint of step $step"
         done
     done
+    copies "$dir" || wrong "grade, called in a copy, does not ask the tree to grade that copy"
+    quiz <$answers >/dev/null || wrong "the quiz and its answers do not agree"
+    for damage in '/^| 2b /s/| 0/| 1/' '/^| 5c /s/| [0-9.]* /| nan /' '/^| 7a /d' '/^| 7c /s/2/0/g' 's/`.*`//'; do
+        sed "$damage" $answers | quiz >/dev/null && wrong "the quiz is right with its answers after $damage"
+    done
     [ $bad -eq 0 ] && say "course: $(names assignment | grep -c .) assignments, $(planted | grep -c .) steps left out, \
-$(asked | grep -c .) exercises"
+$(asked | grep -c .) exercises, $(quiz <$answers)"
     return $bad
+}
+
+# copies DIR: in a copy, in a path with blanks, `grade` calls the tree for this copy, and only for its assignment. What
+# stands for the tree prints its place and words.
+copies() {
+    (
+        mkdir -p "$1/a copy" "$1/its tree/test/run" && echo 'echo "$PWD" "$@"' >"$1/its tree/test/run/course.sh" &&
+            cp -R "$1/its tree/test" "$1/a copy/" &&
+            echo "1-alias $1/its tree" >"$1/a copy/.course" && script=$PWD/test/run/course.sh && cd "$1/a copy" &&
+            [ "$(sh "$script" grade)" = "$1/its tree grade 1-alias $1/a copy" ] &&
+            [ "$(sh "$script" grade 2 ../other)" = "$1/its tree grade 2 $1/a copy/../other" ] &&
+            rm -r "$1/its tree" && ! sh "$script" grade 2>/dev/null
+    )
+}
+
+# quiz: of the answers on standard input. Every question of the sheet has one row, `| 7b | result | computation |`; each
+# result is its computation, rounded as it is written; at least half of the questions have one.
+answers=doc/course/teacher/quiz-answers.md
+quiz() {
+    awk -f test/course/quiz.awk doc/course/teacher/quiz.md - >"$dir/quiz.awk" && awk -f "$dir/quiz.awk"
 }
 
 plants=test/course/plants.txt
@@ -99,7 +125,9 @@ prove() {
 prove_whole() {
     (QUICK=1; grade "$1" "$2") >"$2/hole.txt" 2>&1 && say "course: $1 passes with its hole" && bad=1
     filled "$1" "$2"
-    (grade "$1" "$2") >"$2/solution.txt" 2>&1 || { say "course: $1 fails with the original: $2/solution.txt"; bad=1; }
+    (cd "$2" && sh test/run/course.sh grade) >"$2/solution.txt" 2>&1 && return
+    say "course: $1 fails with the original: $2/solution.txt"
+    bad=1
 }
 
 # filled NAME TREE: with the original's functions; what is the same is not built again.

@@ -2,14 +2,14 @@
 # course.sh: assignments that build, and exercises that answer (doc/course/README.md).
 #   sh test/run/course.sh list                 the assignments, and the mutants of the tour's exercises
 #   sh test/run/course.sh start N [DIR]        a copy of the tree without the functions of assignment N
-#   sh test/run/course.sh grade N [DIR]        build the copy, run its tests, measure, and explain what is still wrong
+#   sh test/run/course.sh grade [N [DIR]]      build the copy, run its tests, measure, and explain what is still wrong
 #   sh test/run/course.sh exercise MUTANT      what the fault of an exercise does: pictures, the mean, tests, reasoning
 #   sh test/run/course.sh variant NUMBER       what the second parts ask of the student of that number
 #   sh test/run/course.sh grade-all DIR [-j N] grade every folder of DIR, a student's files each: DIR/grades.csv
 #   sh test/run/course.sh check                does every hole apply, has every exercise an answer? (seconds)
 #   sh test/run/course.sh prove [N | PLANT]    is every hole, and every planted mistake, found and named? (half an hour)
-# DIR is ../asbdpt-course/N if none is named. What is known of an assignment or exercise is in test/course/list.txt; how
-# a copy is judged is in test/course/judge.sh.
+# DIR is ../asbdpt-course/N if none is named; called in a copy, `grade` needs neither N nor DIR. What is known of an
+# assignment or exercise is in test/course/list.txt; how a copy is judged is in test/course/judge.sh.
 set -u
 list=test/course/list.txt
 work=$PWD/build-course
@@ -18,6 +18,15 @@ SANE="-g -fsanitize=address,undefined -fno-sanitize-recover=undefined" # for wha
 
 say() { printf '%s\n' "$@"; }
 die() { say "course: $*" >&2; exit 2; }
+
+# In a copy, the tree that it came from does the work: `start` wrote the assignment and the tree into .course.
+if [ -f .course ]; then
+    read -r name tree <.course
+    case ${1-} in grade) set -- grade "${2:-$name}" "${3:-$PWD}" ;; esac
+    case ${3-} in '' | /*) ;; *) set -- "$1" "$2" "$PWD/$3" ;; esac
+    cd "$tree" 2>/dev/null || die "this copy came from $tree, which is gone. In another: grade $name '$PWD'"
+    exec sh test/run/course.sh "$@"
+fi
 
 # get NAME KEY: what the entry says under that key, a line for each time. names KIND: all entries of a kind. files NAME:
 # those in which the functions of an assignment are.
@@ -103,14 +112,15 @@ dig() {
 start() {
     [ ! -e "$2" ] || die "$2 is there already: remove it, or name another folder"
     original
-    mkdir -p "$(dirname "$2")" && cp -Rp "$original" "$2" && dig "$1" "$2" || exit
+    mkdir -p "$(dirname "$2")" && cp -Rp "$original" "$2" && dig "$1" "$2" && say "$1 $PWD" >"$2/.course" || exit
     say "$(get "$1" title). Read doc/course/$1.md. Yours to write in $2:"
     get "$1" hole | sed 's/^\([^ ]*\) \([^ ]*\).*/    \1: \2/'
-    say "Then: sh test/run/course.sh grade ${1%%-*} $2"
+    say "Then, in that folder: sh test/run/course.sh grade"
 }
 
 grade() {
     [ -d "$2/src" ] || die "there is no $2: sh test/run/course.sh start ${1%%-*} $2"
+    [ ! -f "$2/.course" ] || grep -q "^$1 " "$2/.course" || die "$2 is not a copy for assignment $1"
     original
     set -- "$1" "$(cd "$2" && pwd)"
     rm -rf "$2/report" && mkdir "$2/report" || exit

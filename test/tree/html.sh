@@ -26,7 +26,7 @@ whole() {
             for (i = 1; i <= n_tags; i++)
                 if (opened[i] != closed[i]) print page ": " opened[i] " times <" tag[i] ">, " closed[i] " times closed"
         }
-        BEGIN { n_tags = split("p ul ol li table tr td th pre div strong em sub sup code a math mrow mfrac msub", tag) }
+        BEGIN { n_tags = split("p ul ol li table tr td th pre div section strong em sub sup code a math mrow mfrac msub", tag) }
         FNR == 1 {
             check()
             page = folder = FILENAME
