@@ -46,8 +46,8 @@ static void learn_tables(const struct render_job *job, struct prepared *p)
     const struct learn_options options = {
         .use = p->method->learns_use || q->emission < 1, .pairs = p->method->learns_pairs,
         .direct = q->guide && job->spatial_lights && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
-        .emission = q->emission, .delta = q->delta};
-    if (options.use || options.pairs || options.direct || p->method->single)
+        .emission = q->emission, .delta = q->delta, .count = p->method->single};
+    if (options.use || options.pairs || options.direct || options.count)
         learn(job, &options, p->tables);
 }
 

@@ -211,7 +211,7 @@ static void learn_vertices(struct learning *l, long first, long end)
     const struct pass pass = {trace_vertices, take_vertex, {.emission = t->emission}};
     t->vertices = t->use != NULL ? mem_alloc(REGIONS, sizeof *t->vertices) : NULL;
     lessons_learn(l, &pass, first, end);
-    for (int i = 0; t->light_vertices > 0 && i < t->regions.n; i++)
+    for (int i = 0; t->vertices != NULL && t->light_vertices > 0 && i < t->regions.n; i++)
         t->vertices[i] /= t->light_vertices;
     t->light_vertices /= most_of(l->n_visits, 1);
 }
@@ -291,8 +291,8 @@ void learn(const struct render_job *job, const struct learn_options *options, st
         learn_uses(&l, options->pairs ? half : n);
     if (n_emission > 0)
         learn_emission(&l, n_emission);
-    if (options->use || !regions)
-        learn_vertices(&l, n_emission, regions ? n_light : n_emission + LIGHT_COUNTED);
+    if (options->use || options->count)
+        learn_vertices(&l, n_emission, options->use ? n_light : n_emission + LIGHT_COUNTED);
     if (options->direct)
         build_direct(&l);
     if (options->pairs)

@@ -16,9 +16,10 @@
 enum { LEARN_PER_PIXEL = 4, LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LEARN_LIGHT = 16 * 1024 };
 enum { REGIONS = 1536, REGION_CELLS = 8 }; /* at most so many; along the diagonal of the box of eye vertices */
 
-/* What to learn. The vertices of light sub-paths are always counted. */
+/* What to learn. */
 struct learn_options {
     bool use, direct, pairs; /* of struct tables */
+    bool count;              /* its light_vertices; with `use` they are counted, too */
     double emission;         /* delta of the table of emission, which needs `use`; 1: do not learn it */
     double delta;            /* of the table of pairs */
 };

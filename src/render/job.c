@@ -43,9 +43,9 @@ const struct method *method_find(const char *name, const struct settings *s, str
     const struct method *const *row = rows_of(name, &n);
     if (n == 0)
         say_unknown(name, err);
-    for (int i = 0; n > 1 && i < n && i < MOST; i++)
+    for (int i = 0; i < n && i < MOST; i++)
         words[i] = row[i]->select;
-    return n == 1 || (n > 0 && settings_choice(s, "select", 0, words, &which, err)) ? row[which] : NULL;
+    return n > 0 && (words[0] == NULL || settings_choice(s, "select", 0, words, &which, err)) ? row[which] : NULL;
 }
 
 /* --- settings ----------------------------------------------------------------------------------------- */

@@ -3,8 +3,8 @@
  * Directions are in light space: with (s,v) in [0,1)^2, v = 0 at the top row of the picture, the direction is
  * (cos 2 pi s sin pi v, sin 2 pi s sin pi v, cos pi v), as in pbrt-v3.
  *
- * The picture is cut into blocks of texels. Choosing a block is the caller's business (by the blocks' light, or by what
- * can be seen, see guide.h); within a block a texel is chosen by its light from an alias table.
+ * The picture is cut into blocks of texels. Choosing a block is the caller's business, by the blocks' light or by what
+ * can be seen; within a block a texel is chosen by its light from an alias table.
  *
  * Tests: test_light.c.
  */

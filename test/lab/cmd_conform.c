@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "base/mem.h"
 #include "base/os.h"
 #include "lab/commands.h"
@@ -44,7 +45,8 @@ struct scene_entry {
 struct kit {
     const struct conform_options *o;
     struct scene_entry scene[MOST_SCENES]; /* [n] */
-    int n, n_there, n_found[3];            /* of each finding */
+    int n, n_there, n_unusable;            /* scenes; of these with pictures, and with some that cannot be judged */
+    int n_found[3];                        /* of each finding */
     double level;                          /* of a scene */
 };
 
@@ -81,15 +83,21 @@ static bool read_pictures(const char *directory, struct scene_entry *s, struct e
     static const char *const extension[] = {"pfm", "exr"};
     char *file[MOST_PICTURES], path[PATH], rest[16];
     int n = 0;
-    for (int e = 0; n == 0 && e < 2; e++)
-        for (int k = 0; n < MOST_PICTURES; k++) {
+    bool ok = true, kind[2] = {false, false};
+    for (int e = 0, last = 0; e < 2; e++, last = 0)
+        for (int k = 0; n < MOST_PICTURES && k <= MOST_PICTURES; k++) {
             snprintf(rest, sizeof rest, k > 0 ? "%d.%s" : ".%.0d%s", -k, extension[e]);
-            if (file_exists(path_of(path, directory, s->name, rest)))
-                file[n++] = mem_copy_text(path);
-            else if (k > 0)
-                break;
+            if (!file_exists(path_of(path, directory, s->name, rest)))
+                continue;
+            if (k > last + 1)
+                ok = error_set(err, "%s: there is no picture %d before it", path, last + 1);
+            last = k;
+            kind[e] = true;
+            file[n++] = mem_copy_text(path);
         }
-    bool ok = n == 0 || side_read((const char *const *)file, n, false, NULL, &s->pictures, err);
+    if (kind[0] && kind[1])
+        ok = error_set(err, "%s/%s: there are .pfm and .exr; which are meant?", directory, s->name);
+    ok = ok && (n == 0 || side_read((const char *const *)file, n, false, NULL, &s->pictures, err));
     if (ok && n > 0)
         s->repeated = conform_distinct(&s->pictures);
     s->pictures.name = s->name;
@@ -231,10 +239,16 @@ static bool conform(struct kit *kit, struct error *err)
     if (!read_list(kit, err))
         return false;
     for (int i = 0; i < kit->n; i++) {
-        if (!read_pictures(kit->o->directory, &kit->scene[i], err))
-            return false;
+        if (!read_pictures(kit->o->directory, &kit->scene[i], err)) {
+            say_line("asbdpt: %s: not judged: %s", kit->scene[i].name, err->text);
+            batches_free(&kit->scene[i].pictures.pixels);
+            kit->scene[i].pictures = (struct side){.name = kit->scene[i].name};
+            kit->n_unusable++;
+        }
         kit->n_there += kit->scene[i].pictures.pixels.n_batches > 0;
     }
+    if (kit->n_there == 0 && kit->n_unusable > 0)
+        return error_set(err, "%s: no picture can be judged", kit->o->directory);
     if (kit->n_there == 0)
         return error_set(err, "%s: holds no picture of the kit's scenes, such as %s.pfm or %s-1.pfm", kit->o->directory,
                          kit->scene[0].name, kit->scene[0].name);
@@ -257,11 +271,11 @@ static int run(void *options)
     struct kit *kit = mem_alloc(1, sizeof *kit);
     kit->o = options;
     bool ok = conform(kit, &err);
-    bool any = kit->n_found[FINDS_DIFFERENCE] > 0;
+    bool any = kit->n_found[FINDS_DIFFERENCE] > 0, unusable = kit->n_unusable > 0;
     for (int i = 0; i < kit->n; i++)
         batches_free(&kit->scene[i].pictures.pixels);
     free(kit);
-    return !ok ? fail(&err) : any ? EXIT_JOB : EXIT_OK;
+    return !ok ? fail(&err) : any || unusable ? EXIT_JOB : EXIT_OK;
 }
 
 const struct command command_conform = {

@@ -1,5 +1,6 @@
 /* cmd_experiment.c: asbdpt-lab experiment: the dissertation's measurements, repeated; and asbdpt-lab equal-time:
  * methods given the same time; and asbdpt-lab family: all of them. */
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -9,6 +10,7 @@
 #include "lab/family.h"
 #include "lab/measure.h"
 #include "lab/report.h"
+#include "lab/text.h"
 
 /* The scenes measured when none is named, the first five of them by `experiment`; the program is run from the top of
  * its tree. */
@@ -45,6 +47,7 @@ static const struct option SHARED[] = {
              "goes on"},
     {"--seeds", "N", OPTION_INTEGER, AT(plan.n_seeds), 1, PLAN_MAX_SEEDS,
      .help = "renders per method (default: 3; equal-time, family: 5, of which 1 and 2 need a stored reference)"},
+    {"--seed", "N", OPTION_SEED, AT(plan.seed), .help = "choose another set of random numbers (default: 0)"},
     {"--maxdepth", "N", OPTION_INTEGER, AT(plan.max_depth), 1, PATH_MAX_DEPTH,
      .help = "longest path, 1 = direct light"},
     {"--res", "WIDTH[xHEIGHT]", OPTION_WIDTH, AT(res), 1, 8192, .help = "size, or width alone"},
@@ -108,20 +111,23 @@ static bool begin_plan(struct plan_options *o, const struct preset *preset, int 
     p->width = o->res[0];
     p->height = o->res[1];
     p->command = command;
-    int n = snprintf(command, COMMAND, p->seconds > 0 ? "%s --seconds %g" : "%s --spp %.0f", preset->name,
-                     p->seconds > 0 ? p->seconds : o->spp);
-    n += snprintf(command + n, COMMAND - (size_t)n, " --methods %s --seeds %d --reference-spp %d", o->methods,
-                  p->n_seeds, p->reference_spp);
+    snprintf(command, COMMAND, p->seconds > 0 ? "%s --seconds %g" : "%s --spp %.0f", preset->name,
+             p->seconds > 0 ? p->seconds : o->spp);
+    bool fits = text_add(command, COMMAND, " --methods %s --seeds %d --reference-spp %d", o->methods, p->n_seeds,
+                         p->reference_spp);
+    if (p->seed != 0)
+        fits &= text_add(command, COMMAND, " --seed %" PRIu64, p->seed);
     if (p->width > 0)
-        n += snprintf(command + n, COMMAND - (size_t)n, p->height > 0 ? " --res %dx%d" : " --res %d", p->width,
-                      p->height);
+        fits &= text_add(command, COMMAND, p->height > 0 ? " --res %dx%d" : " --res %d", p->width, p->height);
     if (p->max_depth > 0)
-        n += snprintf(command + n, COMMAND - (size_t)n, " --maxdepth %d", p->max_depth);
+        fits &= text_add(command, COMMAND, " --maxdepth %d", p->max_depth);
     if (p->reference != NULL)
-        n += snprintf(command + n, COMMAND - (size_t)n, " --reference %.400s", p->reference);
-    for (int i = 0; i < o->sweeps.n && n < 800; i++)
-        n += snprintf(command + n, COMMAND - (size_t)n, " --sweep %.200s", o->sweeps.item[i]);
-    return plan_set_methods(p, o->methods, err);
+        fits &= text_add(command, COMMAND, " --reference %s", p->reference);
+    for (int i = 0; i < o->sweeps.n; i++)
+        fits &= text_add(command, COMMAND, " --sweep %s", o->sweeps.item[i]);
+    if (!plan_set_methods(p, o->methods, err))
+        return false;
+    return fits || error_usage(err, "these options are longer than a report can repeat, %d characters", COMMAND - 1);
 }
 
 /* The steps of the samples are doublings of the preset's first, up to --spp. */
@@ -209,9 +215,10 @@ static int run(struct plan_options *o, const struct command *c,
     char command[COMMAND];
     if (!make_plan(o, command, &err))
         return usage_error(c, "%s", err.text);
+    int n_scenes = o->plan.n_scenes;
     bool ok = measure(&o->plan, &results, &err) && write(&results, &err);
     results_free(&results);
-    return ok ? EXIT_OK : fail(&err);
+    return !ok ? fail(&err) : o->plan.n_scenes == n_scenes ? EXIT_OK : EXIT_JOB;
 }
 
 static int run_experiment(void *o) { return run(o, &command_experiment, plan_experiment, write_experiment); }

@@ -71,8 +71,13 @@ static float *add_up(const struct sum_options *o, int *width, int *height, struc
              add_picture(o, i, weight, &sum, width, height, about, err);
     size_t n = ok ? 3 * (size_t)*width * (size_t)*height : 0;
     float *out = ok ? mem_alloc(n, sizeof *out) : NULL;
-    for (size_t i = 0; i < n; i++)
-        out[i] = float_within(sum[i]);
+    long unusable = 0;
+    for (size_t i = 0; i < n; i++) {
+        unusable += !fits_float(sum[i]);
+        out[i] = fits_float(sum[i]) ? (float)sum[i] : sum[i] > 0 ? INFINITY : sum[i] < 0 ? -INFINITY : NAN;
+    }
+    if (unusable > 0)
+        say_line("asbdpt: warning: %ld values of the sum are NaN or infinite", unusable);
     free(sum);
     return out;
 }

@@ -312,14 +312,17 @@ static bool has_enough(const struct scene_results *s, struct error *err)
                      "--reference NAME.pfm with NAME.error.pfm, or with \"noise8 X\" in NAME.txt", s->path);
 }
 
-static bool measure_scene(struct pace *pace, struct scene_results *out, struct error *err)
+/* *begun: what fails then is not the scene's fault. */
+static bool measure_scene(struct pace *pace, struct scene_results *out, bool *begun, struct error *err)
 {
     struct subject s = {.plan = out->plan, .out = out, .pace = pace, .err = err};
+    *begun = false;
     if (!plan_scene_load(s.plan, out->path, out->name, &s.scene, &out->max_depth, &out->reference, err))
         return false;
     out->width = s.scene.width;
     out->height = s.scene.height;
-    bool ok = has_enough(out, err) && make_directories(s.plan, err) && make_reference(&s) && measure_methods(&s);
+    *begun = has_enough(out, err);
+    bool ok = *begun && make_directories(s.plan, err) && make_reference(&s) && measure_methods(&s);
     if (ok)
         judge(&s);
     for (int v = 0; v < METHODS_MAX; v++) {
@@ -334,9 +337,21 @@ static bool measure_scene(struct pace *pace, struct scene_results *out, struct e
 
 /* --- the whole --------------------------------------------------------------------------------------- */
 
-bool measure(const struct plan *plan, struct results *out, struct error *err)
+/* The scene leaves plan and results, and its memory goes. */
+static void leave_out(struct plan *plan, struct results *out, int scene)
+{
+    struct scene_results *s = &out->scene[scene];
+    reference_free(&s->reference);
+    *s = (struct scene_results){.plan = NULL};
+    plan->n_scenes--;
+    for (int i = scene; i < plan->n_scenes; i++)
+        plan->scene[i] = plan->scene[i + 1];
+}
+
+bool measure(struct plan *plan, struct results *out, struct error *err)
 {
     struct pace pace = {.total = 0};
+    bool begun;
     out->plan = plan;
     out->scene = mem_alloc((size_t)plan->n_scenes, sizeof *out->scene);
     bool ok = plan_names_differ(plan, err);
@@ -347,7 +362,12 @@ bool measure(const struct plan *plan, struct results *out, struct error *err)
         out->scene[i].plan = plan;
         out->scene[i].path = plan->scene[i];
         plan_scene_name(plan->scene[i], out->scene[i].name, PLAN_NAME);
-        ok = measure_scene(&pace, &out->scene[i], err);
+        ok = measure_scene(&pace, &out->scene[i], &begun, err);
+        if (!ok && !begun && plan->n_scenes > 1) {
+            say_line("asbdpt: %s; it is left out", err->text);
+            leave_out(plan, out, i--);
+            ok = true;
+        }
     }
     progress_end(&pace.bar);
     return ok;

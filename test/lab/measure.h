@@ -23,7 +23,8 @@
 
 #include "lab/results.h"
 
-/* measure: fill `out`, to be released with results_free also on failure. Returns false with a message. */
-bool measure(const struct plan *plan, struct results *out, struct error *err);
+/* measure: fill `out`, to be released with results_free also on failure. Returns false with a message. A scene that
+ * cannot be loaded, or has no reference that will do, leaves the plan with a message if there are others. */
+bool measure(struct plan *plan, struct results *out, struct error *err);
 
 #endif

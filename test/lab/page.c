@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/version.h"
 #include "lab/files.h"
+#include "lab/text.h"
 
 /* --- text, numbers and pictures ---------------------------------------------------------------------- */
 
@@ -138,14 +139,18 @@ static bool write_data(FILE *f, const struct results *r, const char *title, cons
                        double (*printed)(const char *, const char *, long), struct error *err)
 {
     const char *commit = getenv("ASBDPT_COMMIT");
-    char about[300], command[4096];
+    char about[300], command[8192];
     bool ok = true;
     snprintf(about, sizeof about, "%s, estimator %d%s%.100s; %d seed%s", VERSION, ESTIMATOR,
              commit != NULL ? ", commit " : "", commit != NULL ? commit : "", r->plan->n_seeds,
              r->plan->n_seeds == 1 ? "" : "s");
-    int n = snprintf(command, sizeof command, "./asbdpt-lab %.2000s -o %.1000s", r->plan->command, r->plan->directory);
-    for (int i = 0; i < r->plan->n_scenes && n < 3900; i++)
-        n += snprintf(command + n, sizeof command - (size_t)n, " %.90s", r->plan->scene[i]);
+    snprintf(command, sizeof command, "./asbdpt-lab %s -o %s", r->plan->command, r->plan->directory);
+    bool whole = true;
+    for (int i = 0; i < r->plan->n_scenes; i++)
+        whole &= text_add(command, sizeof command, " %s", r->plan->scene[i]);
+    error_clean(command);
+    if (!whole)
+        snprintf(command, sizeof command, "./asbdpt-lab %.4000s ...", r->plan->command);
     fputs("{", f);
     write_text(f, "title", title);
     write_text(f, "about", about);

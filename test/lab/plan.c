@@ -44,7 +44,7 @@ int plan_seeds(const struct plan *p, int method) { return method < p->n_compared
 uint64_t plan_seed(const struct plan *p, int method, int i)
 {
     const char *text = p->methods.item[method].text;
-    return p->seed + 1000 * (uint64_t)(checksum_crc32(0, (const uint8_t *)text, strlen(text)) % 999983) + (uint64_t)i;
+    return 1000000000 * p->seed + 1000 * (uint64_t)(checksum_crc32(0, (const uint8_t *)text, strlen(text)) % 999983) + (uint64_t)i;
 }
 
 bool plan_create(const struct plan *p, const char *name, struct file_output *out, struct error *err)
@@ -57,7 +57,11 @@ bool plan_create(const struct plan *p, const char *name, struct file_output *out
 void plan_write_command(FILE *f, const struct plan *p)
 {
     fprintf(f, "    ./asbdpt-lab %s -o %s", p->command, p->directory);
-    for (int i = 0; i < p->n_scenes; i++)
-        fprintf(f, "%s %s", i % 3 == 0 ? " \\\n       " : "", p->scene[i]);
+    for (int i = 0; i < p->n_scenes; i++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%s", p->scene[i]);
+        error_clean(path);
+        fprintf(f, "%s %s", i % 3 == 0 ? " \\\n       " : "", path);
+    }
     fputs("\n\n", f);
 }

@@ -21,6 +21,7 @@ void plan_scene_name(const char *path, char *out, int size)
             start--;
     }
     snprintf(out, (size_t)size, "%.*s", (int)(end - start), start);
+    error_clean(out); /* it is printed, and names files */
 }
 
 bool plan_scene_read(const char *path, int width, int height, int max_depth, struct scene *scene, int *depth,

@@ -11,7 +11,7 @@
 
 /* plan_scene_name: the file's name without .pbrt; for .../NAME/scene.pbrt the directory's. At most size - 1
  * bytes. */
-enum { PLAN_NAME = 256 };
+enum { PLAN_NAME = 60 }; /* with two methods it names files, whose names have 255 bytes at most */
 void plan_scene_name(const char *path, char *out, int size);
 
 /* plan_scene_read: read a scene as experiments render it, whole and with a box filter, and prepare it.

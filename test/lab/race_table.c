@@ -49,8 +49,11 @@ void race_print_table(FILE *f, const struct race_result *r)
             fprintf(f, " %12d", n->path_pixels);
         else
             fprintf(f, " %12s", "no paths");
-        fprintf(f, " %10.4g %8.4g %8.3f%s\n", k->variance, k->price, relative_cost(r, k),
-                i == r->winner ? "  chosen" : "");
+        if (relative_cost(r, k) >= 0)
+            fprintf(f, " %10.4g %8.4g %8.3f", k->variance, k->price, relative_cost(r, k));
+        else
+            fprintf(f, " %10.4g %8.4g %8s", k->variance, k->price, "-"); /* no sample has met any light */
+        fprintf(f, "%s\n", i == r->winner ? "  chosen" : "");
     }
     if (r->n > 0)
         fputs("  at first, later: light vertices for an eye vertex; points: light points at a first hit; pixels each:\n"

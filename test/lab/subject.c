@@ -105,7 +105,7 @@ bool subject_price(struct subject *s, int method, int seed)
     int n = subject_key(s, method, key);
     snprintf(key + n, (size_t)(STORE_KEY - n), " price over %s, %08lx, spp=%ld seed=%" PRIu64, first->text,
              subject_probe(s, 0), plan_last_spp(p), plan_seed(p, method, seed));
-    snprintf(name, sizeof name, "store/%s--%s--%d--price-over-%s--seed%" PRIu64, s->out->name,
+    snprintf(name, sizeof name, "store/%s--%s--%d--price-over-%.20s--seed%" PRIu64, s->out->name,
              p->methods.item[method].file, s->scene.width, first->file, plan_seed(p, method, seed));
     bool ok = store_read(p->directory, name, key, &r) ||
               (measure_price(s, method, seed, r.number) && store_write(p->directory, name, key, &r, s->err));

@@ -83,6 +83,8 @@ static void map_draws(const struct view *v)
 static bool fill(struct view *v, int x, int y, struct error *err)
 {
     const struct scene *s = v->job.scene;
+    if (s->lights.n == 0)
+        return error_set(err, "the scene has no light");
     if (v->counts.tables->pairs.rows < 2)
         return error_set(err, "this selection learns nothing about pairs of places; select=subspaces does");
     if (x < 0 || y < 0 || x >= s->width || y >= s->height)

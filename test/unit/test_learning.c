@@ -51,6 +51,27 @@ static struct tables *learn_scene(const struct scene *scene, struct watcher *w, 
     return l;
 }
 
+/* Whatever else is learnt, the vertices of a light sub-path are counted if a method asks. */
+static void test_count(struct test *t)
+{
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/many-lights.pbrt", 32, 24, &scene))
+        return;
+    const struct render_job job = job_of(&scene, NULL, 1);
+    double counted[4];
+    for (int i = 0; i < 4; i++) {
+        struct tables out = {.light_vertices = 0};
+        const struct learn_options options = {.use = i >= 2, .direct = i % 2 != 0, .emission = 1, .count = true};
+        learn(&job, &options, &out);
+        counted[i] = out.light_vertices;
+        tables_free(&out);
+    }
+    for (int i = 1; i < 4; i++)
+        CHECK(t, fabs(counted[i] / counted[0] - 1) < 0.05 && counted[0] > 0, "%s%s: %g vertices, alone %g",
+              i >= 2 ? "use" : "", i % 2 != 0 ? "direct" : "", counted[i], counted[0]);
+    scene_free(&scene);
+}
+
 static void drop(struct tables *l)
 {
     tables_free(l);
@@ -273,4 +294,5 @@ void test_learning(struct test *t)
     test_cut_short(t);
     test_far_triangle(t);
     test_unevenness(t);
+    test_count(t);
 }
