@@ -398,6 +398,7 @@ expect 1 'list.txt: cannot be opened; --kit' "$lab" conform kit --kit nowhere
 tiny="--res 8x8 --seeds 2 --reference-spp 4 --quiet"
 prints 'geometric mean' "$lab" equal-time "$box" $tiny --spp 2 -o equal
 check [ -s equal/images/cornell-box.png ]
+check [ "$(head -n 1 equal/equal-time.md)" = "$(grep '^- Squared error' stdout.txt)" ] # the verdict first
 check [ "$(grep -c '^cornell-box,' equal/runs.csv)" = 4 ]
 check [ "$(grep -c '^cornell-box,bdpt,.*,2,' equal/runs.csv)" = 2 ]
 prints 'equal-time --seconds 0.01 --methods bdpt,asbdpt:select=pool --seeds 2' \
