@@ -24,8 +24,9 @@
  *
  * If that is more than Welch's p-value it takes its place. Where batches scatter evenly it never is, but in a tile next
  * to a noisier one a difference must be larger to be seen. Such p-values are not uniform where expectations are equal,
- * but larger; the same resamplings say how many then are expected in each tenth of [0,1]. Rare samples that no tile near has met are not known: with
- * less than half of one in a tile equal expectations may DIFFER, in other tiles with another --seed. A bias stays.
+ * but larger; the same resamplings say how many then are expected in each tenth of [0,1]. Rare samples that no tile
+ * near has met are not known: with less than half of one in a tile equal expectations may DIFFER, in other tiles with
+ * another --seed. A bias stays.
  *
  * Tests: test_verify.c.
  */

@@ -19,7 +19,7 @@ long=asbdpt:select=subspaces:connections=1:pathpixels=1
 cat >"$dir/ask.js" <<'END'
 setTimeout(async () => {
   const wrong = [], check = (ok, text) => { if (!ok) wrong.push(text); };
-  for (let i = 0; i < 100 && !document.querySelector('canvas'); i++)
+  for (let i = 0; i < 600 && !document.querySelector('canvas'); i++)
     await new Promise(done => setTimeout(done, 50));
   const table = document.querySelector('table'), before = e => e.compareDocumentPosition(table) === 4;
   const items = [...document.querySelectorAll('li')].filter(before).map(li => li.textContent);
@@ -41,10 +41,18 @@ setTimeout(async () => {
 END
 { cat "$dir/results/report.html"; echo '<script>'; cat "$dir/ask.js"; echo '</script>'; } >"$dir/page.html"
 for width in 1280 500; do
+    : >"$dir/log"
     "$browser" --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking \
-        --disable-component-update --disable-sync --user-data-dir="$dir/profile" --enable-logging=stderr \
-        --window-size=$width,3000 --virtual-time-budget=20000 --dump-dom "file://$dir/page.html" \
-        >/dev/null 2>"$dir/log"
+        --disable-component-update --disable-sync --user-data-dir="$dir/profile" --remote-debugging-port=0 \
+        --enable-logging=stderr --window-size=$width,3000 "file://$dir/page.html" >/dev/null 2>"$dir/log" &
+    pid=$!
+    i=0
+    while [ $i -lt 60 ] && ! grep -q 'REPORT .* END' "$dir/log" && kill -0 $pid 2>/dev/null; do
+        sleep 1
+        i=$((i + 1))
+    done
+    kill $pid 2>/dev/null
+    wait $pid 2>/dev/null
     grep -q 'REPORT ALL RIGHT END' "$dir/log" && continue
     echo "FAIL: report.html, $width pixels wide: $(grep -o 'REPORT .* END' "$dir/log" || tail -n 3 "$dir/log")"
     bad=1

@@ -34,7 +34,7 @@ async function rendered(settings) {
     check(side.points[15][1] < 0.5 * side.points[0][1], `side ${i}: the error does not fall: ` +
       side.points.map(p => p[1].toFixed(1)));
     check(Math.abs(side.points[15][2]) < 4, `side ${i}: the mean is off by ${side.points[15][2]} %`);
-    check($(`caption${i}`).textContent.includes(' at 32 x 32, mean'), 'of what size the error is: ' + $(`caption${i}`).textContent);
+    check($(`caption${i}`).textContent.includes(' at 32 x 32, mean'), 'size of the error: ' + $(`caption${i}`).textContent);
     check($(`picture${i}`).width === 64 && $(`caption${i}`).textContent.includes('16 of 16'), `side ${i}: caption`);
     const data = $(`picture${i}`).getContext('2d').getImageData(0, 0, 64, 64).data;
     check(new Set(data).size > 100, `side ${i}: the picture is empty`);
