@@ -104,7 +104,7 @@ gallery: asbdpt ## render the images of doc/gallery.md by the commands there, in
 	@mkdir -p out/gallery
 	@sed -n 's/^    //p' doc/gallery.md | sh -ex
 
-experiments: asbdpt-lab ## chapter 4 of the dissertation, measured again, into out/experiments/report.html (five minutes on two cores; PUBLISHED=DIR: on its scenes)
+experiments: asbdpt-lab ## chapter 4 of the dissertation, measured again, into out/experiments/report.html (twelve minutes on two cores; PUBLISHED=DIR: on its scenes)
 	sh test/measure/experiments.sh out/experiments
 
 web: asbdpt ## build and test the page that renders, out/asbdpt.html, where clang can compile for wasm32-wasi
@@ -136,6 +136,7 @@ scripts: asbdpt asbdpt-lab ## the same without the suites in C: what depends on 
 check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
 	@sh test/run/suites.sh "sh test/run/course.sh prove" "$(BUILD)/test --slow" "sh test/run/keep.sh $(PROGRAM) 100" \
 	    "sh test/run/readme.sh $(PROGRAM)" "PICTURES=all sh test/run/mini.sh $(PROGRAM)" "BUILD=$(BUILD) sh test/run/add_method.sh" \
+	    "sh test/run/report.sh $(PROGRAM)" \
 	    "sh doc/tour/figures.sh $(PROGRAM) out/figures && \
 	    diff -r -x equal.png doc/tour/figures out/figures"
 	sh test/run/cluster.sh $(PROGRAM)

@@ -120,7 +120,8 @@ page() {
         esac
         awk -v root="$root" -v math=$math -v class=$class -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -f doc/math.awk -f doc/html.awk "$1" \
             >"$out/${1%.md}.html" ;;
-    *.png | *.svg | *.html) cp "$1" "$out/$1" ;;
+    *.png | *.svg) cp "$1" "$out/$1" ;;
+    *.html) sed 's/\(href="[^"]*\)\.md"/\1.html"/' "$1" >"$out/$1" ;;
     *) awk -v root="$root" -v title="$1" -v source=1 -v class=source -f doc/math.awk -f doc/html.awk "$1" >"$out/$1.html" ;;
     esac
 }

@@ -27,7 +27,7 @@ done
 cp equal/images/rooms.png "$out/equal.png"
 
 # Every strategy alone, as it is and weighted.
-"$lab" strategies "$scene" --integrator bdpt --spp 64 --res 80x80 --maxdepth 4 -o pyramid --quiet
+"$lab" strategies "$scene" --integrator bdpt --spp 64 --res 96x96 --maxdepth 4 -o pyramid --quiet
 cp pyramid/pyramid.png "$out/"
 
 # What selection has learnt, seen from the floor.
@@ -72,7 +72,7 @@ for seed in 1 2 3 4 5 6 7 8; do
 done
 for method in bdpt bins; do
     "$lab" verify "$scene" --files $method-*.pfm --against pool-*.pfm --tile 8 --quiet >verdict.txt || :
-    awk '/^  [01]\.[0-9]-/ { print $1, $2 }' verdict.txt >table.txt
+    awk '/^  [01]\.[0-9]-/ { print $1, $2, $3 }' verdict.txt >table.txt
     chart p-$method "p-values of $method against pool, by tenths of [0,1]" \
         "number of p-values; grey: expected if the means are equal" 3 # the colours of a square vary together
 done

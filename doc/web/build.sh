@@ -1,9 +1,9 @@
 #!/bin/sh
-# build.sh OUT.html [CLANG]: the page that renders, as one file of a megabyte and a half: page.html with worker.js, the program as
-# WebAssembly, the scenes and their references in it, all of them packed by gzip. Needs clang with lld, wasi-libc and
-# libclang-rt for wasm32 (Debian: clang, lld, wasi-libc, libclang-rt-dev-wasm32); without them it says so and makes
-# nothing. What it shows as the reference, doc/web/reference/NAME.webp, is of asbdpt with 256 samples and three times the
-# stored reference's width (cwebp -q 95). Run from the top; `make web` calls it.
+# build.sh OUT.html [CLANG]: the page that renders, as one file of a megabyte and a half: page.html with page.js and
+# worker.js, and, packed by gzip, the program as WebAssembly, the scenes and their references. Needs clang with lld,
+# wasi-libc and libclang-rt for wasm32 (Debian: clang, lld, wasi-libc, libclang-rt-dev-wasm32); without them it says so
+# and makes nothing. What it shows as the reference, doc/web/reference/NAME.webp, is of asbdpt with 256 samples and three
+# times the stored reference's width (cwebp -q 95). Run from the top; `make web` calls it.
 out=$1
 clang=${2:-clang}
 dir=$(mktemp -d) || exit 1
@@ -51,6 +51,9 @@ files() {
     embed 'data-path="scenes/rooms.pbrt"' doc/mini/rooms.pbrt # of the tour
     embed 'data-path="ref/rooms.pfm"' doc/web/rooms.pfm
     embed 'data-path="fine/rooms.webp"' doc/web/reference/rooms.webp
+    echo '<script>'
+    cat doc/web/page.js
+    echo '</script>'
     sed '1,/^<!-- EMBEDDED -->$/d' doc/web/page.html
     echo "<!-- built by $("$clang" --version | head -n 1) -->"
 } >"$dir/page.html" && mkdir -p "$(dirname "$out")" && mv "$dir/page.html" "$out" &&

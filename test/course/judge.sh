@@ -229,17 +229,18 @@ answer() {
     return 1
 }
 
-# page DIR TITLE: DIR/index.html has the pictures and the words of DIR/report.txt.
+# page DIR TITLE: DIR/index.html has the pictures and the words of DIR/report.txt, in the style of all other reports.
 page() {
+    style=$(sed -n '/^const char \*const PAGE_STYLE/,/NULL/s/^    "\(.*\)",$/\1/p' "$original/test/lab/page_parts.c")
+    [ -n "$style" ] || die "test/lab/page_parts.c has no style"
     {
-        say "<!doctype html><meta charset=utf-8><meta name=viewport content='width=device-width'><title>$2</title>"
-        say "<style>body{max-width:60em;margin:auto;padding:1em;font-family:serif;color-scheme:light dark}"
-        say "figure{display:inline-block;margin:0 1em 1em 0}img{width:17em;image-rendering:pixelated}"
-        say "pre{white-space:pre-wrap;overflow-wrap:anywhere}</style><h1>$2</h1>"
+        say "<!DOCTYPE html><html lang=\"en\"><meta charset=\"utf-8\">" \
+            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>$2</title>" \
+            "<style>" "$style" "</style>" "<h1>$2</h1>" "<div class=\"three\">"
         for picture in original changed difference; do
-            [ -f "$1/$picture.png" ] && say "<figure><img src=$picture.png><figcaption>$picture</figcaption></figure>"
+            [ -f "$1/$picture.png" ] && say "<figure><img src=\"$picture.png\"><figcaption>$picture</figcaption></figure>"
         done
-        say "<pre>" "$(sed 's/&/\&amp;/g; s/</\&lt;/g' "$1/report.txt")" "</pre>"
+        say "</div>" "<pre>" "$(sed 's/&/\&amp;/g; s/</\&lt;/g' "$1/report.txt")" "</pre>"
     } >"$1/index.html"
     say "Pictures and words: $1/index.html"
 }

@@ -8,7 +8,7 @@
 #include "lab/compare.h"
 #include "lab/sheet.h"
 
-enum { PERCENTILE = 99, BAR = 10, BAR_LEAST = 160 }; /* height and least width of the colour bar */
+enum { PERCENTILE = 99, GAP = 5, WIDE = 320 }; /* between map and colour bar; what is narrower is enlarged */
 
 struct compare_options {
     const char *image, *reference, *heatmap;
@@ -41,25 +41,16 @@ static void print(const struct difference *d, double blocks)
         printf("%-10s %.6g\n", lines[i].name, lines[i].value);
 }
 
-/* The map, and below it what its colours stand for. */
+/* The map, each pixel a square if there are few, and below it what its colours stand for. */
 static struct sheet map_with_bar(const float *map, int width, int height, double most)
 {
-    static const char unit[] = "linear rmse";
     struct sheet s;
     char text[32];
-    int wide = width > BAR_LEAST ? width : BAR_LEAST, y = height + BAR / 2;
-    sheet_init(&s, wide, height + 3 * BAR, SHEET_PAPER);
-    sheet_paste(&s, 0, 0, map, width, height, 1);
-    for (int x = 0; x < wide; x++) {
-        float colour[3];
-        viridis(x / (wide - 1.0), colour);
-        for (int j = 0; j < BAR; j++)
-            sheet_paste(&s, x, y + j, colour, 1, 1, 1);
-    }
+    int k = (WIDE + width - 1) / width;
     snprintf(text, sizeof text, "%.3g", most);
-    sheet_text(&s, 2, y + BAR + 4, 1, SHEET_INK, "0");
-    sheet_text(&s, (wide - sheet_text_width(unit, 1)) / 2, y + BAR + 4, 1, SHEET_INK, unit);
-    sheet_text(&s, wide - sheet_text_width(text, 1) - 2, y + BAR + 4, 1, SHEET_INK, text);
+    sheet_init(&s, width * k, height * k + GAP + SHEET_BAR, SHEET_PAPER);
+    sheet_paste(&s, 0, 0, map, width, height, k);
+    sheet_bar(&s, 0, height * k + GAP, width * k, "0", "linear rmse", text);
     return s;
 }
 

@@ -32,7 +32,7 @@ struct plan_options {
 /* What a command measures unless the options say otherwise. */
 struct preset {
     const char *name;
-    int spp, seeds, width; /* width 0: the stored reference's */
+    int spp, seeds, width; /* width 0: see plan_scene_load */
     int reference_spp;     /* 0: as many as the first method has of all seeds */
 };
 
@@ -50,7 +50,8 @@ static const struct option SHARED[] = {
     {"--seed", "N", OPTION_SEED, AT(plan.seed), .help = "choose another set of random numbers (default: 0)"},
     {"--maxdepth", "N", OPTION_INTEGER, AT(plan.max_depth), 1, PATH_MAX_DEPTH,
      .help = "longest path, 1 = direct light"},
-    {"--res", "WIDTH[xHEIGHT]", OPTION_WIDTH, AT(res), 1, 8192, .help = "size, or width alone"},
+    {"--res", "WIDTH[xHEIGHT]", OPTION_WIDTH, AT(res), 1, 8192,
+     .help = "size, or width alone (default: 160 pixels wide; 96, or as a larger stored reference, if there is one)"},
     {"--reference", "PATH", OPTION_TEXT, AT(plan.reference),
      .help = "picture, or directory of NAME.pfm (default: ref/ next to the scene if of it, else rendered)"},
     {"--reference-spp", "N", OPTION_INTEGER, AT(plan.reference_spp), 4, 1 << 24,
@@ -65,7 +66,7 @@ static const struct option EXPERIMENT[] = {
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .help = METHODS_HELP " (default: " METHODS_EXPERIMENT ")"},
     {"--sweep", "LIST", OPTION_TEXTS, AT(sweeps),
      .help = "such a list, rendered with one seed (default: two, unless there are --methods)"},
-    {"--quick", NULL, OPTION_ON, AT(quick), .help = "at the sizes of the references, 8 to 64 spp (default)"},
+    {"--quick", NULL, OPTION_ON, AT(quick), .help = "96 pixels wide, or as the reference, 8 to 64 spp (default)"},
     {"--full", NULL, OPTION_ON, AT(full), .help = "320 pixels wide, 32 to 512 spp, and longer sweeps"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .help = "most samples per pixel"},
     {.others = SHARED},
@@ -86,7 +87,7 @@ static const struct option FAMILY[] = {
      .help = "samples per pixel of the first method (default: 64; --quick: 16); the others are given its CPU time"},
     {"--half", "HALF", OPTION_TEXT, AT(half), .fallback = "both",
      .help = "choice: all services off; services: each method with all it can have; or both"},
-    {"--quick", NULL, OPTION_ON, AT(quick), .help = "3 seeds, at the sizes of stored references, not 160 pixels wide"},
+    {"--quick", NULL, OPTION_ON, AT(quick), .help = "3 seeds, 96 pixels wide, not 160"},
     {.others = SHARED},
 };
 
@@ -178,9 +179,17 @@ static bool plan_family(struct plan_options *o, char command[COMMAND], struct er
 
 /* --- the commands ------------------------------------------------------------------------------------ */
 
+/* The answer first. */
+static void equal_page(FILE *f, const struct results *r)
+{
+    equal_verdict(f, r);
+    fputs("\n", f);
+    family_tables(f, r);
+}
+
 static bool write_equal(const struct results *r, struct error *err)
 {
-    bool ok = family_write(r, "equal-time.md", err);
+    bool ok = family_write(r, "equal-time.md", equal_page, err);
     if (ok) {
         family_tables(stdout, r);
         printf("%s/report.html\n", r->plan->directory);
@@ -191,7 +200,7 @@ static bool write_equal(const struct results *r, struct error *err)
 
 static bool write_family(const struct results *r, struct error *err)
 {
-    bool ok = family_write(r, "family.md", err);
+    bool ok = family_write(r, "family.md", family_tables, err);
     if (ok && !r->plan->quiet)
         printf("%s/report.html\n", r->plan->directory);
     return ok;

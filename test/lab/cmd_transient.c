@@ -58,17 +58,19 @@ static void choose_range(const struct scene *scene, struct gates *out)
 /* A file for each picture, and a sheet of all in rows of four, by one exposure. */
 static bool write_all(const char *directory, struct gates g, const float *pixels, int w, int h, struct error *err)
 {
-    enum { COLUMNS = 4, CELL = 240, GAP = 8, LABEL = 20, PERCENTILE = 99 };
+    enum { COLUMNS = 4, CELL = 240, GAP = 8, LABEL = 20, HEAD = 24, PERCENTILE = 99 };
     size_t n = 3 * (size_t)w * (size_t)h;
     double white = fmax(picture_percentile(pixels, (long)n * g.n, PERCENTILE), 1e-30);
     int shrink = int_within(w / CELL, 1, h), k = int_within(CELL / w, 1, CELL);
     int width = w / shrink * k + GAP, height = h / shrink * k + GAP + LABEL;
     char text[4096];
     struct sheet sheet;
-    sheet_init(&sheet, COLUMNS * width + GAP, (g.n + COLUMNS - 1) / COLUMNS * height + GAP, SHEET_PAPER);
+    sheet_init(&sheet, COLUMNS * width + GAP, HEAD + (g.n + COLUMNS - 1) / COLUMNS * height + GAP, SHEET_PAPER);
+    snprintf(text, sizeof text, "length of paths from light to camera, in units of the scene; white: %.3g", white);
+    sheet_text(&sheet, GAP, GAP, 2, SHEET_INK, text);
     bool ok = true;
     for (int i = 0; ok && i < g.n; i++, pixels += n) {
-        int x = GAP + i % COLUMNS * width, y = GAP + i / COLUMNS * height;
+        int x = GAP + i % COLUMNS * width, y = HEAD + GAP + i / COLUMNS * height;
         snprintf(text, sizeof text, "%.4g to %.4g", g.begin + i * g.width, g.begin + (i + 1) * g.width);
         sheet_text(&sheet, x, y, 2, SHEET_INK, text);
         sheet_cell(&sheet, x, y + LABEL, pixels, w, h, shrink, k, 1 / white);

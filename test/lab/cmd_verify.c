@@ -1,7 +1,9 @@
 /* cmd_verify.c: asbdpt-lab verify: have two methods, or two pictures, the same expectation? See verify.h. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "cli/job_options.h"
 #include "lab/commands.h"
 #include "lab/conform.h"
@@ -186,20 +188,35 @@ static bool make_sides(struct scene *scene, const struct verify_options *o, stru
 
 /* --- the verdict ------------------------------------------------------------------------------------- */
 
+/* The p-values that are tested, and how many are expected if A = B: a bar of '#', and '|' at its expected end. */
+static void print_bars(const struct verdict *v)
+{
+    enum { WIDTH = 50 };
+    double most = 1;
+    printf("p-values of A = B, %ld tiles and channels; | is what to expect if all are equal\n"
+           "           found  expected\n", v->n);
+    for (int i = 0; i < VERIFY_BARS; i++)
+        most = fmax(most, fmax(v->bar[i], v->expected[i]));
+    for (int i = 0; i < VERIFY_BARS; i++) {
+        int found = int_within(v->bar[i] / most * WIDTH, 0, WIDTH);
+        int expected = int_within(v->expected[i] / most * WIDTH, 0, WIDTH);
+        char bar[WIDTH + 2];
+        memset(bar, ' ', sizeof bar);
+        memset(bar, '#', (size_t)found);
+        bar[expected] = '|';
+        bar[(found > expected ? found : expected + 1)] = '\0';
+        printf("  %.1f-%.1f %7.0f %9.1f %s\n", i / 10.0, (i + 1) / 10.0, v->bar[i], v->expected[i], bar);
+    }
+}
+
 static void print_verdict(const struct verdict *v, const struct side *a, const struct side *b, int tile, double alpha)
 {
-    static const char bars[] = "##################################################";
     double error_a, error_b;
     double mean_a = batches_mean(&a->pixels, &error_a), mean_b = batches_mean(&b->pixels, &error_b);
-    long most = 1, across = (a->width + tile - 1) / tile;
+    long across = (a->width + tile - 1) / tile;
     printf("A  %-24s mean %.6g +- %.2g\n", a->name, mean_a, error_a);
     printf("B  %-24s mean %.6g +- %.2g\n", b->name, mean_b, error_b);
-    printf("Welch's p-values of A = B, %ld tiles and channels (uniform if all are equal and none is rare)\n", v->n);
-    for (int i = 0; i < VERIFY_BARS; i++)
-        most = v->bar[i] > most ? v->bar[i] : most;
-    for (int i = 0; i < VERIFY_BARS; i++)
-        printf("  %.1f-%.1f %6ld %.*s\n", i / 10.0, (i + 1) / 10.0, v->bar[i],
-               (int)((double)v->bar[i] / (double)most * (double)(sizeof bars - 1)), bars);
+    print_bars(v);
     printf("ratio of the means   %.5f +- %.5f\n", v->ratio, v->ratio_error);
     printf("p, means equal       %.3g\n", v->mean);
     printf("p, smallest (Sidak)  %.3g   tile of %d pixels at (%ld, %ld), channel %ld\n", v->smallest, tile,

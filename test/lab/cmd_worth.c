@@ -18,7 +18,8 @@ static const struct option OPTIONS[] = {
     {"-o", "FILE.png", OPTION_TEXTS, AT(job.output), 1, .alias = "--outfile", .written = true,
      .help = "a picture to write"},
     {"--pixel", "X,Y", OPTION_PIXEL, AT(pixel), 0, 65535, .fallback = "0,0", .help = "where the surface is seen"},
-    {"--scale", "K", OPTION_INTEGER, AT(scale), 1, 16, .fallback = "2", .help = "a pixel becomes KxK"},
+    {"--scale", "K", OPTION_INTEGER, AT(scale), 1, 16,
+     .help = "a pixel becomes KxK (default: until each picture is 320 pixels wide)"},
     {.others = RUN_OPTIONS},
 };
 
@@ -53,4 +54,4 @@ static int run(void *options)
 const struct command command_worth = {
     "worth", "what light vertices are worth to a surface point, as a picture",
     {"SCENE.pbrt --pixel X,Y -o FILE.png [options]"}, OPTIONS, sizeof(struct worth_options), run, false,
-    "worth scenes/veach-ajar.pbrt --pixel 24,20 --res 48x27 --spp 64 -o out/worth.png"};
+    "worth scenes/veach-ajar.pbrt --pixel 80,67 --res 160x90 --spp 64 -o out/worth.png"};

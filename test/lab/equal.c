@@ -184,17 +184,17 @@ void equal_verdict(FILE *f, const struct results *r)
     for (int v = 0; v < p->methods.n; v++)
         for (const struct scene_results *s = r->scene; s < r->scene + p->n_scenes; s++)
             if (s->mark[v] != MARK_NONE)
-                fprintf(f, "In %s, %s: %s, compared with a reference by %s.\n", s->name, p->methods.item[v].text,
+                fprintf(f, "- In %s, %s: %s, compared with a reference by %s.\n", s->name, p->methods.item[v].text,
                         MARKS[s->mark[v]], s->by != NULL ? s->by : "others");
     for (int v = 1; v < p->methods.n; v++) {
         bool marked = results_marked(r, v) > 0;
-        fprintf(f, "Squared error of %s over that of %s after the same time, per pixel: ", p->methods.item[v].text,
+        fprintf(f, "- Squared error of %s over that of %s after the same time, per pixel: ", p->methods.item[v].text,
                 p->methods.item[0].text);
         say(f, r, equal_mean(r, v, 0, SQUARE_RELMSE, AT_EQUAL_TIME, NULL, &n), marked);
-        fputs("In means over 8x8 pixels, where errors that neighbours share do not hide: ", f);
+        fputs("- In means over 8x8 pixels, where errors that neighbours share do not hide: ", f);
         say(f, r, equal_mean(r, v, 0, SQUARE_BLOCKS, AT_EQUAL_TIME, NULL, &n), marked);
     }
-    fprintf(f, "Measured with %d seed%s on", p->n_seeds, p->n_seeds == 1 ? "" : "s");
+    fprintf(f, "- Measured with %d seed%s on", p->n_seeds, p->n_seeds == 1 ? "" : "s");
     for (int i = 0; i < p->n_scenes; i++)
         fprintf(f, "%s %s %dx%d", i > 0 ? "," : "", r->scene[i].name, r->scene[i].width, r->scene[i].height);
     fputs(".\n", f);

@@ -57,8 +57,8 @@ struct interval equal_mean(const struct results *r, int method, int over, enum s
 struct interval equal_over_best(const struct results *r, int method, const int *others, int n_others,
                                 enum square which);
 
-/* equal_verdict: is the first method beaten? Two lines for each other, and one; where that is undecided, what would
- * decide it. Before these a line for each scene where a method is marked, which has no gain. */
+/* equal_verdict: is the first method beaten? A list: two lines for each other method, which say what would decide it if
+ * that is undecided, and one. Before these a line for each scene where a method is marked, which has no gain. */
 void equal_verdict(FILE *f, const struct results *r);
 
 #endif

@@ -214,10 +214,11 @@ void family_tables(FILE *f, const struct results *e)
     write_notes(f, e);
 }
 
-bool family_write(const struct results *r, const char *page, struct error *err)
+bool family_write(const struct results *r, const char *name, void (*page)(FILE *, const struct results *),
+                  struct error *err)
 {
-    bool ok = results_write(r, "runs.csv", results_csv, err) && results_write(r, page, family_tables, err) &&
-              page_write(r, "Methods after the same CPU time", page, NULL, err);
+    bool ok = results_write(r, "runs.csv", results_csv, err) && results_write(r, name, page, err) &&
+              page_write(r, "Methods after the same CPU time", name, NULL, err);
     for (int i = 0; ok && r->plan->n_compared <= PICTURES_MOST && i < r->plan->n_scenes; i++)
         ok = pictures_write(&r->scene[i], err);
     return ok;

@@ -12,7 +12,8 @@
 
 void family_tables(FILE *f, const struct results *r); /* Markdown */
 
-/* family_write: all files, into the plan's directory, the tables by the name of `page`. False with a message. */
-bool family_write(const struct results *r, const char *page, struct error *err);
+/* family_write: all files, into the plan's directory, what `page` writes by that name. False with a message. */
+bool family_write(const struct results *r, const char *name, void (*page)(FILE *, const struct results *),
+                  struct error *err);
 
 #endif

@@ -4,7 +4,7 @@
  * samples on logarithmic axes, and every compared method's picture with its errors as colours. The script of the page
  * (page_parts.c) makes tables, curves and colours of what is in it: text, numbers and PNGs.
  *
- * Tests: test_report.c, test_equal_time.c, test/page.sh.
+ * Tests: test_report.c, test_equal_time.c, test/run/report.sh.
  */
 #ifndef ASBDPT_LAB_PAGE_H
 #define ASBDPT_LAB_PAGE_H

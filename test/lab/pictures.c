@@ -58,9 +58,9 @@ static void draw_errors(const struct scene_results *s, struct sheet *sheet, int 
     float *error = display_errors(s, &n), *heat = mem_alloc((size_t)n * 3, sizeof *heat);
     double most = picture_percentile(error, n, PICTURES_PERCENTILE);
     compare_heatmap(error, n, most, heat);
-    snprintf(text, sizeof text, "errors: dark 0, bright %.3g and more", most);
-    sheet_text(sheet, COLUMN_GAP + s->plan->n_compared * (s->width * k + COLUMN_GAP), y, fitting(text, k * s->width, 2),
-               SOFT, text);
+    snprintf(text, sizeof text, "%.3g and more", most);
+    sheet_bar(sheet, COLUMN_GAP + s->plan->n_compared * (s->width * k + COLUMN_GAP), y, s->width * k, "0",
+              "error, of 255", text);
     for (int v = 0; v < s->plan->n_compared; v++)
         sheet_paste(sheet, COLUMN_GAP + v * (s->width * k + COLUMN_GAP), y, heat + 3L * v * s->width * s->height,
                     s->width, s->height, k);

@@ -24,7 +24,7 @@ struct plan {
     double seconds;           /* of CPU, that all are given; 0: what the first takes for its samples */
     bool no_roulette;         /* no walk is ended by Russian roulette, unless a method says otherwise */
     int n_seeds;              /* repetitions of what is compared; what is in sweeps alone has one */
-    int width, height;        /* width 0: the stored reference's; height 0: from the scene's aspect ratio */
+    int width, height;        /* width 0: see plan_scene_load; height 0: from the scene's aspect ratio */
     int max_depth;            /* 0: the stored reference's if the width is 0 too, else the scene's */
     uint64_t seed;            /* 0, or another set of random numbers */
     int reference_spp;        /* of a reference made here */

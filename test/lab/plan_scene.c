@@ -48,12 +48,15 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
     return true;
 }
 
-/* At the plan's size and depth, or what it leaves open at the stored reference's. */
+/* At the plan's size and depth, or what it leaves open at the stored reference's, unless people could not see anything
+ * in pictures of that size and nobody has asked for it. */
 static bool read_planned(const struct plan *p, const char *path, const struct reference *stored, struct scene *scene,
                          int *depth, struct error *err)
 {
     int width = p->width, height = p->height, max_depth = p->max_depth;
-    if (width == 0 && stored->pixels != NULL) {
+    if (width == 0 && stored->pixels != NULL && stored->width < WIDTH_TO_SEE && p->reference == NULL)
+        width = WIDTH_TO_SEE;
+    else if (width == 0 && stored->pixels != NULL) {
         width = stored->width;
         height = stored->height;
         max_depth = max_depth > 0 ? max_depth : (int)stored->max_depth;

@@ -19,13 +19,14 @@ void plan_scene_name(const char *path, char *out, int size);
  *   height     0: by the scene's aspect ratio
  *   max_depth  0: the scene's; *depth is the one in force
  * Returns false with a message, then nothing needs release. */
-enum { WIDTH_WITHOUT_REFERENCE = 160 };
+enum { WIDTH_WITHOUT_REFERENCE = 160, WIDTH_TO_SEE = 96 };
 bool plan_scene_read(const char *path, int width, int height, int max_depth, struct scene *scene, int *depth,
                      struct error *err);
 
 /* plan_scene_load: the same at the plan's size and depth, with its stored reference. Where the plan leaves the width
- * open, size and depth are the reference's; without one the width is 0, with a warning. What is
- * found next to the scene is taken only if it says that it is of this scene, size and depth.
+ * open, size and depth are the reference's; without one the width is 0, with a warning. What is found next to the scene
+ * is taken only if it says that it is of this scene, size and depth; if it is narrower than WIDTH_TO_SEE and the plan
+ * leaves the width open, pictures are that wide, without a reference.
  *   name    what the reference is called
  *   stored  out, to be given to reference_free; its pixels are NULL where there is none, or none that fits
  * Returns false with a message, also when a reference was given that cannot be used; then the scene is not to be

@@ -114,6 +114,23 @@ void sheet_text(struct sheet *s, int x, int y, int size, double grey, const char
 
 int sheet_text_width(const char *text, int size) { return (int)strlen(text) * FONT_ADVANCE * size; }
 
+void sheet_bar(struct sheet *s, int x, int y, int width, const char *least, const char *unit, const char *most)
+{
+    enum { HEIGHT = SHEET_BAR - 2 * FONT_HEIGHT - 4 };
+    int all = (int)(strlen(least) + strlen(unit) + strlen(most)) + 4; /* letters, and gaps between three texts */
+    int size = all * 2 * FONT_ADVANCE <= width ? 2 : 1, end = x + width - sheet_text_width(most, size);
+    int free = end - x - sheet_text_width(least, size) - sheet_text_width(unit, size);
+    for (int i = 0; i < width; i++) {
+        float colour[3];
+        viridis(i / (width - 1.0), colour);
+        for (int j = 0; j < HEIGHT; j++)
+            sheet_paste(s, x + i, y + j, colour, 1, 1, 1);
+    }
+    sheet_text(s, x, y + HEIGHT + 4, size, SHEET_INK, least);
+    sheet_text(s, x + sheet_text_width(least, size) + free / 2, y + HEIGHT + 4, size, SHEET_INK, unit);
+    sheet_text(s, end, y + HEIGHT + 4, size, SHEET_INK, most);
+}
+
 float *sheet_shrink(const float *pixels, int width, int height, int k)
 {
     int w = width / k, h = height / k;

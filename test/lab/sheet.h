@@ -34,6 +34,11 @@ void sheet_cell(struct sheet *s, int x, int y, const float *pixels, int width, i
                 double exposure);
 void sheet_text(struct sheet *s, int x, int y, int size, double grey, const char *text);
 
+/* sheet_bar: the colours of viridis from left to right, and below them what the ends stand for and, between these, what
+ * the numbers are. SHEET_BAR pixels high in all; letters are as large as there is room for. */
+enum { SHEET_BAR = 34 };
+void sheet_bar(struct sheet *s, int x, int y, int width, const char *least, const char *unit, const char *most);
+
 /* sheet_text_width: of a line, in pixels. */
 int sheet_text_width(const char *text, int size);
 

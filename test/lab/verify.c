@@ -228,9 +228,17 @@ static void resample(const struct batches *b, struct rng *r, struct batches *out
     free(mean);
 }
 
-/* p-value of a distance: Kolmogorov's, with the scale on which the resamplings' distances have its 90 % quantile. */
+/* Adds to each tenth of [0,1] how many of n p-values are in it, times `weight`. */
+static void add_bars(const double *p, long n, double weight, double bar[VERIFY_BARS])
+{
+    for (long i = 0; i < n; i++)
+        bar[int_within(p[i] * VERIFY_BARS, 0, VERIFY_BARS - 1)] += weight;
+}
+
+/* p-value of a distance: Kolmogorov's, with the scale on which the resamplings' distances have its 90 % quantile.
+ *   expected  adds the mean of the resamplings' bars */
 static double uniform_p(const struct batches *a, const struct batches *b, struct sides_steps steps, double distance,
-                        uint64_t seed)
+                        uint64_t seed, double expected[VERIFY_BARS])
 {
     const double quantile = 1.2238; /* stats_kolmogorov_p(1.2238) = 0.1 */
     double found[RESAMPLINGS], *p = mem_alloc((size_t)a->n, sizeof *p);
@@ -240,7 +248,9 @@ static double uniform_p(const struct batches *a, const struct batches *b, struct
     for (int i = 0; i < RESAMPLINGS; i++) {
         resample(a, &r, &x);
         resample(b, &r, &y);
-        found[i] = stats_ks_distance(p, (size_t)all_p(&x, &y, steps, p, NULL));
+        long n = all_p(&x, &y, steps, p, NULL);
+        add_bars(p, n, 1.0 / RESAMPLINGS, expected);
+        found[i] = stats_ks_distance(p, (size_t)n);
     }
     batches_free(&x);
     batches_free(&y);
@@ -278,12 +288,10 @@ struct verdict verify_batches(const struct batches *a, const struct batches *b, 
     long *where = mem_alloc((size_t)a->n, sizeof *where);
     double *step_a = rare_steps(a), *step_b = rare_steps(b);
     struct sides_steps steps = {step_a, step_b};
-    v.n = all_p(a, b, (struct sides_steps){NULL, NULL}, p, where);
-    for (long i = 0; i < v.n; i++)
-        v.bar[int_within(p[i] * VERIFY_BARS, 0, VERIFY_BARS - 1)]++;
-    all_p(a, b, steps, p, where);
+    v.n = all_p(a, b, steps, p, where);
+    add_bars(p, v.n, 1, v.bar);
     v.smallest = smallest_p(p, v.n, a->n > 0 ? 1 : NAN, where, &v.where);
-    v.uniform = v.n > 0 ? uniform_p(a, b, steps, stats_ks_distance(p, (size_t)v.n), seed) : 1;
+    v.uniform = v.n > 0 ? uniform_p(a, b, steps, stats_ks_distance(p, (size_t)v.n), seed, v.expected) : 1;
     struct moments x = total_moments(a), y = total_moments(b);
     v.mean = mean_p(a, b, steps);
     v.ratio = x.mean / y.mean;

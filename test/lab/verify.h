@@ -23,8 +23,10 @@
  *     exp(-D n / c).
  *
  * If that is more than Welch's p-value it takes its place. Where batches scatter evenly it never is, but in a tile next
- * to a noisier one a difference must be larger to be seen. Rare samples that no tile near has met are not known: with
- * less than half of one in a tile equal expectations may DIFFER, in other tiles with another --seed. A bias stays.
+ * to a noisier one a difference must be larger to be seen. Such p-values are not uniform where expectations are equal,
+ * but larger; the same resamplings say how many then are expected in each tenth of [0,1]. Rare samples that no tile
+ * near has met are not known: with less than half of one in a tile equal expectations may DIFFER, in other tiles with
+ * another --seed. A bias stays.
  *
  * Tests: test_verify.c.
  */
@@ -73,7 +75,8 @@ struct verdict {
     double ratio, ratio_error;      /* mean of a over mean of b */
     long n;                         /* p-values: tiles * 3 */
     long where;                     /* index of the smallest p-value */
-    long bar[VERIFY_BARS];          /* how many of Welch's p-values fall into each tenth of [0,1] */
+    double bar[VERIFY_BARS];        /* how many p-values fall into each tenth of [0,1] */
+    double expected[VERIFY_BARS];   /* and how many would in the mean if all expectations were equal */
 };
 
 /* verify_batches: a and b have the same n; the seed is that of the random signs. All p-values are 1 where everything is

@@ -12,7 +12,7 @@
 #include "lab/aov.h"
 #include "lab/methods.h"
 
-enum { LIGHT_PATHS = 64 * 1024, GAP = 8, LABEL = 24, TEXT = 2 };
+enum { LIGHT_PATHS = 64 * 1024, GAP = 8, LABEL = 24, TEXT = 2, WIDE = 320 };
 
 struct view {
     struct render_job job;
@@ -134,7 +134,7 @@ static void shade(const struct scene *scene, float *const aov[N_FIRST_HIT], size
 {
     for (size_t i = 0; i < 3 * n; i += 3) {
         const float *p = &aov[AOV_POSITION][i], *m = &aov[AOV_NORMAL][i];
-        vec3 at = vec((double)p[0], (double)p[1], (double)p[2]);
+        vec3 at = sub(vec((double)p[0], (double)p[1], (double)p[2]), scene->origin); /* as the camera has it */
         vec3 towards = sub(camera_sample_lens(&scene->camera, at, 0.5, 0.5), at);
         vec3 normal = vec((double)m[0], (double)m[1], (double)m[2]);
         double length = sqrt(length2(towards));
@@ -154,30 +154,15 @@ static void mark(struct sheet *s, int left, int x, int y, int scale)
                 sheet_paste(s, left + (x + i) * scale, LABEL + (y + j) * scale, white, 1, 1, scale);
 }
 
-/* The colours of shares from 1 / WORTH_RANGE to 1 of the largest value, from left to right below the last two. */
-static void draw_key(struct sheet *s, int left, int top, int width)
-{
-    char least[32];
-    snprintf(least, sizeof least, "1/%d", WORTH_RANGE);
-    const char *const most = "1 = largest";
-    int from = left + sheet_text_width(least, 1) + GAP, to = left + width - sheet_text_width(most, 1) - GAP;
-    for (int x = from; x < to; x++) {
-        float colour_here[3];
-        viridis((double)(x - from) / (to - from), colour_here);
-        for (int y = 0; y < FONT_HEIGHT; y++)
-            sheet_paste(s, x, top + y, colour_here, 1, 1, 1);
-    }
-    sheet_text(s, left, top, 1, SHEET_INK, least);
-    sheet_text(s, to + GAP, top, 1, SHEET_INK, most);
-}
-
 static void draw_sheet(struct sheet *s, const struct scene *scene, const float *const picture[3], int x, int y,
                        int scale)
 {
     static const char *const labels[3] = {"scene", "worth", "draws"};
-    int width = scene->width * scale;
-    sheet_init(s, 3 * width + 2 * GAP, LABEL + scene->height * scale + 2 * GAP + FONT_HEIGHT, SHEET_PAPER);
-    draw_key(s, width + GAP, LABEL + scene->height * scale + GAP, 2 * width);
+    char least[32];
+    int width = scene->width * scale, below = LABEL + scene->height * scale + GAP;
+    sheet_init(s, 3 * width + 2 * GAP, below + SHEET_BAR, SHEET_PAPER);
+    snprintf(least, sizeof least, "1/%d", WORTH_RANGE);
+    sheet_bar(s, width + GAP, below, 2 * width + GAP, least, "share of the largest value (logarithm)", "1");
     for (int i = 0; i < 3; i++) {
         int left = i * (width + GAP);
         sheet_text(s, left + GAP, (LABEL - TEXT * FONT_HEIGHT) / 2, TEXT, SHEET_INK, labels[i]);
@@ -204,7 +189,7 @@ bool worth_picture(const struct scene *scene, const struct render_options *optio
         colour(value, n, pixels);
         colour(value + n, n, pixels + 3 * n);
         const float *const picture[3] = {aov[AOV_ALBEDO], pixels, pixels + 3 * n};
-        draw_sheet(out, scene, picture, x, y, scale);
+        draw_sheet(out, scene, picture, x, y, scale > 0 ? scale : (WIDE + scene->width - 1) / scene->width);
     }
     free(value);
     free(pixels);

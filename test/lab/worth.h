@@ -28,7 +28,8 @@ enum { WORTH_RANGE = 1000 };
 bool worth_values(const struct scene *scene, const struct render_options *options, int x, int y, float *worth,
                   float *draws, struct error *err);
 
-/* worth_picture: all three, labelled, every pixel a square of `scale` pixels. *out is for the caller to free. */
+/* worth_picture: all three, labelled, every pixel a square of `scale` pixels; 0: of as many as make each picture 320
+ * pixels wide or more. *out is for the caller to free. */
 bool worth_picture(const struct scene *scene, const struct render_options *options, int x, int y, int scale,
                    struct sheet *out, struct error *err);
 

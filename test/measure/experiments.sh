@@ -1,6 +1,6 @@
 #!/bin/sh
 # experiments.sh OUT: chapter 4 and appendix A of the dissertation, measured again, into OUT/report.html; `make
-# experiments` calls it. On the five scenes of this tree: 64 pixels wide, 8 to 128 samples per pixel, 3 seeds (one for
+# experiments` calls it. On the five scenes of this tree: 96 pixels wide, 8 to 128 samples per pixel, 3 seeds (one for
 # the sweeps), references of 1024 samples. SPP= and RES= change that.
 #   PUBLISHED=DIR   on the published scenes instead, DIR/NAME/scene.pbrt; those that are not there are left out
 #   REFERENCES=DIR  against DIR/NAME.pfm, at their sizes (ref/make-ref.sh makes such); else rendered here
@@ -8,7 +8,7 @@ lab=./asbdpt-lab
 names="veach-ajar cornell-box cornell-box-modified bathroom living-room"
 
 spp=${SPP-128}
-set -- "$1" --res "${RES-64}" --reference-spp 1024
+set -- "$1" --res "${RES-96}" --reference-spp 1024
 scenes=
 for name in $names; do
     file=scenes/$name.pbrt
@@ -16,7 +16,7 @@ for name in $names; do
     if [ ! -f "$file" ]; then echo "experiments: there is no $file, left out"; else scenes="$scenes $file"; fi
 done
 [ -n "$scenes" ] || { echo "experiments: no scenes, nothing measured"; exit 0; }
-[ -z "${PUBLISHED-}" ] || set -- "$1" --maxdepth 8 --res "${RES-64}" --reference-spp 1024
+[ -z "${PUBLISHED-}" ] || set -- "$1" --maxdepth 8 --res "${RES-96}" --reference-spp 1024
 [ -z "${REFERENCES-}" ] || set -- "$1" --reference "$REFERENCES"
 out=$1
 shift

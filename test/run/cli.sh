@@ -203,10 +203,13 @@ prints '^rmse       0$' "$lab" compare a.pfm b.pfm
 says '^rmse8      0$' '^relmse     0$' '^relmse8x8  0$' '^mean_ratio 1$' '^nonfinite  0$' '^psnr       inf$'
 expect 0 'a.png holds sRGB values from 0 to 1, a.pfm linear' "$lab" compare a.png a.pfm --heatmap heat.png --max 2
 says '^heatmap    0 to 2$'
-expect 0 '' "$program" convert heat.png -o heat.ppm # 16 pixels high, and its colour bar, whose first row ends in yellow
-check [ "$(head -n 2 heat.ppm | tail -n 1)" = "160 46" ]
-check [ "$(tail -c $((25 * 480)) heat.ppm | head -c 480 | od -An -v -t u1 | awk '{ for (i = 1; i <= NF; i++) v[++n] = $i }
-    END { print v[1], v[2], v[3], v[n - 2], v[n - 1], v[n] }')" = "68 1 84 253 231 37" ]
+expect 0 '' "$program" convert heat.png -o heat.ppm # 16x16 pixels, each a square of 20, and a bar of all colours
+check [ "$(head -n 2 heat.ppm | tail -n 1)" = "320 359" ]
+row() { tail -c $((960 * ($1))) heat.ppm | head -c 960 | od -An -v -t u1 | awk '{ for (i = 1; i <= NF; i++) v[++n] = $i }
+    END { print v[1], v[2], v[3], v[n - 2], v[n - 1], v[n] }'; }
+check [ "$(row 34)" = "68 1 84 253 231 37" ]
+check [ "$(row 359)" = "$(row 340)" ]
+check [ "$(row 40)" = "$(row 59)" ]
 expect 0 '' "$lab" compare a.png a.pfm --max-rmse 1000
 expect 1 'rmse [0-9.e-]+ is more than 1e-09' "$lab" compare a.png a.pfm --max-rmse 1e-9
 expect 0 '' "$program" render "$box" --res 8x8 --spp 1 --quiet -o c.pfm
@@ -283,6 +286,8 @@ check [ ! -e stats.json ]
 # gates: light by how far it has come; a sequence of pictures in one render.
 expect 0 '' "$lab" transient "$box" $small --gates 3 --gate 1000:2500 -o flight
 check [ -s flight/gate002.pfm -a -s flight/transient.png -a ! -e flight/gate003.pfm ]
+expect 0 '' "$program" convert flight/transient.png -o flight.ppm
+check [ "$(head -n 2 flight.ppm | tail -n 1)" = "1000 300" ]
 
 # --- lights
 # lights: of one light all that there is; of several, pictures that sum adds up, each times a weight.
@@ -393,6 +398,7 @@ expect 1 'list.txt: cannot be opened; --kit' "$lab" conform kit --kit nowhere
 tiny="--res 8x8 --seeds 2 --reference-spp 4 --quiet"
 prints 'geometric mean' "$lab" equal-time "$box" $tiny --spp 2 -o equal
 check [ -s equal/images/cornell-box.png ]
+check [ "$(head -n 1 equal/equal-time.md)" = "$(grep '^- Squared error' stdout.txt)" ] # the verdict first
 check [ "$(grep -c '^cornell-box,' equal/runs.csv)" = 4 ]
 check [ "$(grep -c '^cornell-box,bdpt,.*,2,' equal/runs.csv)" = 2 ]
 prints 'equal-time --seconds 0.01 --methods bdpt,asbdpt:select=pool --seeds 2' \

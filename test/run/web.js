@@ -34,6 +34,7 @@ async function rendered(settings) {
     check(side.points[15][1] < 0.5 * side.points[0][1], `side ${i}: the error does not fall: ` +
       side.points.map(p => p[1].toFixed(1)));
     check(Math.abs(side.points[15][2]) < 4, `side ${i}: the mean is off by ${side.points[15][2]} %`);
+    check($(`caption${i}`).textContent.includes(' at 32 x 32, mean'), 'size of the error: ' + $(`caption${i}`).textContent);
     check($(`picture${i}`).width === 64 && $(`caption${i}`).textContent.includes('16 of 16'), `side ${i}: caption`);
     const data = $(`picture${i}`).getContext('2d').getImageData(0, 0, 64, 64).data;
     check(new Set(data).size > 100, `side ${i}: the picture is empty`);
@@ -44,6 +45,11 @@ async function rendered(settings) {
   check([...document.querySelectorAll('form label')].every(l => l.querySelector('small').textContent.length > 20), 'words');
   check([...$('select').options].every(o => ABOUT[o.value]), 'a method without words');
   check($('verdict').textContent.includes('times that of bdpt'), 'verdict');
+  check($('verdict').textContent.includes('at 32 x 32 pixels') && $('small').textContent === '32 x 32', 'size of errors');
+  check(document.querySelector('a[href="tour/README.md"]') !== null, 'a way to the tour');
+  check(!/published/.test(Object.values(ABOUT).join()), 'nothing here is as published');
+  const plainly = plain('asbdpt: --sample 9 is not taken: 0 to 3, see --spp; try asbdpt trace --help');
+  check(plainly === '"sample" 9 is not taken: 0 to 3, see "samples per pixel"', 'plain words: ' + plainly);
 
   // The sliders reach the renderer: other numbers, other pictures; only those that the choice has can be moved.
   const before = sum(sides[1].last.pixels), error = sides[1].points[15][1];
@@ -89,6 +95,45 @@ async function rendered(settings) {
   location.hash = '#scene=cornell-box&select=bins&spp=3&scale=2&binpaths=4&restart=0';
   await sleep(400);
   await until(done, 'the box again');
+
+  // What a link cannot set is said, and nothing else changes.
+  location.hash = '#scene=nowhere&select=bins&spp=99&colour=red';
+  await sleep(400);
+  const answer = $('error').textContent;
+  check(/scene "nowhere".*It shows cornell-box\. There are: .*living-room/.test(answer) && /spp to "99"/.test(answer) &&
+    /"colour"/.test(answer), 'a wrong link: ' + answer);
+  check($('scene').value === 'cornell-box' && $('spp').value === '3', 'a wrong link changes ' + $('scene').value);
+  await until(done, 'the scene of a wrong link');
+  check(sides.every((side, i) => !isBlank(i)), 'no picture after a wrong link');
+
+  // Keys do what the mouse does.
+  const press = (key, shiftKey = false) =>
+    $('picture1').dispatchEvent(new KeyboardEvent('keydown', { key, shiftKey, bubbles: true, cancelable: true }));
+  $('picture1').focus();
+  check(document.activeElement === $('picture1'), 'the picture is not focused');
+  check(press('a') && !press('ArrowLeft') && /^Pixel 32, 32 of asbdpt bins/.test($('at').textContent), $('at').textContent);
+  ['ArrowLeft', 'ArrowLeft', 'ArrowUp', 'ArrowDown', 'ArrowRight'].forEach(key => press(key));
+  press('ArrowDown', true);
+  check(/^Pixel 31, 42 /.test($('at').textContent) && !$('mark1').hidden && $('mark0').hidden, $('at').textContent);
+  for (let k = 0; k < 9; k++)
+    press('ArrowDown', true);
+  check(/^Pixel 31, 63 /.test($('at').textContent), 'keys leave the picture: ' + $('at').textContent);
+  press('Enter');
+  await until(() => /pixel 31,63, sample \d+: asbdpt/.test($('story').textContent), 'the sample that Enter asked for');
+  start(); // nothing is chosen
+  await until(done, 'the same again');
+
+  // On a telephone: one below the other.
+  const phone = document.createElement('iframe');
+  phone.style.cssText = 'position: absolute; width: 390px; height: 3000px';
+  phone.srcdoc = `<meta name="viewport" content="width=device-width">${document.querySelector('style').outerHTML}` +
+    document.querySelector('.sides').outerHTML + document.querySelector('.plots').outerHTML;
+  document.body.append(phone);
+  await new Promise(loaded => { phone.onload = loaded; });
+  const boxes = [...phone.contentDocument.querySelectorAll('figure')].map(figure => figure.getBoundingClientRect());
+  check(boxes.length === 5 && boxes.every((box, k) => box.width > 340 && (k === 0 || box.top >= boxes[k - 1].bottom)),
+    'not below each other: ' + JSON.stringify(boxes));
+  phone.remove();
 
   // A click shows a sample that brings light, and the button the next one.
   for (const [i, words] of [[0, /pixel 32,16, sample \d+: bdpt/], [1, /pixel 32,16, sample \d+: asbdpt/]]) {

@@ -130,8 +130,15 @@ static void test_worth(struct test *t)
         CHECK(t, ok && memcmp(whole.pixels, cropped.pixels,
                               3 * (size_t)whole.width * (size_t)whole.height * sizeof *whole.pixels) == 0,
               "a crop window changes the picture of the whole film");
-        sheet_free(&whole);
         sheet_free(&cropped);
+        /* Lit from the camera the floor's grey of 0.7 is dim there, but not black, and the back wall is bright. */
+        double dim = ok ? (double)whole.pixels[3 * ((24 + 30) * whole.width + 8)] : 0;
+        double bright = ok ? (double)whole.pixels[3 * ((24 + 10) * whole.width + 16)] : 0;
+        CHECK(t, dim > 0.1 && bright > 2 * dim && bright < 0.8, "the scene's floor is %g, its wall %g", dim, bright);
+        sheet_free(&whole);
+        CHECK(t, worth_picture(&scene, &options, 16, 29, 0, &whole, &err) && whole.width >= 3 * 320,
+              "the picture is %d pixels wide", whole.width);
+        sheet_free(&whole);
         options.integrator = method_named("bdpt");
         CHECK(t, !worth_values(&scene, &options, 0, 0, worth, draws, &err), "bdpt learns nothing");
     }

@@ -77,19 +77,22 @@ static void test_lists(struct test *t)
     CHECK(t, strcmp(name, "bathroom") == 0, "name of a file: %s", name);
 }
 
-/* What a plan leaves open is the stored reference's; without one, or where it says a width, the scene's. */
+/* What a plan leaves open is the stored reference's if that is given or large enough to be looked at; without one, or
+ * where it says a width, the scene's. */
 static void test_planned_scene(struct test *t)
 {
     static const struct {
         int width, max_depth;
-        const char *name;
+        const char *name, *given;
         int expected[3];
         bool fits; /* the stored one */
-    } cases[] = {{0, 0, "bathroom", {36, 24, 10}, true}, {0, 3, "bathroom", {36, 24, 3}, false},
-                 {72, 0, "bathroom", {72, 48, 10}, false}, {18, 0, "bathroom", {18, 12, 10}, true},
-                 {0, 0, "no-such-name", {WIDTH_WITHOUT_REFERENCE, 107, 10}, false}};
+    } cases[] = {{0, 0, "bathroom", "ref", {36, 24, 10}, true}, {0, 0, "bathroom", NULL, {WIDTH_TO_SEE, 64, 10}, false},
+                 {36, 3, "bathroom", NULL, {36, 24, 3}, false}, {36, 0, "bathroom", NULL, {36, 24, 10}, true},
+                 {72, 0, "bathroom", NULL, {72, 48, 10}, false}, {18, 0, "bathroom", NULL, {18, 12, 10}, true},
+                 {0, 0, "no-such-name", NULL, {WIDTH_WITHOUT_REFERENCE, 107, 10}, false}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct plan p = {.width = cases[i].width, .max_depth = cases[i].max_depth, .quiet = true};
+        struct plan p = {.width = cases[i].width, .max_depth = cases[i].max_depth, .reference = cases[i].given,
+                         .quiet = true};
         const int *expected = cases[i].expected;
         struct scene scene;
         struct reference stored;

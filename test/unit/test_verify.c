@@ -54,29 +54,34 @@ static void test_level(struct test *t, double share)
         TEST_ACCEPT(t, stats_ks_uniform_p(uniform, TRIALS), "p-values of uniformity itself, independent noise");
 }
 
-/* The bars that are shown are of plain p-values: even ones, although a tile near each has ten times its noise. */
+/* The bars that are shown are of the p-values that are tested. A tile near each has ten times its noise, so these are
+ * larger than even ones, and as many as expected; those of different expectations are not. */
 static void test_bars(struct test *t)
 {
     enum { TRIALS = 50, BATCHES = 10, SIDE = 4, VALUES = 3 * SIDE * SIDE };
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 809, 0);
-    double bar[VERIFY_BARS] = {0}, even[VERIFY_BARS];
-    for (int i = 0; i < TRIALS; i++) {
+    double bar[2][VERIFY_BARS] = {{0}}, expected[2][VERIFY_BARS] = {{0}}, even[VERIFY_BARS];
+    for (int i = 0; i < 2 * TRIALS; i++) {
         struct batches side[2];
         for (int j = 0; j < 2; j++) {
             side[j] = noise(&r, BATCHES, VALUES, 0, 0);
             side[j].across = SIDE;
             for (long k = 0; k < BATCHES * VALUES; k++)
-                side[j].value[k] *= k % VALUES / 3 % 5 == 0 ? 10 : 1;
+                side[j].value[k] = side[j].value[k] * (k % VALUES / 3 % 5 == 0 ? 10 : 1) + (i % 2 == 1 ? j : 0);
         }
         struct verdict v = verify_batches(&side[0], &side[1], (uint64_t)i);
-        for (int k = 0; k < VERIFY_BARS; k++)
-            bar[k] += (double)v.bar[k];
+        for (int k = 0; k < VERIFY_BARS; k++) {
+            bar[i % 2][k] += v.bar[k];
+            expected[i % 2][k] += v.expected[k];
+        }
         batches_free(&side[0]);
         batches_free(&side[1]);
     }
     for (int k = 0; k < VERIFY_BARS; k++)
         even[k] = (double)TRIALS * VALUES / VERIFY_BARS;
-    TEST_ACCEPT(t, stats_chi2_test(bar, even, VERIFY_BARS), "the bars that are shown");
+    TEST_ACCEPT(t, stats_chi2_test(bar[0], expected[0], VERIFY_BARS), "the bars that are shown");
+    TEST_REJECT(t, stats_chi2_test(bar[0], even, VERIFY_BARS), "bars of p-values that allow for rare samples: even");
+    TEST_REJECT(t, stats_chi2_test(bar[1], expected[1], VERIFY_BARS), "bars of means that differ");
 }
 
 /* A shift of one value, of all values a little, and of a spread of values up and down: each of the three sees one. */
