@@ -60,7 +60,7 @@ wanted() {
 }
 # tool NAME COMMAND: with() runs COMMAND for NAME.
 tool() {
-    printf '#!/bin/sh\n%s\n' "$2" >"$dir/bin/$1" && chmod +x "$dir/bin/$1"
+    rm -f "$dir/bin/$1" && printf '#!/bin/sh\n%s\n' "$2" >"$dir/bin/$1" && chmod +x "$dir/bin/$1"
 }
 with() { PATH=$dir/bin:$PATH "$@" >"$dir/log" 2>&1; }
 scripts() {
