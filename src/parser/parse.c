@@ -182,13 +182,6 @@ static bool is_reflectance(const char *name)
     return i < sizeof NAMES / sizeof NAMES[0];
 }
 
-/* Where a message about a field's value, which is used, points. */
-static struct source_position place_of(struct params *q, const struct field *f)
-{
-    const struct param *item = params_ignore(q, f->name);
-    return item != NULL ? item->position : q->position;
-}
-
 /* Where more is scattered than arrives. A spectrum of 1 has a luminance of 1, to 1 % (spectrum.h), and more red than 1,
  * for the white of sRGB is bluer. */
 static void warn_of_surplus(struct parser *p, const struct field *f, rgb value)
@@ -196,8 +189,8 @@ static void warn_of_surplus(struct parser *p, const struct field *f, rgb value)
     const struct param *item = params_ignore(&p->params, f->name);
     bool spectral = item != NULL && item->type != PARAM_RGB && item->type != PARAM_TEXTURE;
     if ((spectral ? rgb_luminance(value) : rgb_max(value)) > 1.01)
-        source_warn(&p->messages, place_of(&p->params, f), "\"%s\" is (%g %g %g): above 1 a surface scatters more light "
-                    "than reaches it", f->name, value.r, value.g, value.b);
+        source_warn(&p->messages, item != NULL ? item->position : p->params.position, "\"%s\" is (%g %g %g): above 1 a "
+                    "surface scatters more light than reaches it", f->name, value.r, value.g, value.b);
 }
 
 /* Refuse a texture that is the same everywhere and outside the field's range; warn of one that makes light. */
@@ -208,9 +201,11 @@ static int checked(struct parser *p, const struct field *f, int texture)
         return texture;
     const double value[3] = {t->constant.r, t->constant.g, t->constant.b};
     for (int i = 0; i < 3 && !p->params.failed; i++)
-        if (!(value[i] >= least(f) && value[i] <= most(f)))
-            params_fail(&p->params, place_of(&p->params, f), "\"%s\" is %g; it must be from %g to %g", f->name, value[i],
-                        least(f), most(f));
+        if (!(value[i] >= least(f) && value[i] <= most(f))) {
+            const struct param *item = params_ignore(&p->params, f->name);
+            params_fail(&p->params, item != NULL ? item->position : p->params.position,
+                        "\"%s\" is %g; it must be from %g to %g", f->name, value[i], least(f), most(f));
+        }
     if (!p->params.failed && is_reflectance(f->name) && rgb_max(t->constant) > 1)
         warn_of_surplus(p, f, t->constant);
     return texture;

@@ -63,19 +63,24 @@ static const struct row PARAMETERS[] = {
     {"Texture", "scale", "tex2", NULL},
     {"Texture", "tex", "tex1", NULL}, {.name = NULL}};
 
+static bool fits(const struct row *row, const char *directive, const char *name, const struct field *fields)
+{
+    bool known = fields == NULL || row->here == NULL || field_find(fields, row->here) != NULL;
+    return known && strcmp(row->name, name) == 0 &&
+           (row->directive == NULL || strcmp(row->directive, directive) == 0);
+}
+
 /* What is said of a name that one of the rows has. */
 static struct foreign say(const struct row *row, const char *directive, const char *name, const struct field *fields)
 {
     struct foreign out = {""};
-    while (row->name != NULL &&
-           (strcmp(row->name, name) != 0 || (row->directive != NULL && strcmp(row->directive, directive) != 0) ||
-            (fields != NULL && row->here != NULL && field_find(fields, row->here) == NULL)))
+    while (row->name != NULL && !fits(row, directive, name, fields))
         row++;
-    const char *note = row->note != NULL ? row->note : "";
+    const char *note = row->note != NULL ? row->note : row->here != NULL ? "" : "nothing here is like it";
     if (row->name != NULL && row->here != NULL)
         snprintf(out.text, sizeof out.text, ": it is pbrt-v4's; here that is \"%s\"%s", row->here, note);
     else if (row->name != NULL)
-        snprintf(out.text, sizeof out.text, ": it is pbrt-v4's; %s", row->note != NULL ? note : "nothing here is like it");
+        snprintf(out.text, sizeof out.text, ": it is pbrt-v4's; %s", note);
     return out;
 }
 

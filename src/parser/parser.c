@@ -18,8 +18,8 @@ static bool world_begin(struct parser *p)
     p->phase = IN_WORLD;
     p->has_camera = false;
     if (p->moved.position.file != NULL)
-        source_warn(&p->messages, p->moved.position, "after Camera, %s does not move the camera; write it before Camera",
-                    p->moved.text);
+        source_warn(&p->messages, p->moved.position, "after Camera, %s does not move the camera; write it before "
+                    "Camera", p->moved.text);
     scene_set_origin(p->scene);
     parse_state_reset(p);
     parse_begin_media(p);

@@ -111,7 +111,7 @@ expect 1 'samples 0:40: here they come in blocks of 32' \
     "$program" render "$box" $size --integrator asbdpt -P select=bins --samples 0:40 -o x.part
 expect 2 '[-]-samples needs -o NAME.part' "$program" render "$box" $size --samples 0:7
 
-# ---- a full disk, as which a limit of the size of files counts: one warning for all previews, and for all checkpoints ----
+# ---- a full disk, here a limit of the size of files: one warning for all previews, and one for all checkpoints ----
 expect 1 '^asbdpt: full.state: cannot be written: ' sh -c "ulimit -f 8 && exec \"\$@\"" sh "$program" render "$box" \
     --res 64x64 --spp 100000 --maxdepth 2 --time 2 --quiet --preview 0.05 --checkpoint full.state --interval 0.05 \
     -o full.pfm
