@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/near.h"
 
 const struct field *field_find(const struct field *table, const char *name)
 {
@@ -113,7 +114,8 @@ bool settings_choice(const struct settings *s, const char *name, int fallback, c
         const char *join = i == 0 ? "" : names[i + 1] == NULL ? " or " : ", ";
         snprintf(list + used, sizeof list - used, "%s\"%s\"", join, names[i]);
     }
-    error_set(err, "%s: %s = \"%s\" is unknown: give %s", item->origin, name, item->value, list);
+    error_set(err, "%s: %s = \"%s\" is unknown: give %s%s", item->origin, name, item->value, list,
+              near_of(item->value, names).text);
     return blame(item, err);
 }
 

@@ -156,7 +156,10 @@ bool file_commit(struct file_output *out, struct error *err)
         ok = os_rename(out->temporary, out->path);
     reason = reason != 0 ? reason : errno;
     if (!ok)
-        error_set(err, "%s: cannot be written: %s", out->path, reason != 0 ? strerror(reason) : "write error");
+        error_set(err, "%s: cannot be written: %s", out->stream == stdout ? "standard output" : out->path,
+                  reason != 0 ? strerror(reason) : "write error");
+    if (!ok && out->stream == stdout)
+        clearerr(stdout); /* it has been said */
     release(out, !ok);
     return ok;
 }

@@ -41,7 +41,7 @@ struct file_output {
 /* file_create: begin to write `path`. Returns false with a message when that is impossible, for want of a directory or
  * of rights; *out is then empty. After success exactly one of the others must follow.
  * file_commit: flush, wait for the disk, check, close, rename. Returns false with a message, leaving no file behind,
- * when any write since file_create has failed.
+ * when any write since file_create has failed. Standard output then has no error any more: nobody reports it again.
  * file_abandon: close and remove what was written. */
 bool file_create(const char *path, struct file_output *out, struct error *err);
 bool file_commit(struct file_output *out, struct error *err);

@@ -12,10 +12,11 @@ struct convert_options {
 
 #define AT(member) offsetof(struct convert_options, member)
 static const struct option OPTIONS[] = {
-    {"IN", NULL, OPTION_TEXT, AT(in), 1, .help = "an image to read: .exr .pfm .png .tga .ppm .pgm"},
+    {"IN", NULL, OPTION_TEXT, AT(in), 1,
+     .help = "an image to read: .exr .pfm .png .tga .ppm .pgm, - for .pfm from standard input"},
     {"--weights", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab sum adds up images"},
     {"-o", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "--outfile", .written = true,
-     .help = "an image to write: linear .pfm or .exr, sRGB .png or .ppm; repeatable"},
+     .help = "image to write: linear .pfm or .exr, sRGB .png or .ppm, - for .pfm to standard output; repeatable"},
     {"--linear", NULL, OPTION_ON, AT(linear),
      .help = "take the values of .png, .tga, .ppm and .pgm as light, as \"mapname\" does (default: they are sRGB)"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},

@@ -15,9 +15,10 @@
 
 #define AT(member) offsetof(struct job_options, member)
 const struct option RENDER_OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .help = "a scene file"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .help = "a scene file; - reads standard input"},
     {"-o", "FILE", OPTION_TEXTS, AT(output), .alias = "--outfile", .written = true,
-     .help = "image to write: linear .pfm or .exr, sRGB .png or .ppm; repeatable (default: the scene's Film name)"},
+     .help = "image to write: linear .pfm or .exr, sRGB .png or .ppm, - for .pfm to standard output; repeatable "
+             "(default: the scene's Film name)"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
     {"--time", "TIME", OPTION_TIME, AT(keep.time), 1e-9, 1e9,
@@ -173,21 +174,35 @@ static void describe_view(const struct scene *scene, struct pixel_rect r, char *
     }
 }
 
-/* A picture without any light is rarely what was wanted. Less than FAINT is not light: rounding lets connections along
- * a surface through. */
+/* The radiance that all light of the scene has if it is spread over its sphere in all directions, as a sky's is. */
+static double mean_radiance(const struct light_set *lights)
+{
+    double watts = 0;
+    for (int i = 0; i < lights->n; i++)
+        watts += light_watts(&lights->light[i]);
+    return watts / (4 * sqr(PI * lights->radius));
+}
+
+/* A picture without any light is rarely what was wanted. What is below the mean light of the scene by more than the
+ * rounding of a float, 2^-24, is none: vertices are floats, so that connections along a surface may pass through it. */
 static void warn_of_black(const struct scene *scene, const struct film *film, const char *integrator,
                           const float *pixels)
 {
-    const float FAINT = 1e-20f;
-    char why[300] = "the scene has no light", view[200];
-    for (size_t i = 0; i < rect_pixels(film->rect) * 3; i++)
-        if (!(fabsf(pixels[i]) < FAINT))
+    const double faint = scene->film_scale * mean_radiance(&scene->lights) * 0x1p-24;
+    double most = 0;
+    char why[300] = "the scene has no light", view[200], largest[64] = "";
+    for (size_t i = 0; i < rect_pixels(film->rect) * 3; i++) {
+        if (!(fabs((double)pixels[i]) <= faint))
             return;
+        most = fmax(most, fabs((double)pixels[i]));
+    }
+    if (most > 0)
+        snprintf(largest, sizeof largest, " (no value is above %.2g)", most);
     describe_view(scene, film->rect, view, sizeof view);
     if (film_samples(film) == 0)
         snprintf(why, sizeof why, "no sample is complete");
     else if (scene->lights.n > 0)
-        snprintf(why, sizeof why, "no light has reached the camera by %s; %s", integrator, view);
+        snprintf(why, sizeof why, "no light has reached the camera by %s%s; %s", integrator, largest, view);
     say_line("asbdpt: warning: the image is black: %s", why);
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "base/near.h"
 #include "base/version.h"
 #include "render/job.h"
 
@@ -27,8 +28,9 @@ int usage_error(const struct command *command, const char *format, ...)
     va_start(args, format);
     vsnprintf(err.text, sizeof err.text, format, args);
     va_end(args);
-    say_line("asbdpt: %s; try %s %s%s--help", err.text, program.name, command != NULL ? command->name : "",
-             command != NULL ? " " : "");
+    size_t n = strlen(err.text);
+    say_line("asbdpt: %s%s try %s %s%s--help", err.text, n > 0 && err.text[n - 1] == '?' ? "" : ";", program.name,
+             command != NULL ? command->name : "", command != NULL ? " " : "");
     return EXIT_USAGE;
 }
 
@@ -138,9 +140,19 @@ static int run(const struct command *c, int argc, char **argv)
     return status;
 }
 
+/* Which command, or word that may stand in its place, was meant by one that is none. */
+static struct near near_command(const char *name, const char *const *others)
+{
+    struct near near = near_of(name, others);
+    for (const struct command *const *c = program.commands; *c != NULL; c++)
+        near_try(&near, (*c)->name);
+    return near;
+}
+
 /* help, help COMMAND, help integrators, help all */
 static int help(const char *topic)
 {
+    static const char *const TOPICS[] = {"integrators", "all", NULL};
     for (const struct command *const *c = program.commands; topic != NULL && *c != NULL; c++)
         if (strcmp(topic, (*c)->name) == 0) {
             print_command(*c);
@@ -153,7 +165,7 @@ static int help(const char *topic)
     else if (strcmp(topic, "all") == 0)
         print_all();
     else
-        return usage_error(NULL, "there is no help on %s", topic);
+        return usage_error(NULL, "there is no help on %s%s", topic, near_command(topic, TOPICS).text);
     return EXIT_OK;
 }
 
@@ -173,7 +185,8 @@ static int obey(int argc, char **argv)
             return run(*c, argc - 1, argv + 1);
     if (program.unnamed != NULL && (argv[1][0] == '-' || file_has_extension(argv[1], ".pbrt")))
         return run(program.unnamed, argc, argv);
-    return usage_error(NULL, "unknown command %s%s", argv[1], program.elsewhere);
+    struct near near = near_command(argv[1], (const char *const[]){"help", NULL});
+    return usage_error(NULL, "unknown command %s%s", argv[1], near.name != NULL ? near.text : program.elsewhere);
 }
 
 int command_line(int argc, char **argv)

@@ -97,11 +97,19 @@ static void show(struct keep *k, double done)
     progress_update(&k->bar, done);
 }
 
+/* What cannot be written is tried again, and is a new warning only after it could be written. */
+static void warn_once(bool *fails, bool ok, const struct error *err)
+{
+    if (!ok && !*fails)
+        say_line("asbdpt: warning: %s; rendering goes on", err->text);
+    *fails = !ok;
+}
+
 static void save(struct keep *k)
 {
     struct error err;
-    if (!save_film(k, &err))
-        say_line("asbdpt: warning: %s; rendering goes on", err.text);
+    bool ok = save_film(k, &err);
+    warn_once(&k->save_fails, ok, &err);
     k->saved = os_wall_seconds();
 }
 
@@ -109,8 +117,8 @@ static void save(struct keep *k)
 static void preview(struct keep *k)
 {
     struct error err;
-    if (!outputs_preview(k->pictures, &err))
-        say_line("asbdpt: warning: %s; rendering goes on", err.text);
+    bool ok = outputs_preview(k->pictures, &err);
+    warn_once(&k->preview_fails, ok, &err);
     double seconds = os_wall_seconds() - k->begun;
     k->preview_due = seconds + fmin(seconds, k->options->preview);
 }

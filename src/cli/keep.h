@@ -20,6 +20,7 @@ struct keep {
     struct progress bar;
     double begun, saved; /* when the render was, and the last checkpoint: seconds of os_wall_seconds */
     double preview_due;  /* seconds since `begun` */
+    bool save_fails, preview_fails; /* the last one has not been written, which has been said */
     const struct outputs *pictures; /* for previews; borrowed */
 };
 

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/near.h"
 #include "image/image.h"
 
 /* How far the arguments are read, and the option being read. */
@@ -212,13 +213,26 @@ static const struct option *find(const struct option *table, const char *argumen
     return o;
 }
 
+/* No option. Of its name only as much is compared as the longest name may have. */
+static bool unknown(struct reader *r, const char *argument, size_t length)
+{
+    char name[NEAR_LONGEST + 2];
+    snprintf(name, sizeof name, "%.*s", length < sizeof name ? (int)length : NEAR_LONGEST + 1, argument);
+    struct near near = near_start(name);
+    for (const struct option *o = r->table; o != NULL; o = options_next(o)) {
+        near_try(&near, o->name[0] == '-' ? o->name : NULL);
+        near_try(&near, o->alias);
+    }
+    return error_set(r->err, "unknown option %s%s", argument, near.text);
+}
+
 static bool read_option(struct reader *r, void *target)
 {
     const char *argument = r->argv[r->at];
     size_t length = argument[1] == '-' ? strcspn(argument, "=") : 2; /* of the name */
     const struct option *o = find(r->table, argument, length);
     if (o == NULL)
-        return error_set(r->err, "unknown option %s", argument);
+        return unknown(r, argument, length);
     r->option = o;
     r->attached = argument[length] == '\0' ? NULL : argument + length + (argument[length] == '=');
     if (!read_value(r, target_of(o, target)))

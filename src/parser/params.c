@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/near.h"
 #include "base/number.h"
 #include "parser/spectrum.h"
 
@@ -35,22 +36,43 @@ const char *params_type_name(enum param_type type)
     return "";
 }
 
+enum { COLOURS = 1u << PARAM_RGB | 1u << PARAM_XYZ | 1u << PARAM_BLACKBODY | 1u << PARAM_SPECTRUM };
+
+void params_name_types(unsigned types, char *text, size_t size)
+{
+    const char *join = "";
+    text[0] = '\0';
+    for (int k = 1; k <= PARAM_TYPES; k++) { /* textures, which may stand for others, last */
+        int i = (PARAM_TEXTURE + k) % PARAM_TYPES;
+        const char *article = i == PARAM_RGB ? "a colour (" : i == PARAM_INTEGER ? "an " : "a ";
+        size_t used = strlen(text);
+        if ((types & 1u << i) == 0 || ((1u << i & COLOURS) != 0 && i != PARAM_RGB))
+            continue;
+        snprintf(text + used, size - used, "%s%s%s%s", join, article, params_type_name((enum param_type)i),
+                 i == PARAM_RGB ? ")" : "");
+        join = " or ";
+    }
+}
+
 /* Split a copy of "type name" into item->type and ->name. The type is PARAM_TYPES, with a warning, where it cannot be
  * used. */
 static void read_declaration(struct params *p, const struct token *t, struct param *item)
 {
     char *text = arena_text(p->arena, t->text);
     const char *type = strtok(text, " \t"), *name = strtok(NULL, " \t");
+    struct near near = near_start(name != NULL ? type : "");
     item->type = PARAM_TYPES;
     item->name = name != NULL ? name : t->text;
-    for (int i = 0; i < N_TYPES && name != NULL; i++)
+    for (int i = 0; i < N_TYPES && name != NULL; i++) {
+        near_try(&near, TYPES[i].name);
         if (strcmp(TYPES[i].name, type) == 0)
             item->type = TYPES[i].type;
+    }
     if (item->type == PARAM_TYPES)
         source_warn(p->messages, t->position,
                     "the parameter \"%.40s\" is passed over: it wants a type and a name, like \"float radius\"; types "
                     "are integer, float, bool, string, texture, point2, vector2, point, vector, normal, rgb, xyz, "
-                    "blackbody and spectrum", t->text);
+                    "blackbody and spectrum%s", t->text, near.text);
 }
 
 static bool wants_text(enum param_type type)
@@ -218,8 +240,10 @@ static struct param *find(struct params *p, const char *name, unsigned types)
         if (strcmp(item->name, name) != 0)
             continue;
         hidden |= (item->type == PARAM_TEXTURE) != texture;
-        if ((types & 1u << item->type) == 0)
+        if ((types & 1u << item->type) == 0) {
+            item->asked |= types;
             continue;
+        }
         if (found != NULL && !item->used)
             source_warn(p->messages, item->position, "parameter \"%s\" is given twice; the last one counts", name);
         item->used = true;
@@ -252,8 +276,9 @@ static struct param *find_n(struct params *p, const char *name, unsigned types, 
         return NULL;
     bool fits = item->type == PARAM_FLOAT ? item->n == n : item->n / n == 1;
     if (item->n != n)
-        source_warn(p->messages, item->position, "parameter \"%s %s\" of %s \"%s\" wants %d value%s, not %d; %s",
-                    params_type_name(item->type), name, p->directive, p->type, n, n > 1 ? "s" : "", item->n,
+        source_warn(p->messages, item->position, "parameter \"%s %s\" of %s \"%s\" wants %d value%s%s, not %d; %s",
+                    params_type_name(item->type), name, p->directive, p->type, n, n > 1 ? "s" : "",
+                    item->type == PARAM_BLACKBODY ? ", kelvin and a factor" : "", item->n,
                     fits ? "the rest is passed over" : "it is passed over");
     return fits && numbers_usable(p, item) ? item : NULL;
 }
@@ -334,8 +359,9 @@ int params_choice(struct params *p, const char *name, const char *const *choices
     for (int i = 0; choices[i] != NULL; i++)
         if (strcmp(choices[i], item->text[0]) == 0)
             return i;
-    source_warn(p->messages, item->position, "\"%s\" cannot be \"%.40s\", so it is \"%s\"", name, item->text[0],
-                choices[0]);
+    struct near near = near_of(item->text[0], choices);
+    source_warn(p->messages, item->position, "\"%s\" cannot be \"%.40s\", so it is \"%s\"%s", name, item->text[0],
+                choices[0], near.name != choices[0] ? near.text : "");
     return 0;
 }
 
@@ -409,7 +435,8 @@ static rgb rgb_from_file(struct params *p, const struct param *item)
             *c = ' ';
         colour = rgb_from_pairs(p, &file);
     } else {
-        params_fail(p, item->position, "%s", inner.text);
+        params_fail(p, item->position, "%s%s", inner.text, strchr(item->text[0], '.') != NULL ? "" :
+                    "; a spectrum here is a file, or numbers: pbrt-v4's names of spectra are not known");
     }
     free(path);
     return colour;
@@ -439,8 +466,7 @@ static rgb rgb_from_numbers(enum param_type type, double *x, int n)
 /* Numbers of a colour can be summed, and those of a file are not checked one by one, so what comes out is. */
 rgb params_rgb(struct params *p, const char *name, rgb fallback)
 {
-    const unsigned types = 1u << PARAM_RGB | 1u << PARAM_XYZ | 1u << PARAM_BLACKBODY | 1u << PARAM_SPECTRUM;
-    struct param *item = find(p, name, types);
+    struct param *item = find(p, name, COLOURS);
     int n = item == NULL ? 0 : colour_values(item);
     if (item == NULL || (item = find_n(p, name, 1u << item->type, n)) == NULL)
         return fallback;

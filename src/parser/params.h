@@ -40,6 +40,7 @@ struct param {
     int n;             /* values; fewer than bytes in a file (text_read) */
     bool is_text;      /* strings (also bools), else numbers */
     bool used;
+    unsigned asked;    /* types that were asked for under this name, none of which it has; a mask, 1u << PARAM_FLOAT */
     double *number;    /* [n] if they are numbers */
     const char **text; /* [n] if they are strings */
 };
@@ -105,7 +106,9 @@ char *params_file(struct params *p, const char *name, struct source_position *at
 /* params_choice: a string that should be one of a NULL-terminated list; returns its index (0 = default if absent). */
 int params_choice(struct params *p, const char *name, const char *const *choices);
 
-/* params_type_name: as scene files have it: "integer", "rgb" ... */
+/* params_type_name: as scene files have it: "integer", "rgb" ... params_name_types: those of a mask as text [size], "a
+ * colour (rgb) or a texture". */
 const char *params_type_name(enum param_type type);
+void params_name_types(unsigned types, char *text, size_t size);
 
 #endif

@@ -2,9 +2,9 @@
  * reading its parameters by a table. See parse.h. */
 #include "parser/parse.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
 
 /* --- names that are none ------------------------------------------------------------------------------ */
 
@@ -19,18 +19,6 @@ struct near parse_near_symbol(struct parser *p, const char *name, const struct s
     for (int i = table->n - 1; i >= 0 && i >= table->n - MOST_COMPARED; i--)
         near_try(&near, table->entry[i].name);
     return near;
-}
-
-const char *parse_foreign(const char *name)
-{
-    static const char *const NAMES[] = {
-        "Attribute", "ColorSpace", "Option", "bilinearmesh", "coateddiffuse", "coatedconductor", "conductor",
-        "dielectric", "diffuse", "diffusetransmission", "directionmix", "gbuffer", "independent", "interface",
-        "measured", "paddedsobol", "pmj02bn", "rgb", "spectral", "spherical", "thindielectric", "zsobol"};
-    for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++)
-        if (strcmp(NAMES[i], name) == 0)
-            return ": it is pbrt-v4's, and pbrt-v3's scenes are read here";
-    return "";
 }
 
 /* --- arguments of directives -------------------------------------------------------------------------- */
@@ -79,27 +67,49 @@ bool parse_type(struct parser *p, const struct object_type *types)
 {
     struct params *q = &p->params;
     char known[256] = "";
+    struct near near = near_start(q->type);
     for (; types->name != NULL; types++) {
         p->type = *types;
         if (strcmp(types->name, q->type) == 0)
             return true;
+        near_try(&near, types->name);
         strncat(known, known[0] != '\0' ? ", " : "", sizeof known - strlen(known) - 1);
         strncat(known, types->name, sizeof known - strlen(known) - 1);
     }
-    return type_error(q, "%s \"%.40s\" is not supported%s; use one of %s", q->directive, q->type,
-                      parse_foreign(q->type), known);
+    struct foreign foreign = parse_foreign_type(q->directive, q->type);
+    if (foreign.text[0] != '\0')
+        return type_error(q, "%s \"%.40s\" is not supported%s", q->directive, q->type, foreign.text);
+    return type_error(q, "%s \"%.40s\" is not supported; use one of %s%s", q->directive, q->type, known, near.text);
 }
 
-/* A parameter nobody asked for: is its name known? */
+/* Why a parameter was not used: of a name that is known its type, of others what was probably meant. */
+static void explain(struct parser *p, const struct param *item, char *why, size_t size)
+{
+    struct foreign foreign = parse_foreign_parameter(p->params.directive, item->name, p->type.fields);
+    char types[64];
+    if (item->asked == 1u << PARAM_TEXTURE) { /* without one, other types are asked for */
+        snprintf(why, size, ": its texture counts");
+    } else if (item->asked != 0) {
+        params_name_types(item->asked, types, sizeof types);
+        snprintf(why, size, ": \"%.40s\" is %s", item->name, types);
+    } else if (field_find(p->type.fields, item->name) != NULL) {
+        snprintf(why, size, ": it has no meaning here");
+    } else if (foreign.text[0] != '\0') {
+        snprintf(why, size, "%s", foreign.text);
+    } else {
+        struct near near = parse_near(p, item->name);
+        for (const struct field *f = p->type.fields; f->name != NULL; f++)
+            near_try(&near, f->name);
+        snprintf(why, size, "%s", near.text);
+    }
+}
+
 static void warn_of_unused(struct parser *p, const struct param *item)
 {
-    bool same = field_find(p->type.fields, item->name) != NULL;
-    struct near near = parse_near(p, same ? "" : item->name);
-    for (const struct field *f = p->type.fields; !same && f->name != NULL; f++)
-        near_try(&near, f->name);
+    char why[sizeof(struct foreign)];
+    explain(p, item, why, sizeof why);
     source_warn(&p->messages, item->position, "parameter \"%s %.40s\" of %s \"%s\" is not used%s",
-                params_type_name(item->type), item->name, p->params.directive, p->params.type,
-                same ? "; that has another type, or no meaning here" : near.text);
+                params_type_name(item->type), item->name, p->params.directive, p->params.type, why);
 }
 
 bool parse_done(struct parser *p)
@@ -162,7 +172,28 @@ bool parse_picture(struct parser *p, struct source_position at, const struct ima
 static double least(const struct field *f) { return f->low == 0 && f->high == 0 ? -NUMBER_MAX : f->low; }
 static double most(const struct field *f) { return f->low == 0 && f->high == 0 ? NUMBER_MAX : f->high; }
 
-/* Refuse a texture that is the same everywhere and outside the field's range. */
+/* The share of light that a surface scatters. */
+static bool is_reflectance(const char *name)
+{
+    static const char *const NAMES[] = {"Kd", "Ks", "Kr", "Kt", "reflect", "transmit", "color"};
+    size_t i = 0;
+    while (i < sizeof NAMES / sizeof NAMES[0] && strcmp(NAMES[i], name) != 0)
+        i++;
+    return i < sizeof NAMES / sizeof NAMES[0];
+}
+
+/* Where more is scattered than arrives. A spectrum of 1 has a luminance of 1, to 1 % (spectrum.h), and more red than 1,
+ * for the white of sRGB is bluer. */
+static void warn_of_surplus(struct parser *p, const struct field *f, rgb value)
+{
+    const struct param *item = params_ignore(&p->params, f->name);
+    bool spectral = item != NULL && item->type != PARAM_RGB && item->type != PARAM_TEXTURE;
+    if ((spectral ? rgb_luminance(value) : rgb_max(value)) > 1.01)
+        source_warn(&p->messages, item != NULL ? item->position : p->params.position, "\"%s\" is (%g %g %g): above 1 a "
+                    "surface scatters more light than reaches it", f->name, value.r, value.g, value.b);
+}
+
+/* Refuse a texture that is the same everywhere and outside the field's range; warn of one that makes light. */
 static int checked(struct parser *p, const struct field *f, int texture)
 {
     const struct texture *t = texture < 0 ? NULL : &p->scene->textures.texture[texture];
@@ -175,6 +206,8 @@ static int checked(struct parser *p, const struct field *f, int texture)
             params_fail(&p->params, item != NULL ? item->position : p->params.position,
                         "\"%s\" is %g; it must be from %g to %g", f->name, value[i], least(f), most(f));
         }
+    if (!p->params.failed && is_reflectance(f->name) && rgb_max(t->constant) > 1)
+        warn_of_surplus(p, f, t->constant);
     return texture;
 }
 

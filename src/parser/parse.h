@@ -8,6 +8,7 @@
 #define ASBDPT_PARSE_H
 
 #include "base/field.h"
+#include "base/near.h"
 #include "base/number.h"
 #include "parser/params.h"
 #include "parser/symbols.h"
@@ -106,6 +107,8 @@ struct parser {
     struct params params;
     enum phase phase;
     struct token directive;         /* the one being carried out */
+    bool has_camera;                /* before the world begins; */
+    struct token moved;             /* then the first to change a transform that nobody has used; no file: none */
     struct object_type type;        /* what its params.type stands for */
 
     int n_includes;
@@ -141,12 +144,19 @@ struct parser {
 
 /* parse_near: a name that is none is about to be compared with those that there are, unless that has been done for
  * MOST_SOUGHT names already. parse_near_symbol: compared with the newest MOST_COMPARED of a table. Files of nothing but
- * mistakes are read as fast as others.
- * parse_foreign: what is to be said of a name that only pbrt-v4 has, else "". */
+ * mistakes are read as fast as others. */
 enum { MOST_SOUGHT = 100, MOST_COMPARED = 1000 };
 struct near parse_near(struct parser *p, const char *name);
 struct near parse_near_symbol(struct parser *p, const char *name, const struct symbols *table);
-const char *parse_foreign(const char *name);
+
+/* What is to be said of a name that only pbrt-v4 has: ": it is pbrt-v4's; here that is ...", else "".
+ *   fields  those of the type that the parameter was given to */
+struct foreign {
+    char text[160];
+};
+struct foreign parse_foreign_directive(const char *name);
+struct foreign parse_foreign_type(const char *directive, const char *name);
+struct foreign parse_foreign_parameter(const char *directive, const char *name, const struct field *fields);
 
 /* parse_type: find params.type in a table and set p->type. False with a message.
  * parse_fields: read the parameters of p->type into *object, in the table's order, and build the rest of it.

@@ -32,6 +32,10 @@ static bool make_named_medium(struct parser *p)
         source_warn(&p->messages, name.position, "MakeNamedMedium needs its kind: add \"string type\" \"homogeneous\"; "
                     "as in pbrt-v3, nothing is in it");
     if (type == NULL || strcmp(type, "homogeneous") != 0) {
+        struct near near = near_start(type != NULL ? type : "");
+        near_try(&near, "homogeneous");
+        if (near.name != NULL)
+            source_warn(&p->messages, at, "the type \"%.40s\" of a medium is not known%s", type, near.text);
         symbols_add(&p->media.known, name.text, type == NULL ? 0 : MEDIUM_UNKNOWN);
         return true;
     }

@@ -20,6 +20,9 @@ static void framing(struct parser *p, void *object)
     double half = c->kind == CAMERA_PERSPECTIVE ? params_number(q, "halffov", -1, -NUMBER_MAX, 89.9995) : -1;
     if (half > 0)
         c->fov = 2 * half;
+    if (c->kind == CAMERA_PERSPECTIVE && c->fov < 1 && c->fov > 0.1) /* nobody means 0.1 radians, 6 degrees */
+        source_warn(&p->messages, q->position, "a field of view of %g degrees is hardly more than a point; if these "
+                    "are radians, write \"float fov\" %g", c->fov, c->fov * 180 / PI);
     c->has_screen_window = c->kind != CAMERA_ENVIRONMENT && params_numbers(q, "screenwindow", w, 4);
     if (c->has_screen_window && !(w[0] < w[1] && w[2] < w[3]))
         type_error(q, "\"screenwindow\" wants four numbers: xmin < xmax, ymin < ymax");
@@ -58,6 +61,8 @@ static bool camera(struct parser *p)
     if (!parse_placed(p) || !parse_object(p, &c))
         return false;
     p->scene->camera = c;
+    p->has_camera = true;
+    p->moved.position.file = NULL;
     parse_name_system(p, "camera", transform_inverse(p->place.ctm));
     return true;
 }

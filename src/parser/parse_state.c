@@ -35,6 +35,8 @@ static bool set_ctm(struct parser *p, struct transform t)
 {
     if (!p->place.start_active)
         return true;
+    if (p->has_camera && p->moved.position.file == NULL)
+        p->moved = p->directive;
     if (transform_is_usable(&p->place.ctm))
         p->place.made_by = p->directive;
     p->place.ctm = t;
@@ -145,6 +147,7 @@ static bool coordinate_system(struct parser *p)
     if (!parse_string(p, &name, "a name"))
         return false;
     parse_name_system(p, name.text, p->place.ctm);
+    p->moved.position.file = NULL;
     return true;
 }
 

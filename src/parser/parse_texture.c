@@ -159,7 +159,8 @@ static bool texture(struct parser *p)
     p->texture_is_float = strcmp(type.text, "float") == 0;
     if (!p->texture_is_float && strcmp(type.text, "spectrum") != 0 && strcmp(type.text, "color") != 0)
         return source_error(&p->messages, type.position, "unknown texture type \"%.40s\"; use \"float\" or "
-                            "\"spectrum\"", type.text);
+                            "\"spectrum\"%s", type.text, near_of(type.text, (const char *const[])
+                            {"float", "spectrum", "color", NULL}).text);
     struct symbols *known = p->texture_is_float ? &p->float_textures : &p->spectrum_textures;
     if (symbols_find(known, name.text) >= 0)
         source_warn(&p->messages, name.position, "the texture \"%.60s\" is defined again", name.text);

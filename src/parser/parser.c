@@ -16,6 +16,10 @@ enum { MAX_INCLUDES = 65536 };
 static bool world_begin(struct parser *p)
 {
     p->phase = IN_WORLD;
+    p->has_camera = false;
+    if (p->moved.position.file != NULL)
+        source_warn(&p->messages, p->moved.position, "after Camera, %s does not move the camera; write it before "
+                    "Camera", p->moved.text);
     scene_set_origin(p->scene);
     parse_state_reset(p);
     parse_begin_media(p);
@@ -66,7 +70,7 @@ static const struct directive *unknown_directive(struct parser *p)
         for (const struct directive *d = *table; d->name != NULL; d++)
             near_try(&near, d->name);
     source_error(&p->messages, t->position, "unknown directive %s%s; doc/scene-format.md lists those of pbrt-v3%s",
-                 found, parse_foreign(t->text), near.text);
+                 found, parse_foreign_directive(t->text).text, near.text);
     return near.name != NULL ? find_directive(near.name) : NULL;
 }
 

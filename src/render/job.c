@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/near.h"
 #include "base/number.h"
 #include "base/os.h"
 #include "parser/parser.h"
@@ -25,14 +26,26 @@ static const struct method *const *rows_of(const char *name, int *n)
     return first;
 }
 
+static struct near near_method(const char *wanted)
+{
+    struct near near = near_start(wanted);
+    for (const struct method *const *m = method_rows; *m != NULL; m++)
+        near_try(&near, (*m)->name);
+    return near;
+}
+
 static void say_unknown(const char *wanted, struct error *err)
 {
     char known[256] = "";
-    const char *before = "";
+    const char *before = "", *elsewhere = "";
     for (const struct method *const *m = method_rows; *m != NULL; before = (*m++)->name)
         if (strcmp((*m)->name, before) != 0)
             snprintf(known + strlen(known), sizeof known - strlen(known), " %s", (*m)->name);
-    error_usage(err, "there is no integrator %s; known are:%s", wanted, known);
+    for (const char *const *name = method_elsewhere; *name != NULL; name++)
+        if (strcmp(*name, wanted) == 0)
+            elsewhere = "; asbdpt-lab has it";
+    error_usage(err, "there is no integrator %s; known are:%s%s", wanted, known,
+                elsewhere[0] != '\0' ? elsewhere : near_method(wanted).text);
 }
 
 const struct method *method_find(const char *name, const struct settings *s, struct error *err)
@@ -125,13 +138,34 @@ static void name_method(const struct method *m, const char *parameter, char *out
     snprintf(out, size, row ? "%s with select=%s" : "%s", m->name, m->select);
 }
 
+static void try_fields(struct near *near, const struct field *f)
+{
+    for (; f != NULL && f->name != NULL; f++)
+        near_try(near, f->name);
+}
+
+/* The parameter that was meant, of the method that would read it before others. */
+static struct near near_parameter(const char *name, const struct method *reader)
+{
+    struct near near = near_of(name, (const char *const[]){"select", NULL});
+    try_fields(&near, COMMON);
+    try_fields(&near, reader->parameters);
+    try_fields(&near, reader->own);
+    for (const struct method *const *m = method_rows; *m != NULL; m++) {
+        try_fields(&near, (*m)->parameters);
+        try_fields(&near, (*m)->own);
+    }
+    return near;
+}
+
 /* Of -P, a parameter of `has`, or, if that is NULL, of nobody. Returns false. */
 static bool refuse(const struct setting *item, const struct method *has, const struct method *reader, struct error *err)
 {
     char whose[64], here[64];
+    struct near near = near_parameter(item->name, reader);
     if (has == NULL)
-        return error_usage(err, "%s: no integrator has a parameter \"%s\"; asbdpt help integrators lists them",
-                           item->origin, item->name);
+        return error_usage(err, "%s: no integrator has a parameter \"%s\"%s asbdpt help integrators lists them",
+                           item->origin, item->name, near.name != NULL ? near.text : ";");
     name_method(has, item->name, whose, sizeof whose);
     name_method(reader, item->name, here, sizeof here);
     return error_usage(err, "-P: \"%s\" is a parameter of %s, not of %s; see --integrator", item->name, whose, here);
@@ -144,9 +178,12 @@ bool job_adapt(struct scene *scene, const struct method *const *readers, const s
     for (int i = 0; i < all->n;) {
         const struct setting *item = &all->item[i];
         const struct method *has = owner(method_rows, item->name);
-        char text[128] = "is not used: no integrator here has such a parameter";
+        char text[160];
         if (has != NULL)
             snprintf(text, sizeof text, "is not used: it is a parameter of %s", has->name);
+        else
+            snprintf(text, sizeof text, "is not used: no integrator here has such a parameter%s",
+                     near_parameter(item->name, readers[0]).text);
         if (owner(readers, item->name) != NULL || (setting_is_of_file(item) && belongs_to_file(scene, item)))
             adapt(all, &all->item[i++], sink);
         else if (!setting_is_of_file(item))
@@ -240,7 +277,9 @@ static bool apply(const struct job_request *q, struct scene *scene, struct error
         scene->height = scene->height > 4 ? scene->height / 4 : 1;
     }
     if (q->filter != NULL && !filter_default(q->filter, &scene->filter))
-        return error_usage(err, "--filter %s: known are box, triangle, gaussian, mitchell, sinc", q->filter);
+        return error_usage(err, "--filter %s: known are box, triangle, gaussian, mitchell, sinc%s", q->filter,
+                           near_of(q->filter, (const char *const[])
+                                   {"box", "triangle", "gaussian", "mitchell", "sinc", NULL}).text);
     for (int i = 0; i < q->n_set; i++)
         set(&scene->settings, q->set[i]);
     char depth[32];
@@ -263,8 +302,8 @@ static const struct method *choose_method(struct loading *l, struct error *err)
     const char *usual = "bdpt", *name = scene->integrator != NULL ? scene->integrator : usual;
     int n;
     if (l->asked->integrator == NULL && (rows_of(name, &n), n == 0)) {
-        warn_of_scene(l, "integrator \"%s\" does not exist here; bdpt is used, which computes all light up to maxdepth",
-                      name);
+        warn_of_scene(l, "integrator \"%s\" does not exist here; bdpt is used, which computes all light up to "
+                      "maxdepth%s", name, near_method(name).text);
         name = usual;
     }
     return method_find(l->asked->integrator != NULL ? l->asked->integrator : name, &scene->settings, err);

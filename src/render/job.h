@@ -21,6 +21,9 @@
  * default. asbdpt has its own in rows.c, the laboratory one that is longer. */
 extern const struct method *const method_rows[];
 
+/* Names of methods that the executable has not, but asbdpt-lab, ended by NULL. */
+extern const char *const method_elsewhere[];
+
 /* method_find: the row of an integrator ("path" is pbrt's name of pt); the setting `select` chooses among several. NULL
  * with a message that names all if there is none. */
 const struct method *method_find(const char *name, const struct settings *s, struct error *err);

@@ -7,3 +7,7 @@ extern const struct method method_pt, method_lt, method_bdpt, method_bins, metho
 
 const struct method *const method_rows[] = {&method_pt,   &method_lt,   &method_bdpt,     &method_subspaces,
                                             &method_bins, &method_pool, &method_vertices, NULL};
+
+const char *const method_elsewhere[] = {
+    "caustics", "cbdpt",  "ellipse", "lvc",      "mbdpt", "mlt", "mmlt",   "pathgraph", "pcbdpt", "ppg", "pssmlt",
+    "regularise", "restir", "restirgi", "ris", "ris2", "spcbpt", "vcm", NULL};

@@ -76,7 +76,7 @@ struct light {
     int group;               /* see light_group */
     int cell;                /* its cell, see below; of the sky the first; set by light_prepare */
     rgb L;
-    double power;            /* estimate, W, luminance; set by light_prepare */
+    double power;            /* W, luminance: by it lights are chosen; set by light_prepare. See light_watts */
     struct light_frame *frame; /* owned by the set; area: NULL, for there may be one for each triangle of a mesh */
 };
 
@@ -128,6 +128,11 @@ int light_group(struct light_set *set, const char *name, enum light_kind kind);
 
 /* light_read_map: the number of a map that is read from this file, which may use this memory; -1 with a message. */
 int light_read_map(struct light_set *set, const char *path, const struct budget *memory, struct error *err);
+
+/* light_watts: what a light of a prepared set sends into the scene, W, luminance: of one at infinity, what enters the
+ * scene's sphere. `power` is pbrt-v3's: of a sky only what crosses a disk, pi R^2 pi L. All directions w cross a disk
+ * each, pi R^2 4 pi L. */
+static inline double light_watts(const struct light *l) { return l->power * (l->kind == LIGHT_INFINITE ? 4 : 1); }
 
 /* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);

@@ -22,11 +22,11 @@ static void print_lights(const struct light_set *lights)
     enum { SHOWN = 16 };
     double total = 0;
     for (int i = 0; i < lights->n; i++)
-        total += lights->light[i].power;
+        total += light_watts(&lights->light[i]);
     printf("lights        %d\n", lights->n);
     for (int i = 0; i < lights->n && i < SHOWN; i++)
-        printf("  %-11s power %.4g W (%.1f %%)\n", LIGHT_NAMES[lights->light[i].kind], lights->light[i].power,
-               total > 0 ? 100 * lights->light[i].power / total : 0);
+        printf("  %-11s power %.4g W (%.1f %%)\n", LIGHT_NAMES[lights->light[i].kind], light_watts(&lights->light[i]),
+               total > 0 ? 100 * light_watts(&lights->light[i]) / total : 0);
     if (lights->n > SHOWN)
         printf("  and %d more\n", lights->n - SHOWN);
 }

@@ -12,3 +12,5 @@ const struct method *const method_rows[] = {
     &method_vertices, &method_lvc,  &method_cbdpt,    &method_mbdpt,     &method_pcbdpt, &method_ris,
     &method_ris2,   &method_spcbpt, &method_restir, &method_restirgi, &method_pathgraph, &method_pssmlt, &method_mmlt,
     &method_mlt,    &method_ellipse, &method_ppg, &method_vcm, &method_caustics, &method_regularise, NULL};
+
+const char *const method_elsewhere[] = {NULL};

@@ -28,18 +28,34 @@ refuse() { # PATTERN WORDS...: wrong usage of the program
 for command in info compare equal-time bench; do
     refuse "^asbdpt: unknown command $command; asbdpt-lab has more commands; try" $command
 done
-refuse '^asbdpt: there is no integrator lvc; known are: pt lt bdpt asbdpt$' render "$box" --integrator lvc
 prints '^lvc$' "$lab" help integrators
+for name in $(sed -n 's/^\([a-z0-9]*\)$/\1/p' stdout.txt); do # all methods of the laboratory
+    case $name in
+    all | pt | lt | bdpt | asbdpt) ;;
+    *) refuse "^asbdpt: there is no integrator $name; known are: pt lt bdpt asbdpt; asbdpt-lab has it$" \
+        render "$box" --integrator "$name" ;;
+    esac
+done
+refuse '^asbdpt: there is no integrator vcn; known are: pt lt bdpt asbdpt$' render "$box" --integrator vcn
+# A name that is none may be like one that is.
+refuse 'no integrator asbdtp; known are: pt lt bdpt asbdpt; did you mean "asbdpt"[?]$' \
+    render "$box" --integrator asbdtp
+refuse 'there is no help on integrator; did you mean "integrators"[?] try asbdpt --help$' help integrator
+refuse '[-]-filter gausian: known are .*; did you mean "gaussian"[?]$' render "$box" --filter gausian
+refuse 'heuristic = "powr" is unknown: give "balance" or "power"; did you mean "power"[?]$' \
+    render "$box" -P heuristic=powr
 # A file that is called like an option is not taken for one: what is wrong with it is no wrong usage.
 expect 1 '^asbdpt: --x' "$program" render "$box" $small -o--x/y.png
 # One meaning of --res everywhere: a width keeps the film's shape.
 prints '^film  *24x14,' "$lab" info "$scenes/veach-ajar.pbrt" --res 24
 refuse 'asbdpt: which command'
-refuse 'unknown command rendr; .*; try asbdpt --help' rendr
-expect 2 '^asbdpt: unknown command rendr; try asbdpt-lab --help$' "$lab" rendr
+refuse '^asbdpt: unknown command rendr; did you mean "render"[?] try asbdpt --help$' rendr
+expect 2 '^asbdpt: unknown command verfy; did you mean "verify"[?] try asbdpt-lab --help$' "$lab" verfy
+expect 2 '^asbdpt: unknown command rendering; try asbdpt-lab --help$' "$lab" rendering
 refuse 'needs a scene' render
-refuse 'unknown option --sppp; try asbdpt render --help' render "$box" --sppp 3
-refuse 'no integrator has a parameter "selct"; asbdpt help' render "$box" -P selct=bins
+refuse 'unknown option --sppp; did you mean "--spp"[?] try asbdpt render --help' render "$box" --sppp 3
+refuse 'no integrator has a parameter "selct"; did you mean "select"[?] asbdpt help' render "$box" -P selct=bins
+refuse 'no integrator has a parameter "zzzz"; asbdpt help' render "$box" -P zzzz=1
 refuse 'delta = "7": give a number' render "$box" -P delta=7 --integrator asbdpt
 expect 1 'nothing.pbrt' "$program" render nothing.pbrt
 expect 1 'its film of 800x800 pixels: this needs [0-9.]+ MB more memory, but [0-9.]+ of 10.0 MB are left; --max-mem' \
@@ -79,15 +95,30 @@ black() { # TEXT SCENE OPTION...
 }
 wall='Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point P" [-9 -9 1 9 -9 1 9 9 1 -9 9 1]'
 lamp='LightSource "point" "point from" [0 0 9]'
-none='no light has reached the camera by'
+none='no light has reached the camera by' rounded='( [(]no value is above [0-9.]+e-[23][0-9][)])?'
 for method in pt bdpt asbdpt lt; do
-    black "$none $method; the nearest surface that it sees is at [(].* 1[)], 6 away, and faces away" \
+    black "$none $method$rounded; the nearest surface that it sees is at [(].* 1[)], 6 away, and faces away" \
         "$lamp $wall" --integrator $method
 done
-black "$none bdpt; the nearest surface that it sees is at [(].* 1[)], 6 away" "$lamp ReverseOrientation $wall"
+black "$none bdpt$rounded; the nearest surface that it sees is at [(].* 1[)], 6 away" "$lamp ReverseOrientation $wall"
 black "$none bdpt; it sees no surface" 'LightSource "point"'
 black "$none pt; it sees no surface" 'LightSource "infinite" "rgb L" [0 0 0]' --integrator pt
 black 'the scene has no light' "$wall"
+# What is below the rounding of floats counts as black: here a wall that shines by 1e-12 before a lamp that it hides.
+leak() { echo "$lamp AreaLightSource \"diffuse\" \"rgb L\" [$1 $1 $1] ReverseOrientation $wall"; }
+for method in pt bdpt asbdpt; do
+    black "$none $method [(]no value is above 1e-12[)]; the nearest surface .*" "$(leak 1e-12)" --integrator $method
+done
+printf 'LookAt 0 0 -5 0 0 0 0 1 0 Camera "perspective" WorldBegin %s WorldEnd\n' "$(leak 1e-4)" >dim.pbrt
+expect 0 '' "$program" render dim.pbrt --res 16x16 --spp 4 --quiet --integrator pt -o x.pfm
+check [ ! -s stderr.txt ]
+# The watts of info: under a sky of radiance 1 and a sun of irradiance pi a surface that faces the sun receives as much
+# of one as of the other. The sphere around the scene has a disk of pi R^2 for the sun, and one for each direction of
+# the sky: four times as much.
+printf 'WorldBegin LightSource "distant" "rgb L" [3.14159265 3.14159265 3.14159265]
+LightSource "infinite" "rgb L" [1 1 1] Shape "sphere" WorldEnd\n' >sun.pbrt
+prints '^  distant     power 29.61 W (20.0 %)$' "$lab" info sun.pbrt # pi R^2 pi, R^2 3
+says '^  infinite    power 118.4 W (80.0 %)$'
 expect 0 '' "$program" render "$box" $small -o x.pfm
 check [ ! -s stderr.txt ]
 
@@ -150,6 +181,20 @@ check [ -n "$(find target.pfm -perm 640)" ]
 # Standard input and output: -.
 "$program" render - --res 8x8 --spp 1 --quiet -o - <"$box" >piped.pfm
 check cmp -s piped.pfm target.pfm
+for command in render convert; do
+    prints 'standard input' "$program" $command --help
+    says 'standard output'
+done
+# A pipe that nobody reads any more is one error, in one line.
+closed() { # COMMAND...
+    { "$@" 2>stderr.txt; echo $? >status.txt; } | true
+    check [ "$(cat status.txt)" = 1 ]
+    check [ "$(sed 's/: [^:]*$//' stderr.txt)" = "asbdpt: standard output: cannot be written" ] # and why
+}
+"$program" render "$box" --res 300x300 --spp 1 --quiet -o large.pfm # more than a pipe holds
+closed "$program" render "$box" --res 300x300 --spp 1 --quiet -o -
+closed "$program" convert large.pfm --quiet -o -
+rm large.pfm
 
 # --- scenes
 # Warnings are errors by --strict, and all errors come in one run.

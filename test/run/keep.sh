@@ -111,6 +111,15 @@ expect 1 'samples 0:40: here they come in blocks of 32' \
     "$program" render "$box" $size --integrator asbdpt -P select=bins --samples 0:40 -o x.part
 expect 2 '[-]-samples needs -o NAME.part' "$program" render "$box" $size --samples 0:7
 
+# ---- a full disk, here a limit of the size of files: one warning for all previews, and one for all checkpoints ----
+expect 1 '^asbdpt: full.state: cannot be written: ' sh -c "ulimit -f 8 && exec \"\$@\"" sh "$program" render "$box" \
+    --res 64x64 --spp 100000 --maxdepth 2 --time 2 --quiet --preview 0.05 --checkpoint full.state --interval 0.05 \
+    -o full.pfm
+check [ "$(grep -c 'warning: full.pfm: cannot be written: .*; rendering goes on' stderr.txt)" = 1 ]
+check [ "$(grep -c 'warning: full.state: cannot be written: .*; rendering goes on' stderr.txt)" = 1 ]
+check [ ! -e full.pfm -a ! -e full.state ]
+no_temporaries "full disk"
+
 # ---- parts that do not fit ----
 tiny="--integrator pt --maxdepth 2 --quiet"
 part() { # NAME OPTIONS...
@@ -323,7 +332,7 @@ check grep -q 'the image is black: no sample is complete$' stderr.txt
     echo $? >status.txt
 } | head -c 10 >/dev/null
 check [ "$(cat status.txt)" = 1 ]
-check grep -q 'asbdpt: -: cannot be written' stderr.txt
+check grep -q 'asbdpt: standard output: cannot be written' stderr.txt
 no_temporaries "after failed writes"
 
 # ---- killed again and again ----

@@ -221,6 +221,28 @@ static void check_parameter(struct test *t, const struct type_text *type, const 
     free(set);
 }
 
+/* Of a type that no parameter has, the message says which it has; of a name with a letter more, which was meant. */
+static void check_mistake(struct test *t, const struct type_text *type, const char *needs, const struct listed *p)
+{
+    char value[LINE], wanted[LINE];
+    snprintf(value, sizeof value, "\"vector2 %s\" [ 1 2 ]", p->name);
+    snprintf(wanted, sizeof wanted, " is not used: \"%s\" is a%s", p->name,
+             strcmp(p->name, "bumpmap") == 0 ? " float or a texture" :
+             strcmp(p->type, "colour") == 0 || strcmp(p->type, "rgb") == 0 ? " colour (rgb)" :
+             strcmp(p->type, "integer") == 0 ? "n integer" : "");
+    char *said = outcome(t, type, needs, value);
+    CHECK(t, strstr(said, wanted) != NULL, "%s with %s is not told%s but\n%s", type->directive, value, wanted, said);
+    free(said);
+    snprintf(value, sizeof value, "\"float %sx\" 1", p->name);
+    snprintf(wanted, sizeof wanted, "%sx\" of", p->name);
+    said = outcome(t, type, needs, value);
+    const char *message = strstr(said, wanted);
+    snprintf(wanted, sizeof wanted, "; did you mean \"%s\"?\n", p->name);
+    CHECK(t, message != NULL && (strlen(p->name) < 2 || strstr(message, wanted) != NULL), "%s with %s is told\n%s",
+          type->directive, value, said);
+    free(said);
+}
+
 void check_format_values(struct test *t, const struct type_text *type, const char *list)
 {
     struct listed item[MOST_PARAMETERS];
@@ -238,6 +260,8 @@ void check_format_values(struct test *t, const struct type_text *type, const cha
         bool ribbon = strcmp(type->directive, "Shape \"curve\"") == 0 && item[i].name[0] == 'N'; /* see ok-curves */
         if (strstr(needs, quoted) == NULL && !ribbon && field_find(type->fields, item[i].name) != NULL)
             check_parameter(t, type, needs, plain, &item[i]);
+        if (strstr(needs, quoted) == NULL && !item[i].ignored && field_find(type->fields, item[i].name) != NULL)
+            check_mistake(t, type, needs, &item[i]);
     }
     free(plain);
     free(bare);

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/near.h"
 #include "base/os.h"
 #include "base/rng.h"
 #include "helpers.h"
@@ -231,6 +232,26 @@ static void check_near(struct test *t, struct rng *r)
     CHECK(t, found > 200 && found < 1800, "%d of 2000 names were found", found);
 }
 
+/* A name of megabytes is not read once more for each that it is compared with, nor are those. */
+static void check_near_long(struct test *t)
+{
+    enum { LONG = 1 << 23, NAMES = 20000 };
+    char *name = mem_alloc(LONG + 1, 1);
+    memset(name, 'a', LONG);
+    double start = os_cpu_seconds();
+    struct near long_one = near_start(name), short_one = near_start(name + LONG - NEAR_LONGEST);
+    for (int i = 0; i < NAMES; i++) {
+        near_try(&long_one, name + i % 2);
+        near_try(&short_one, name + i % 2);
+    }
+    double seconds = os_cpu_seconds() - start;
+    CHECK(t, long_one.name == NULL && short_one.name == NULL && seconds < 1, "%d names of %d letters: %.1f s", NAMES,
+          LONG, seconds);
+    near_try(&short_one, name + LONG - NEAR_LONGEST);
+    CHECK(t, short_one.name != NULL, "a name of %d letters is none", NEAR_LONGEST);
+    free(name);
+}
+
 /* Megabytes of names, and of others that are near, take no longer than any others. */
 static void check_mistakes(struct test *t)
 {
@@ -364,6 +385,7 @@ void check_parser_limits(struct test *t)
     check_large_file(t);
     check_twice(t);
     check_near(t, &r);
+    check_near_long(t);
     check_mistakes(t);
     check_many_errors(t);
     check_no_files(t);

@@ -132,8 +132,11 @@ static void check_refused(struct test *t)
         {"--text", "--text needs a value"},
         {"--list", "--list needs a value"},
         {"--on=1", "--on takes no value"},
-        {"--integr 4", "unknown option --integr"},
-        {"--sede=4", "unknown option --sede=4"},
+        {"--integr 4", "unknown option --integr; did you mean \"--integer\"?"},
+        {"--sede=4", "unknown option --sede=4; did you mean \"--size\"?"},
+        {"--seedd=4", "unknown option --seedd=4; did you mean \"--seed\"?"},
+        {"-p a", "unknown option -p; did you mean \"-P\"?"},
+        {"--seeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeed=4", "unknown option --see"},
         {"--zzzzzzzzzz", "unknown option --zzzzzzzzzz"},
         {"--", "unknown option --"},
     };
