@@ -7,6 +7,6 @@
 #define ASBDPT_VERSION_H
 
 #define VERSION "asbdpt 0.9"
-#define ESTIMATOR 17
+#define ESTIMATOR 18
 
 #endif

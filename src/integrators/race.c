@@ -232,8 +232,7 @@ static int find_winner(struct race *r, struct prepared *p)
 
 /* --- the race ---------------------------------------------------------------------------------------- */
 
-/* Does a path tracer find all light? It misses light from a delta light that reaches a surface through a delta lobe. */
-static bool path_tracer_sees_all(const struct scene *scene)
+bool race_path_tracer_sees_all(const struct scene *scene)
 {
     bool delta_light = false, delta_lobe = false;
     for (int i = 0; i < scene->lights.n; i++)
@@ -243,8 +242,11 @@ static bool path_tracer_sees_all(const struct scene *scene)
     return !(delta_light && delta_lobe);
 }
 
+/* The first COMPLETE runners make every path that the method can make. The others lack strategies: a path tracer must
+ * see the light that these would bring. */
 static void add_runners(const struct scene *scene, struct prepared *p)
 {
+    enum { COMPLETE = 2 };
     struct numbers all = p->numbers, quarter = all, quarter_first, guided = all;
     quarter.path_pixels *= 4;
     quarter_first = quarter;
@@ -255,10 +257,8 @@ static void add_runners(const struct scene *scene, struct prepared *p)
         {.name = "race_all", .numbers = all}, {.name = "race_quarter", .numbers = quarter},
         {.name = "race_quarter_first", .numbers = quarter_first}, {.name = "race_guided", .numbers = guided},
         {.name = "race_plain", .numbers = NUMBERS_OF_PT, .plain = true}};
-    bool sees_all = path_tracer_sees_all(scene);
-    for (int i = 0; i < MAX_RUNNERS; i++)
-        if (runner[i].numbers.path_pixels > 0 || sees_all)
-            p->runner[p->n_runners++] = runner[i];
+    p->n_runners = race_path_tracer_sees_all(scene) ? MAX_RUNNERS : COMPLETE;
+    memcpy(p->runner, runner, (size_t)p->n_runners * sizeof *runner);
 }
 
 /* How a turn samples; it shares all that it points to with *p. */

@@ -33,4 +33,8 @@
  * If job->watch ends the race, the first wins. */
 void race(const struct render_job *job, struct prepared *p);
 
+/* race_path_tracer_sees_all: are s = 0 and s = 1 enough? They miss light from a delta light that reaches a surface
+ * through a delta lobe. */
+bool race_path_tracer_sees_all(const struct scene *scene);
+
 #endif

@@ -10,6 +10,7 @@
 #include "base/near.h"
 #include "base/number.h"
 #include "base/os.h"
+#include "integrators/race.h"
 #include "parser/parser.h"
 
 /* --- methods ------------------------------------------------------------------------------------------ */
@@ -339,6 +340,16 @@ static void warn_of_size(struct loading *l)
                       "edges, by rounding: move the camera nearer", distance, FAR_AWAY);
 }
 
+/* Parameters may leave out connections that nothing else makes up for. */
+static void warn_of_loss(struct loading *l, const struct prepared *p)
+{
+    const struct numbers *n = &p->parameters.numbers;
+    bool complete = n->path_pixels > 0 && n->draws[FIRST_HIT] > 0 && n->draws[LATER_HIT] > 0;
+    if (method_has(p->method, "later") != NULL && !complete && !race_path_tracer_sees_all(l->scene))
+        warn_of_scene(l, "with connections, later or pathpixels 0 the image may lack light of point, spot and distant "
+                      "lights that mirrors or glass send to a surface");
+}
+
 /* The filter must be prepared. */
 static void set_samples(const struct job_request *q, const struct scene *scene, struct render_options *o)
 {
@@ -362,6 +373,7 @@ bool job_ready(const struct job_request *q, const struct method *const *readers,
     }
     scene_prepare(scene);
     warn_of_size(&l);
+    warn_of_loss(&l, &job->prepared);
     set_samples(q, scene, &job->options);
     if (!q->strict || scene->n_warnings == 0)
         return true;

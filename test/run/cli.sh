@@ -72,6 +72,13 @@ echo 'Integrator "volpath" MakeNamedMedium "fog" "string type" "homogeneous" Med
 expect 0 'warning: fog.pbrt: a medium without a bound ends on a sphere' \
     "$program" render fog.pbrt --res 16x16 --spp 2 -o fog.pfm
 # row: a medium without a bound, under infinite or distant lights
+# Parameters by which light may be lost: a warning, where there is such light.
+for number in connections=0 later=0 pathpixels=0; do
+    expect 0 'warning: .*/caustic-pane.pbrt: with connections, later or pathpixels 0 the image may lack light' \
+        "$program" render "$scenes/test/caustic-pane.pbrt" $small --integrator asbdpt -P $number -o x.pfm
+    expect 0 '' "$program" render "$box" $small --integrator asbdpt -P $number -o x.pfm
+    check [ ! -s stderr.txt ]
+done
 # Without lights nothing is rendered, whatever is asked for: a million samples of a hundred thousand pixels, in no time.
 printf 'WorldBegin Shape "sphere" WorldEnd\n' >dark.pbrt
 printf 'WorldBegin WorldEnd\n' >empty.pbrt

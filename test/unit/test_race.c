@@ -24,6 +24,7 @@ struct settled {
     struct numbers numbers;
     struct counts counts; /* not the tables, which go */
     bool learnt;          /* is anything known but lights? */
+    bool complete;        /* does each runner make every path that the method can make? */
     double path_tracer;   /* variance times price of the best path tracer, over the winner's; 0: there was no race */
 };
 
@@ -34,12 +35,15 @@ static bool settle(struct test *t, const struct scene *scene, struct settled *ou
         return false;
     const struct tables *known = b.prepared.tables;
     bool learnt = known->use != NULL || known->pairs.rows > 0 || known->emission.rows > 0;
+    bool complete = true;
     double best = 0;
-    for (const struct runner *k = b.prepared.runner; k < b.prepared.runner + b.prepared.n_runners; k++)
+    for (const struct runner *k = b.prepared.runner; k < b.prepared.runner + b.prepared.n_runners; k++) {
+        complete &= k->numbers.path_pixels > 0 && k->numbers.draws[FIRST_HIT] > 0 && k->numbers.draws[LATER_HIT] > 0;
         if (k->numbers.path_pixels == 0 && (best == 0 || k->variance * k->price < best))
             best = k->variance * k->price;
+    }
     const struct runner *winner = &b.prepared.runner[b.prepared.winner];
-    *out = (struct settled){b.prepared.numbers, b.prepared.counts, learnt,
+    *out = (struct settled){b.prepared.numbers, b.prepared.counts, learnt, complete,
                             best > 0 ? best / (winner->variance * winner->price) : 0};
     bench_free(&b);
     return true;
@@ -91,6 +95,7 @@ static void test_where_nothing_else_does(struct test *t)
         if (settle(t, &scene, &s)) {
             CHECK(t, (s.numbers.path_pixels > 0) == (i > 0), "a point light beside %s: %d", materials[i],
                   s.numbers.path_pixels);
+            CHECK(t, s.complete == (i > 0), "a point light beside %s: a runner lacks paths", materials[i]);
             CHECK(t, i > 0 || (!s.learnt && s.numbers.draws[FIRST_HIT] == 0 && s.counts.lens == 0 &&
                                s.counts.pair[FIRST_HIT] == 0 && s.counts.pair[LATER_HIT] == 0 &&
                                s.counts.hit[LATER_HIT] == 1 && s.counts.direct[FIRST_HIT] == 1),
