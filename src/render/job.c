@@ -340,6 +340,29 @@ static void warn_of_size(struct loading *l)
                       "edges, by rounding: move the camera nearer", distance, FAR_AWAY);
 }
 
+/* Are the lens and the first boundary in the middle of the image in one medium? Eye sub-paths believe the lens, light
+ * sub-paths the boundary. */
+static void warn_of_media(struct loading *l)
+{
+    const struct scene *scene = l->scene;
+    struct ray ray = camera_ray(&scene->camera, scene->width / 2.0, scene->height / 2.0, 0, 0);
+    struct surface at;
+    struct hit hit;
+    bool met = scene_intersect(scene, &ray, &at);
+    if (met)
+        ray.tmax = length(sub(at.p, ray.o));
+    bool bounded = kd_closest(&scene->media.interfaces, &scene->geo, &ray, &hit);
+    if (bounded)
+        shape_surface(&scene->geo, &hit, &ray, &at);
+    if (!bounded && !met)
+        return;
+    int before = medium_before(&scene->geo, &at, ray.d);
+    vec3 p = add(at.p, scene->origin);
+    if (before >= 0 && before != scene->camera.medium)
+        warn_of_scene(l, "the camera and the boundary that it looks at, at (%g %g %g), are in different media: "
+                      "integrators will differ; check each MediumInterface", p.x, p.y, p.z);
+}
+
 /* Parameters may leave out connections that nothing else makes up for. */
 static void warn_of_loss(struct loading *l, const struct prepared *p)
 {
@@ -373,6 +396,7 @@ bool job_ready(const struct job_request *q, const struct method *const *readers,
     }
     scene_prepare(scene);
     warn_of_size(&l);
+    warn_of_media(&l);
     warn_of_loss(&l, &job->prepared);
     set_samples(q, scene, &job->options);
     if (!q->strict || scene->n_warnings == 0)

@@ -72,6 +72,20 @@ echo 'Integrator "volpath" MakeNamedMedium "fog" "string type" "homogeneous" Med
 expect 0 'warning: fog.pbrt: a medium without a bound ends on a sphere' \
     "$program" render fog.pbrt --res 16x16 --spp 2 -o fog.pfm
 # row: a medium without a bound, under infinite or distant lights
+# A lens in the fog looks at a shape of which the fog is not said, or the other way round: a warning, unless both agree.
+fits() { # LENS BOUNDARY MATERIAL: the media that lens and boundary are in; prints how many warnings there are
+    printf 'Integrator "volpath" MakeNamedMedium "fog" "string type" "homogeneous"
+        MakeNamedMedium "milk" "string type" "homogeneous"
+        LookAt 0 0 -5 0 0 0 0 1 0 Camera "perspective" WorldBegin LightSource "point" "point from" [0 3 0]
+        MediumInterface "milk" "%s" Material "%s" Shape "sphere"
+        MediumInterface "%s" WorldEnd\n' "$2" "$3" "$1" >fits.pbrt
+    "$program" render fits.pbrt $small -o x.pfm 2>&1 |
+        grep -c '^asbdpt: warning: .* boundary that it looks at, at (0 0 -1), are in different media'
+}
+for material in matte none; do
+    check [ "$(fits fog fog $material) $(fits '' '' $material)" = '0 0' ]
+    check [ "$(fits fog '' $material) $(fits '' fog $material)" = '1 1' ]
+done
 # Parameters by which light may be lost: a warning, where there is such light.
 for number in connections=0 later=0 pathpixels=0; do
     expect 0 'warning: .*/caustic-pane.pbrt: with connections, later or pathpixels 0 the image may lack light' \
