@@ -1,9 +1,9 @@
 /* main.c: the test runner:
- *   build/test [-l] [--slow] [--once | --first] [--show] [--seed N] [--scenes FIRST:END] [NAME...]
+ *   build/test [-l] [--slow] [--once | --first] [--show] [--seed N] [--scenes FIRST:END] [--classes N | NAME...]
  *   build/test --scene N    prints random scene N; --evil N: with numbers that no scene should have
- *   build/test --structure N   prints random scene N of those for efficiency
+ *   build/test --structure N   prints random scene N of those for efficiency; --class N: class N of paths
  * --once: doubtful hypotheses fail at once; --first: they do, and the first failure is the end. --show: every p is
- * printed.
+ * printed. --classes N: the suite `classes`, of N classes of paths, as --scenes 0:N classes.
  * Exit status 0 only if every check and every hypothesis came out as it must. The last line is
  * "N passed, N failed". */
 #include <stdio.h>
@@ -12,6 +12,7 @@
 
 #include "base/os.h"
 #include "helpers.h"
+#include "random_class.h"
 #include "random_scene.h"
 #include "random_structure.h"
 #include "suites.h"
@@ -39,7 +40,8 @@ int main(int argc, char **argv)
 {
     char tmp[128];
     struct test_setting setting = {.seed = 1, .tmp = tmp, .out = stdout};
-    bool slow = false;
+    bool slow = false, of_classes = false;
+    char classes[] = "classes", *only = classes;
     const char *last = NULL; /* line, for somebody who wants to know that the program has come to its end */
     int first = 1;
     for (; first < argc && argv[first][0] == '-'; first++) {
@@ -75,22 +77,32 @@ int main(int argc, char **argv)
             fputs(text, stdout);
             free(text);
             return 0;
+        } else if (strcmp(argv[first], "--class") == 0 && first + 1 < argc) {
+            struct random_class c = random_class(strtoull(argv[first + 1], NULL, 10), 0);
+            fputs(c.text, stdout);
+            free(c.text);
+            return 0;
+        } else if (strcmp(argv[first], "--classes") == 0 && first + 1 < argc) {
+            setting.end_scene = strtoull(argv[++first], NULL, 10);
+            of_classes = true;
         } else {
             fprintf(stderr, "usage: build/test [-l] [--slow] [--once | --first] [--show] [--seed N]"
-                            " [--scenes FIRST:END] [--last LINE] [NAME...]\n"
-                            "       build/test --scene N | --evil N | --structure N\n");
+                            " [--scenes FIRST:END] [--last LINE] [--classes N | NAME...]\n"
+                            "       build/test --scene N | --evil N | --structure N | --class N\n");
             return 2;
         }
     }
-    for (int i = first; i < argc; i++)
-        if (!known(argv[i])) {
-            fprintf(stderr, "build/test: no test named %s; -l lists them\n", argv[i]);
+    char **names = of_classes ? &only : argv + first;
+    int n_names = of_classes ? 1 : argc - first;
+    for (int i = 0; i < n_names; i++)
+        if (!known(names[i])) {
+            fprintf(stderr, "build/test: no test named %s; -l lists them\n", names[i]);
             return 2;
         }
     struct test_entry chosen[N_ENTRIES];
     int n = 0;
     for (int i = 0; i < N_ENTRIES; i++)
-        if (selected(&ENTRIES[i], argc - first, argv + first, slow))
+        if (selected(&ENTRIES[i], n_names, names, slow))
             chosen[n++] = ENTRIES[i];
     const char *where = getenv("TMPDIR");
     int length = snprintf(tmp, sizeof tmp, "%s/asbdpt-test-%016llx", where != NULL ? where : "/tmp",

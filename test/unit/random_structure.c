@@ -33,25 +33,14 @@ static void material(struct writer *w, enum material kind, double eta)
     put(w, "\n");
 }
 
-/* A parallelogram; lamps shine to the side of u x v. */
-static void quad(struct writer *w, vec3 a, vec3 u, vec3 v)
-{
-    put(w, "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ ");
-    put_vec(w, a);
-    put_vec(w, add(a, u));
-    put_vec(w, add(add(a, u), v));
-    put_vec(w, add(a, v));
-    put(w, "]\n");
-}
-
 /* One with a hole from (x0, y0) to (x1, y1), shares of u and v; y0 may be 0. */
 static void pierced(struct writer *w, vec3 a, vec3 u, vec3 v, double x0, double x1, double y0, double y1)
 {
-    quad(w, a, mul(u, x0), v);
-    quad(w, add(a, mul(u, x1)), mul(u, 1 - x1), v);
+    put_quad(w, a, mul(u, x0), v);
+    put_quad(w, add(a, mul(u, x1)), mul(u, 1 - x1), v);
     if (y0 > 0)
-        quad(w, add(a, mul(u, x0)), mul(u, x1 - x0), mul(v, y0));
-    quad(w, add(a, add(mul(u, x0), mul(v, y1))), mul(u, x1 - x0), mul(v, 1 - y1));
+        put_quad(w, add(a, mul(u, x0)), mul(u, x1 - x0), mul(v, y0));
+    put_quad(w, add(a, add(mul(u, x0), mul(v, y1))), mul(u, x1 - x0), mul(v, 1 - y1));
 }
 
 /* The sides of a box: the corner that each begins at and two edges, of which 1, 2 and 4 are x, y and z. */
@@ -65,7 +54,7 @@ static void room(struct writer *w, vec3 s, int without, int mirrors)
     for (int i = 0; i < SIDES; i++) {
         material(w, mirrors >> i & 1 ? MIRROR : MATTE, 0);
         if (!(without >> i & 1))
-            quad(w, corner(s, SIDE[i][0]), corner(s, SIDE[i][1]), corner(s, SIDE[i][2]));
+            put_quad(w, corner(s, SIDE[i][0]), corner(s, SIDE[i][1]), corner(s, SIDE[i][2]));
     }
 }
 
@@ -73,7 +62,7 @@ static void box(struct writer *w, vec3 low, vec3 high)
 {
     vec3 s = sub(high, low);
     for (int i = 0; i < SIDES; i++)
-        quad(w, add(low, corner(s, SIDE[i][0])), corner(s, SIDE[i][2]), corner(s, SIDE[i][1]));
+        put_quad(w, add(low, corner(s, SIDE[i][0])), corner(s, SIDE[i][2]), corner(s, SIDE[i][1]));
 }
 
 /* A light that gives about so much power, a little below `at`: a spot, a ball, or a square that shines down. */
@@ -94,7 +83,7 @@ static void lamp(struct writer *w, enum lamp kind, vec3 at, double size, double 
         if (kind == BALL)
             put(w, "Translate 0 %.4g 0 Shape \"sphere\" \"float radius\" %.4g\n", -size / 2, size / 2);
         else
-            quad(w, vec(-size / 2, 0, -size / 2), vec(size, 0, 0), vec(0, 0, size));
+            put_quad(w, vec(-size / 2, 0, -size / 2), vec(size, 0, 0), vec(0, 0, size));
     }
     put(w, "AttributeEnd\n");
 }
@@ -156,9 +145,9 @@ static void rooms(struct writer *w, vec3 s)
     int nx = 3 + pick(w, 8), nz = 3 + pick(w, 8);
     double h = between(w, 0.2, 0.6), large = 0.3 * s.x / nx, power = 3 * s.x * s.z / (nx * nz);
     for (int i = 1; i < nx; i++)
-        quad(w, part(s, (double)i / nx, 0, 0), part(s, 0, h, 0), part(s, 0, 0, 1));
+        put_quad(w, part(s, (double)i / nx, 0, 0), part(s, 0, h, 0), part(s, 0, 0, 1));
     for (int i = 1; i < nz; i++)
-        quad(w, part(s, 0, 0, (double)i / nz), part(s, 1, 0, 0), part(s, 0, h, 0));
+        put_quad(w, part(s, 0, 0, (double)i / nz), part(s, 1, 0, 0), part(s, 0, h, 0));
     for (int i = 0; i < nx * nz; i++) {
         vec3 low = part(s, (i % nx + 0.2) / nx, 0.5 * h, (i / nx + 0.2) / nz);
         lamps(w, 1, low, add(low, part(s, 0.6 / nx, 0.4 * h, 0.6 / nz)), large, power * across(w, 0.3, 5), 1);
@@ -171,11 +160,11 @@ static void pane(struct writer *w, vec3 s)
     double at = between(w, 0.15, 0.3);
     material(w, GLASS, 1 + across(w, 1e-4, 0.6));
     if (chance(w, 0.3)) {
-        quad(w, part(s, 0, at, 0), part(s, 0, 0, 1), part(s, 1, 0, 0));
+        put_quad(w, part(s, 0, at, 0), part(s, 0, 0, 1), part(s, 1, 0, 0));
         lamps(w, 2, part(s, 0.1, 0, 0.5), part(s, 0.9, at, 0.9), 0.5, area(s), 10);
     } else {
-        quad(w, part(s, 0, 0, at), part(s, 0, 1, 0), part(s, 1, 0, 0));
-        quad(w, vec(0, 0, s.z * at + across(w, 0.003, 0.3)), part(s, 1, 0, 0), part(s, 0, 1, 0));
+        put_quad(w, part(s, 0, 0, at), part(s, 0, 1, 0), part(s, 1, 0, 0));
+        put_quad(w, vec(0, 0, s.z * at + across(w, 0.003, 0.3)), part(s, 1, 0, 0), part(s, 0, 1, 0));
     }
 }
 
@@ -200,7 +189,7 @@ static void windows(struct writer *w, vec3 s)
         pierced(w, part(s, 0, 0, (double)i / n), part(s, 0, 0, 1.0 / n), part(s, 0, 1, 0), 0.5 - wide / 2,
                 0.5 + wide / 2, low, high);
     daylight(w, 0.2 * area(s) / (s.y * s.z * wide * (high - low)));
-    quad(w, vec(-100, -0.1, -100), vec(0, 0, 200), vec(200, 0, 0));
+    put_quad(w, vec(-100, -0.1, -100), vec(0, 0, 200), vec(200, 0, 0));
     material(w, GLASS, 1.5);
     if (chance(w, 0.25))
         box(w, vec(-0.1, 0, 0), vec(-0.05, s.y, s.z));
@@ -263,8 +252,8 @@ static void terraces(struct writer *w, vec3 s)
     double size = 0.3 * deep * s.x;
     for (int i = 1; i < n; i++)
         box(w, part(s, 0, rise * (i - 1), 0.2 + 0.8 * i / n), part(s, 1, rise * i, 1));
-    quad(w, part(s, 0, y, 0.1), part(s, deep, 0, 0), part(s, 0, 0, 0.8));
-    quad(w, part(s, deep, y, 0.1), vec(0, size + 0.05, 0), part(s, 0, 0, 0.8));
+    put_quad(w, part(s, 0, y, 0.1), part(s, deep, 0, 0), part(s, 0, 0, 0.8));
+    put_quad(w, part(s, deep, y, 0.1), vec(0, size + 0.05, 0), part(s, 0, 0, 0.8));
     for (double z = 0.2; z < 0.9; z += across(w, 0.1, 0.5))
         lamp(w, BALL, add(part(s, deep / 2, y, z), vec(0, size + 0.04, 0)), size, area(s) * between(w, 0.3, 1));
 }
@@ -277,7 +266,7 @@ static void plates(struct writer *w, vec3 s)
         vec3 at = part(s, 0.2, 0.05 + 0.35 * i / n, 0.3 + 0.5 * i / n), u = part(s, 0.6, 0, 0);
         vec3 up = add(normalize(sub(part(s, 0.2, 0.5, 0), at)), normalize(sub(part(s, 0.2, 0.75, 0.9), at)));
         material(w, METAL, 0);
-        quad(w, at, u, mul(normalize(cross(u, up)), between(w, 0.05, 0.1) * s.z));
+        put_quad(w, at, u, mul(normalize(cross(u, up)), between(w, 0.05, 0.1) * s.z));
     }
     for (int i = 0; i < m; i++)
         lamp(w, BALL, part(s, 0.2 + 0.6 * (i + 0.5) / m, 0.75, 0.9), s.x * across(w, 0.01, 0.1), area(s) / m);

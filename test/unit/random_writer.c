@@ -153,3 +153,13 @@ void put_map(struct writer *w, const struct map *m)
     put_numbers(w, 16, all);
     put(w, "]\n");
 }
+
+void put_quad(struct writer *w, vec3 a, vec3 u, vec3 v)
+{
+    put(w, "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ ");
+    put_vec(w, a);
+    put_vec(w, add(a, u));
+    put_vec(w, add(add(a, u), v));
+    put_vec(w, add(a, v));
+    put(w, "]\n");
+}

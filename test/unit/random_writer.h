@@ -68,4 +68,7 @@ vec3 map_normal(const struct map *m, vec3 n); /* by the inverse transpose; not n
 /* put_map: as a ConcatTransform. */
 void put_map(struct writer *w, const struct map *m);
 
+/* put_quad: a parallelogram with the corner a and the edges u and v; its normal, where lamps shine to, is u x v. */
+void put_quad(struct writer *w, vec3 a, vec3 u, vec3 v);
+
 #endif
