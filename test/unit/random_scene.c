@@ -94,6 +94,7 @@ static void film(struct writer *w, bool tiny)
 static void begin(struct writer *w, const struct view *v, int max_depth)
 {
     film(w, v->fov < 1);
+    put(w, "Sampler \"halton\" \"integer pixelsamples\" 4 Accelerator \"bvh\"\n");
     put(w, "Integrator \"bdpt\" \"integer maxdepth\" %d \"string heuristic\" \"%s\"\n", max_depth,
         chance(w, 0.5) ? "power" : "balance");
     if (w->media)
