@@ -186,6 +186,7 @@ static void disney(struct writer *w)
 static void of_layers(struct writer *w, int kind)
 {
     if (kind == 0) {
+        w->rare = true;
         put(w, "\"fourier\" \"string bsdffile\" \"%sscenes/features/layered.bsdf\" ", w->top);
         return;
     }

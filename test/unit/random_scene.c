@@ -483,6 +483,7 @@ static struct random_scene scene_away(uint64_t number, const char *top, bool evi
     s.text = w.text;
     s.specular |= w.specular;
     s.delta_light |= w.delta_light;
+    s.rare = w.rare;
     s.media = w.media;
     s.placed = w.placed;
     s.fog = w.around[0] != '\0';
