@@ -119,7 +119,7 @@ ref: asbdpt asbdpt-lab ## render the stored references of ref/ again (an hour; g
 
 # ---- what proves it ----
 # Checks are targets of their own; none of them builds anything while others run.
-FACTS = $(foreach name,layers standard references limits links measured faults,"$(MAKE) -s -o asbdpt-lab $(name)")
+FACTS = $(foreach name,layers standard references limits specimens links measured faults,"$(MAKE) -s -o asbdpt-lab $(name)")
 check: asbdpt-lab ## facts about sources and documents, in ten seconds
 	@sh test/run/suites.sh $(FACTS)
 
@@ -181,6 +181,9 @@ measured: ## check that the documents show the stored numbers, and mark old ones
 .PHONY: limits
 limits: ## check that SECURITY.md says what the limits of the program are
 	@sh test/tree/limits.sh
+
+specimens: ## check that every kind of thing that scenes have is in a unit suite, in the generator of scenes and in scenes/features
+	@sh test/tree/specimens.sh
 
 links: asbdpt-lab ## check that links, functions, tests and mutants named in the documents exist, what these take from sources, and their HTML
 	@sh test/tree/pages.sh

@@ -88,6 +88,14 @@ bool shape_fields_mesh(struct shape_fields *f, double bytes, struct mesh *out, s
     return ok;
 }
 
+struct rng stream_of(const struct test *t, const char *name, uint64_t purpose)
+{
+    uint64_t hash = purpose;
+    for (const char *c = name; *c != '\0'; c++)
+        hash = hash_combine(hash, (uint64_t)*c);
+    return rng_stream(test_seed(t), RNG_TEST, 22, hash);
+}
+
 bool near3(vec3 a, vec3 b, double tolerance) { return length(sub(a, b)) <= tolerance; }
 
 vec3 on_sphere(struct rng *r)

@@ -58,6 +58,9 @@ struct shape_fields shape_fields_of(const char *shape);
 void shape_fields_set(struct shape_fields *f, const char *name, const void *value, size_t size);
 bool shape_fields_mesh(struct shape_fields *f, double bytes, struct mesh *out, struct error *err);
 
+/* stream_of: random numbers of a specimen's own, by its name and a purpose: what else a test has does not change them. */
+struct rng stream_of(const struct test *t, const char *name, uint64_t purpose);
+
 /* near3: are two points, or directions, no farther from each other? on_sphere: a direction, uniform. */
 bool near3(vec3 a, vec3 b, double tolerance);
 vec3 on_sphere(struct rng *r);

@@ -1,7 +1,6 @@
 /* random_parts.c: see random_parts.h. */
 #include "random_parts.h"
 
-
 #include "base/maths.h"
 
 /* --- textures ------------------------------------------------------------------------------------------- */
@@ -48,10 +47,29 @@ static void values(struct writer *w, bool colours, const char *a, const char *b)
             number(w, i == 0 ? a : b);
 }
 
+/* A value that is no texture. */
+static void corner(struct writer *w, bool colours, const char *name)
+{
+    if (colours)
+        put_point(w, "rgb", name, within(w, vec(0, 0, 0), vec(0.9, 0.9, 0.9)));
+    else
+        put_float(w, name, between(w, 0, 0.9));
+}
+
+static void noise(struct writer *w)
+{
+    static const char *const KINDS[] = {"fbm", "wrinkled", "windy"};
+    int kind = pick(w, 3);
+    put(w, "\"%s\" ", KINDS[kind]);
+    if (kind < 2)
+        put(w, "\"integer octaves\" %d ", 1 + pick(w, 4));
+}
+
 static void texture(struct writer *w, bool colours)
 {
+    static const char *const CORNERS[] = {"v00", "v01", "v10", "v11"};
     put(w, "Texture \"%c%d\" \"%s\" ", colours ? 's' : 'f', w->textures, colours ? "spectrum" : "float");
-    switch (pick(w, colours ? 9 : 7)) {
+    switch (pick(w, colours ? 11 : 9)) {
     case 0:
         put(w, "\"imagemap\" \"string filename\" \"%sscenes/test/%s.tga\" ", w->top, colours ? "colours" : "waves");
         mapping(w);
@@ -75,19 +93,26 @@ static void texture(struct writer *w, bool colours)
         values(w, colours, "inside", "outside");
         mapping(w);
         break;
-    case 5:
-        put(w, "\"%s\" ", chance(w, 0.5) ? "fbm" : "wrinkled");
-        put(w, "\"integer octaves\" %d ", 1 + pick(w, 4));
-        break;
+    case 5: noise(w); break;
     case 6:
         put(w, "\"scale\" ");
         values(w, colours, "tex1", "tex2");
         break;
     case 7:
+        put(w, "\"constant\" ");
+        corner(w, colours, "value");
+        break;
+    case 8:
+        put(w, "\"bilerp\" ");
+        for (int i = 0; i < 4; i++)
+            corner(w, colours, CORNERS[i]);
+        mapping(w);
+        break;
+    case 9:
         put(w, "\"uv\" ");
         mapping(w);
         break;
-    case 8: put(w, "\"marble\" \"integer octaves\" 3 "); break;
+    case 10: put(w, "\"marble\" \"integer octaves\" 3 "); break;
     }
     put(w, "\n");
 }
@@ -142,6 +167,34 @@ static void rough(struct writer *w, int kind)
         put(w, "\"texture bumpmap\" \"f%d\" ", pick(w, w->textures));
 }
 
+static void disney(struct writer *w)
+{
+    put(w, "\"disney\" ");
+    colour(w, "color", 0.9);
+    put_float(w, "roughness", between(w, 0.5, 0.9));
+    number(w, "metallic");
+    number(w, "sheen");
+    put_float(w, "anisotropic", between(w, 0, 0.6));
+    put_float(w, "clearcoat", chance(w, 0.5) ? between(w, 0, 1) : 0);
+    put_float(w, "clearcoatgloss", between(w, 0, 0.4));
+    put_float(w, "spectrans", chance(w, 0.5) ? between(w, 0, 0.8) : 0);
+    if (chance(w, 0.4))
+        put(w, "\"bool thin\" \"true\" \"float flatness\" .4 ");
+}
+
+/* Layers of a file, and surfaces of what is translucent. */
+static void of_layers(struct writer *w, int kind)
+{
+    if (kind == 0) {
+        w->rare = true;
+        put(w, "\"fourier\" \"string bsdffile\" \"%sscenes/features/layered.bsdf\" ", w->top);
+        return;
+    }
+    put(w, "\"%s\" ", kind == 1 ? "subsurface" : "kdsubsurface");
+    put_float(w, "eta", between(w, 1.1, 1.6));
+    roughness(w);
+}
+
 static void specular(struct writer *w, int kind)
 {
     w->specular = true;
@@ -169,8 +222,13 @@ static void specular(struct writer *w, int kind)
 
 static void one_material(struct writer *w)
 {
-    if (chance(w, 0.2))
+    int kind = pick(w, 10);
+    if (kind < 2)
         specular(w, pick(w, 4));
+    else if (kind == 2)
+        disney(w);
+    else if (kind == 3)
+        of_layers(w, pick(w, 3));
     else
         rough(w, pick(w, 8));
 }
@@ -182,6 +240,10 @@ void put_material(struct writer *w, bool lamp)
             put(w, "MakeNamedMaterial \"m%d\" \"string type\" ", i);
             one_material(w);
             put(w, "\n");
+        }
+        if (chance(w, 0.3)) {
+            put(w, "NamedMaterial \"m1\"\n");
+            return;
         }
         put(w, "Material \"mix\" \"string namedmaterial1\" \"m0\" \"string namedmaterial2\" \"m1\" ");
         colour(w, "amount", 1);
@@ -285,13 +347,35 @@ static void quad(struct writer *w)
     }
 }
 
+/* A curve of four points through the origin. */
+static void curve(struct writer *w)
+{
+    put(w, "\"curve\" \"string type\" \"%s\" \"point P\" [ ", chance(w, 0.5) ? "cylinder" : "ribbon");
+    for (int i = 0; i < 4; i++)
+        put_vec(w, add(vec(0, 0, (2 * i - 3) / 3.0), mul(direction(w), 0.4)));
+    put(w, "] ");
+    put_float(w, "width0", between(w, 0.2, 0.6));
+    put_float(w, "width1", between(w, 0.2, 0.6));
+    put(w, "\"normal N\" [ 1 0 0 0 1 0 ] ");
+}
+
+/* To another place and back. */
+static void detour(struct writer *w)
+{
+    if (!chance(w, 0.3))
+        return;
+    put(w, "CoordinateSystem \"here\" %s CoordSysTransform \"here\" ",
+        chance(w, 0.5) ? "Rotate 40 1 2 3" : "Transform [ 0 1 0 0 0 0 1 0 1 0 0 0 3 2 1 1 ]");
+}
+
 /* Those that may be lamps come first. */
 void put_shape(struct writer *w, bool lamp)
 {
+    detour(w);
     if (chance(w, 0.3))
         put(w, "ReverseOrientation ");
     put(w, "Shape ");
-    switch (pick(w, lamp ? 5 : 9)) {
+    switch (pick(w, lamp ? 5 : 11)) {
     case 0:
         put(w, "\"disk\" ");
         put_float(w, "height", between(w, -0.3, 0.3));
@@ -330,6 +414,8 @@ void put_shape(struct writer *w, bool lamp)
             put_vec(w, i == 0 ? vec(0, 0, 1.2) : cylindrical(1.2, i * 2 * PI / 3, -0.6));
         put(w, "] ");
         break;
+    case 9: put(w, "\"plymesh\" \"string filename\" \"%stest/data/fixtures/parts/triangle.ply\" ", w->top); break;
+    case 10: curve(w); break;
     }
     if (w->textures > 0 && chance(w, 0.15))
         put(w, "\"texture alpha\" \"f%d\" ", pick(w, w->textures));

@@ -94,6 +94,7 @@ static void film(struct writer *w, bool tiny)
 static void begin(struct writer *w, const struct view *v, int max_depth)
 {
     film(w, v->fov < 1);
+    put(w, "Sampler \"halton\" \"integer pixelsamples\" 4 Accelerator \"bvh\"\n");
     put(w, "Integrator \"bdpt\" \"integer maxdepth\" %d \"string heuristic\" \"%s\"\n", max_depth,
         chance(w, 0.5) ? "power" : "balance");
     if (w->media)
@@ -482,6 +483,7 @@ static struct random_scene scene_away(uint64_t number, const char *top, bool evi
     s.text = w.text;
     s.specular |= w.specular;
     s.delta_light |= w.delta_light;
+    s.rare = w.rare;
     s.media = w.media;
     s.placed = w.placed;
     s.fog = w.around[0] != '\0';

@@ -36,6 +36,7 @@ struct random_scene {
                          light, or to the lens, has no variance unless it is weighed against other ways */
     bool specular;    /* some surface reflects or transmits in single directions, so that pt cannot join what is
                          behind it to a delta light, and lt cannot join it to the lens */
+    bool rare;        /* a layered material has spikes of grazing light: some tiles get much of theirs by few samples */
 };
 
 /* random_scene: scene number `number`.

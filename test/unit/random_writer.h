@@ -19,7 +19,7 @@ struct writer {
     char *text;
     size_t used, capacity;
     int textures;              /* "s0", "f0", "s1", ... are defined */
-    bool specular, delta_light; /* what has been written so far */
+    bool specular, delta_light, rare; /* what has been written so far */
     bool media;                 /* there are some, so that every lamp has a material and stands in what is around */
     double away;                /* how far the scene is moved, in its units */
     bool placed;                /* see random_scene.h */

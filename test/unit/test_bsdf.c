@@ -18,6 +18,7 @@
 #include "base/rng.h"
 #include "lab/stats.h"
 #include "material/fourier.h"
+#include "helpers.h"
 #include "suites.h"
 
 enum {
@@ -76,9 +77,13 @@ struct specimen {
     struct lobe lobe[MAX_LOBES];
 };
 
-enum { N_SPECIMENS = 21 };
+struct specimens {
+    int n;
+    struct specimen of[40];
+};
 
-static void specimens(struct specimen *s, const struct fourier_table *table)
+/* Every kind of lobe that is not delta has one, which test/tree/specimens.sh checks. */
+static struct specimens specimens(const struct fourier_table *table)
 {
     struct lobe diffuse = lobe(LOBE_LAMBERT_REFLECTION, 0.5, 0), through = lobe(LOBE_LAMBERT_TRANSMISSION, 0, 0.4);
     struct lobe mirror = lobe(LOBE_SPECULAR_REFLECTION, 0.3, 0);
@@ -107,7 +112,7 @@ static void specimens(struct specimen *s, const struct fourier_table *table)
     struct lobe forward = lobe(LOBE_PHASE, 1, 0), backward = forward;
     forward.of.g = 0.6;
     backward.of.g = -0.3;
-    struct specimen all[N_SPECIMENS] = {
+    const struct specimen all[] = {
         {"lambert", 1, {diffuse}},
         {"lambert transmission", 1, {through}},
         {"oren-nayar", 1, {lobe(LOBE_OREN_NAYAR, 0.8, 0)}},
@@ -130,7 +135,17 @@ static void specimens(struct specimen *s, const struct fourier_table *table)
         {"medium, forward", 1, {forward}},
         {"medium, backward", 1, {backward}},
     };
-    memcpy(s, all, sizeof all);
+    struct specimens out = {.n = sizeof all / sizeof all[0]};
+    memcpy(out.of, all, sizeof all);
+    return out;
+}
+
+static struct specimen named(const struct specimens *s, const char *name)
+{
+    const struct specimen *one = s->of;
+    while (strcmp(one->name, name) != 0)
+        one++;
+    return *one;
 }
 
 /* A BSDF of the specimen with a slanted shading frame; the geometric normal is tilted from it by `tilt` radians. */
@@ -245,19 +260,17 @@ static double chi2_p(const struct bsdf *drawn, const struct bsdf *claimed, vec3 
     return stats_chi2_test(h.cell, in->expected.cell, CELLS + 1);
 }
 
-static void samples_follow_pdf(struct test *t, struct rng *r, const struct fourier_table *table)
+static void samples_follow_pdf(struct test *t, struct specimen *one)
 {
     static const double COS[] = {0.95, 0.5, 0.15, -0.7, -0.2}, TILT[] = {0, 0.35};
-    struct specimen s[N_SPECIMENS];
-    specimens(s, table);
-    for (int n = 0; n < N_SPECIMENS * 10; n++) {
-        int c = n / 2 % 5, k = n % 2, inconsistent;
-        struct specimen *one = &s[n / 10];
+    struct rng r = stream_of(t, one->name, 0);
+    for (int n = 0; n < 10; n++) {
+        int c = n / 2, k = n % 2, inconsistent;
         enum transport mode = (c + k) % 2 ? IMPORTANCE : RADIANCE;
         struct bsdf b = mount(one, TILT[k]);
         vec3 wo = to_world(&b.shading, direction(COS[c], 0.9));
         struct integral in;
-        double p = chi2_p(&b, &b, wo, mode, HONEST, r, &in, &inconsistent);
+        double p = chi2_p(&b, &b, wo, mode, HONEST, &r, &in, &inconsistent);
         TEST_ACCEPT(t, p, "%s, cos %g, tilt %g: chi-square", one->name, COS[c], TILT[k]);
         CHECK(t, inconsistent == 0, "%s, cos %g: %d samples differ from bsdf_eval", one->name, COS[c], inconsistent);
         CHECK(t, in.pdf < 1.003 && (mode == RADIANCE || in.energy < 1.003),
@@ -268,50 +281,54 @@ static void samples_follow_pdf(struct test *t, struct rng *r, const struct fouri
 }
 
 /* A hypothesis that must be rejected. */
-static void reject(struct test *t, struct rng *r, const struct bsdf *drawn, const struct bsdf *claimed, double cosine,
+static void reject(struct test *t, const struct bsdf *drawn, const struct bsdf *claimed, double cosine,
                    enum fault fault, const char *what)
 {
+    struct rng r = stream_of(t, what, 1);
     struct integral in;
     int inconsistent;
     vec3 wo = to_world(&drawn->shading, direction(cosine, 0.9));
-    TEST_REJECT(t, chi2_p(drawn, claimed, wo, RADIANCE, fault, r, &in, &inconsistent), "%s", what);
+    TEST_REJECT(t, chi2_p(drawn, claimed, wo, RADIANCE, fault, &r, &in, &inconsistent), "%s", what);
 }
 
-static void planted_faults(struct test *t, struct rng *r, const struct fourier_table *table)
+static void planted_faults(struct test *t, const struct specimens *s)
 {
-    struct specimen s[N_SPECIMENS];
-    specimens(s, table);
-    struct bsdf lambert = mount(&s[0], 0), brushed = mount(&s[4], 0), glass = mount(&s[9], 0);
-    reject(t, r, &lambert, &lambert, 0.5, TIMES_COS, "lambert, one cosine too many");
-    reject(t, r, &lambert, &lambert, 0.5, PER_COS, "lambert, a cosine missing");
-    reject(t, r, &brushed, &brushed, 0.5, TIMES_COS, "brushed copper, one cosine too many");
-    reject(t, r, &glass, &glass, -0.2, NOTHING_LOST, "rough glass, absorbed samples not accounted for");
-    struct specimen other = s[4];
-    other.lobe[0].alpha_x = s[4].lobe[0].alpha_y;
-    other.lobe[0].alpha_y = s[4].lobe[0].alpha_x;
+    struct specimen diffuse = named(s, "lambert"), copper = named(s, "brushed copper"), rough = named(s, "rough glass"),
+                    fog = named(s, "medium, forward"), smoke = named(s, "medium, backward"), other = copper;
+    struct bsdf lambert = mount(&diffuse, 0), brushed = mount(&copper, 0), glass = mount(&rough, 0);
+    reject(t, &lambert, &lambert, 0.5, TIMES_COS, "lambert, one cosine too many");
+    reject(t, &lambert, &lambert, 0.5, PER_COS, "lambert, a cosine missing");
+    reject(t, &brushed, &brushed, 0.5, TIMES_COS, "brushed copper, one cosine too many");
+    reject(t, &glass, &glass, -0.2, NOTHING_LOST, "rough glass, absorbed samples not accounted for");
+    other.lobe[0].alpha_x = copper.lobe[0].alpha_y;
+    other.lobe[0].alpha_y = copper.lobe[0].alpha_x;
     struct bsdf claimed = mount(&other, 0);
-    reject(t, r, &brushed, &claimed, 0.5, HONEST, "brushed copper, roughnesses exchanged");
-    other = s[9];
+    reject(t, &brushed, &claimed, 0.5, HONEST, "brushed copper, roughnesses exchanged");
+    other = rough;
     other.lobe[1].eta_b = 1.4;
     claimed = mount(&other, 0);
-    reject(t, r, &glass, &claimed, 0.5, HONEST, "rough glass, wrong index");
-    other = s[9];
+    reject(t, &glass, &claimed, 0.5, HONEST, "rough glass, wrong index");
+    other = rough;
     claimed = mount(&other, 0);
     other.lobe[0].choice += 0.05;
     other.lobe[1].choice -= 0.05;
-    reject(t, r, &glass, &claimed, 0.5, HONEST, "rough glass, wrong lobe choice");
-    claimed = mount(&s[0], 0.35);
-    reject(t, r, &lambert, &claimed, 0.5, HONEST, "lambert, wrong geometric normal");
-    struct bsdf forward = mount(&s[19], 0), backward = mount(&s[20], 0);
-    static const double WRONG[] = {-0.6, 0.55, 0};
+    reject(t, &glass, &claimed, 0.5, HONEST, "rough glass, wrong lobe choice");
+    claimed = mount(&diffuse, 0.35);
+    reject(t, &lambert, &claimed, 0.5, HONEST, "lambert, wrong geometric normal");
+    struct bsdf forward = mount(&fog, 0), backward = mount(&smoke, 0);
+    static const struct {
+        double g;
+        const char *what;
+    } WRONG[] = {{-0.6, "medium, forward, said to be backward"}, {0.55, "medium, forward, said to be less so"},
+                 {0, "medium, forward, said to be even"}};
     for (int i = 0; i < 3; i++) {
-        other = s[19];
-        other.lobe[0].of.g = WRONG[i];
+        other = fog;
+        other.lobe[0].of.g = WRONG[i].g;
         claimed = mount(&other, 0);
-        reject(t, r, &forward, &claimed, 0.5, HONEST, "medium, forward, the density of another asymmetry");
+        reject(t, &forward, &claimed, 0.5, HONEST, WRONG[i].what);
     }
-    reject(t, r, &forward, &forward, 0.5, TIMES_COS, "medium, forward, a cosine, as of a plane");
-    reject(t, r, &backward, &forward, 0.5, HONEST, "medium, backward, a density that is forward");
+    reject(t, &forward, &forward, 0.5, TIMES_COS, "medium, forward, a cosine, as of a plane");
+    reject(t, &backward, &forward, 0.5, HONEST, "medium, backward, a density that is forward");
 }
 
 /* --- pairs of directions ----------------------------------------------------------------------------- */
@@ -321,45 +338,42 @@ static void planted_faults(struct test *t, struct rng *r, const struct fourier_t
 static bool agree(double a, double b) { return fabs(a - b) <= 1e-6 * (fabs(a) + fabs(b)) + 1e-15; }
 
 /* Random pairs, most of them with a value: half of them are drawn by the BSDF. */
-static void swapped_pairs(struct test *t, struct rng *r, const struct fourier_table *table)
+static void swapped_pairs(struct test *t, struct specimen *one)
 {
-    struct specimen s[N_SPECIMENS];
-    specimens(s, table);
-    for (int i = 0; i < N_SPECIMENS; i++) {
-        int bad_pdf = 0, bad_f = 0, bad_eta = 0, black_pdf = 0, met = 0;
-        for (int k = 0; k < 3000; k++) {
-            struct bsdf b = mount(&s[i], k % 3 == 0 ? 0.35 : 0);
-            vec3 wo = direction(2 * rng_uniform(r) - 1, 7 * rng_uniform(r)),
-                 wi = direction(2 * rng_uniform(r) - 1, 0.3);
-            double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
-            struct bsdf_sample sample;
-            if (k % 2 == 0 && bsdf_sample(&b, wo, u, RADIANCE, &sample) && !sample.delta)
-                wi = sample.wi;
-            struct bsdf_value there = bsdf_eval(&b, wo, wi, RADIANCE), back = bsdf_eval(&b, wi, wo, RADIANCE);
-            struct bsdf_value there_i = bsdf_eval(&b, wo, wi, IMPORTANCE),
-                              back_i = bsdf_eval(&b, wi, wo, IMPORTANCE);
-            met += !rgb_is_black(there.f);
-            bad_pdf += !agree(there.pdf, back.pdf_rev) || !agree(there.pdf_rev, back.pdf) ||
-                       !agree(there.pdf, there_i.pdf);
-            bad_f += !agree(there.f.r, back_i.f.r) || !agree(there_i.f.b, back.f.b);
-            bool reflected = dot(wo, b.ng) * dot(wi, b.ng) > 0;
-            if (s[i].lobe[0].kind == LOBE_FOURIER)
-                continue; /* symmetric as its table is: test_fourier.c */
-            if (reflected || s[i].lobe[0].kind == LOBE_LAMBERT_TRANSMISSION)
-                bad_eta += !agree(there.f.g, back.f.g) || !agree(there.f.g, there_i.f.g);
-            else if (s[i].lobe[0].kind == LOBE_MICROFACET_TRANSMISSION && there.f.g > 0) {
-                double eta = s[i].lobe[0].eta_b / s[i].lobe[0].eta_a;
-                eta = dot(wo, b.shading.n) > 0 ? eta : 1 / eta;
-                bad_eta += !agree(there_i.f.g, there.f.g * eta * eta);
-            }
-            black_pdf += rgb_is_black(there.f) && (there.pdf != 0 || there.pdf_rev != 0);
+    struct rng stream = stream_of(t, one->name, 2), *r = &stream;
+    int bad_pdf = 0, bad_f = 0, bad_eta = 0, black_pdf = 0, met = 0;
+    for (int k = 0; k < 3000; k++) {
+        struct bsdf b = mount(one, k % 3 == 0 ? 0.35 : 0);
+        vec3 wo = direction(2 * rng_uniform(r) - 1, 7 * rng_uniform(r)),
+             wi = direction(2 * rng_uniform(r) - 1, 0.3);
+        double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
+        struct bsdf_sample sample;
+        if (k % 2 == 0 && bsdf_sample(&b, wo, u, RADIANCE, &sample) && !sample.delta)
+            wi = sample.wi;
+        struct bsdf_value there = bsdf_eval(&b, wo, wi, RADIANCE), back = bsdf_eval(&b, wi, wo, RADIANCE);
+        struct bsdf_value there_i = bsdf_eval(&b, wo, wi, IMPORTANCE),
+                          back_i = bsdf_eval(&b, wi, wo, IMPORTANCE);
+        met += !rgb_is_black(there.f);
+        bad_pdf += !agree(there.pdf, back.pdf_rev) || !agree(there.pdf_rev, back.pdf) ||
+                   !agree(there.pdf, there_i.pdf);
+        bad_f += !agree(there.f.r, back_i.f.r) || !agree(there_i.f.b, back.f.b);
+        bool reflected = dot(wo, b.ng) * dot(wi, b.ng) > 0;
+        if (one->lobe[0].kind == LOBE_FOURIER)
+            continue; /* symmetric as its table is: test_fourier.c */
+        if (reflected || one->lobe[0].kind == LOBE_LAMBERT_TRANSMISSION)
+            bad_eta += !agree(there.f.g, back.f.g) || !agree(there.f.g, there_i.f.g);
+        else if (one->lobe[0].kind == LOBE_MICROFACET_TRANSMISSION && there.f.g > 0) {
+            double eta = one->lobe[0].eta_b / one->lobe[0].eta_a;
+            eta = dot(wo, b.shading.n) > 0 ? eta : 1 / eta;
+            bad_eta += !agree(there_i.f.g, there.f.g * eta * eta);
         }
-        CHECK(t, met > 500, "%s: only %d pairs are not black", s[i].name, met);
-        CHECK(t, bad_pdf == 0, "%s: %d pairs whose pdf_rev is not the swapped pair's pdf", s[i].name, bad_pdf);
-        CHECK(t, bad_f == 0, "%s: %d pairs where radiance and importance are not adjoint", s[i].name, bad_f);
-        CHECK(t, bad_eta == 0, "%s: %d pairs not symmetric up to eta^2", s[i].name, bad_eta);
-        CHECK(t, black_pdf == 0, "%s: %d black pairs with a density", s[i].name, black_pdf);
+        black_pdf += rgb_is_black(there.f) && (there.pdf != 0 || there.pdf_rev != 0);
     }
+    CHECK(t, met > 500, "%s: only %d pairs are not black", one->name, met);
+    CHECK(t, bad_pdf == 0, "%s: %d pairs whose pdf_rev is not the swapped pair's pdf", one->name, bad_pdf);
+    CHECK(t, bad_f == 0, "%s: %d pairs where radiance and importance are not adjoint", one->name, bad_f);
+    CHECK(t, bad_eta == 0, "%s: %d pairs not symmetric up to eta^2", one->name, bad_eta);
+    CHECK(t, black_pdf == 0, "%s: %d black pairs with a density", one->name, black_pdf);
 }
 
 /* --- delta lobes among others ------------------------------------------------------------------------ */
@@ -406,14 +420,16 @@ static void choice_among_lobes(struct test *t)
 
 void test_bsdf(struct test *t)
 {
-    struct rng r = rng_stream(test_seed(t), RNG_TEST, 22, 0);
     struct fourier_table table;
     struct error err = {.text = ""};
     if (!CHECK(t, fourier_read("scenes/features/layered.bsdf", &table, &err), "%s", err.text))
         return;
-    samples_follow_pdf(t, &r, &table);
-    planted_faults(t, &r, &table);
-    swapped_pairs(t, &r, &table);
+    struct specimens all = specimens(&table);
+    for (int i = 0; i < all.n; i++) {
+        samples_follow_pdf(t, &all.of[i]);
+        swapped_pairs(t, &all.of[i]);
+    }
+    planted_faults(t, &all);
     choice_among_lobes(t);
     fourier_free(&table);
 }

@@ -1,5 +1,5 @@
-/* test_coverage.c: do intervals of squared errors against a noisy reference hold the truth as often as they say? On
- * pictures of a known expectation, with noise as rare light makes it. */
+/* test_coverage.c: do intervals of squared errors hold the truth as often as they say? On pictures of a known
+ * expectation, with noise as rare light makes it, against noisy references and one without noise. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,45 +11,58 @@
 #include "helpers.h"
 #include "suites.h"
 
-enum { W = 64, H = 48, VALUES = 3 * W * H, SPP = 16, BATCHES = 4, TRIALS = 40 };
+enum { MOST = 3 * 64 * 48, SPP = 16, BATCHES = 4, TRIALS = 40, MANY = 2500 };
+
+struct size {
+    int w, h, values;
+};
+static const struct size LARGE = {64, 48, MOST}, SMALL = {24, 16, 3 * 24 * 16};
 
 /* Two methods: a sample has light with this probability, and then the more. */
 static const double CHANCE[2] = {0.4, 0.1};
 
 /* From .02 to 1, and every ninth pixel beyond white. */
-static double expected(int i) { return i / 3 % 9 == 0 ? 2 : 0.02 * pow(50, (double)(i / 3) / (W * H)); }
-
-static void expect(float mean[VALUES])
+static void expect(struct size size, float mean[MOST])
 {
-    for (int i = 0; i < VALUES; i++)
-        mean[i] = (float)expected(i);
+    for (int i = 0; i < size.values; i++)
+        mean[i] = (float)(i / 3 % 9 == 0 ? 2 : 0.02 * pow(50, 3.0 * (i / 3) / size.values));
 }
 
-static void draw(struct rng *r, int method, int spp, float *out)
+/* How many of spp samples have light: the least k at which the distribution function is above u. */
+static int hits(double p, int spp, double u)
 {
-    for (int i = 0; i < VALUES; i += 3) {
-        int hits = 0;
-        for (int k = 0; k < spp; k++)
-            hits += rng_uniform(r) < CHANCE[method];
+    double term = pow(1 - p, spp);
+    int k = 0;
+    for (; k < spp && u >= term; k++) {
+        u -= term;
+        term *= p / (1 - p) * (spp - k) / (k + 1);
+    }
+    return k;
+}
+
+static void draw(struct rng *r, struct size size, const float *mean, int method, int spp, float *out)
+{
+    for (int i = 0; i < size.values; i += 3) {
+        double lit = hits(CHANCE[method], spp, rng_uniform(r)) / (CHANCE[method] * spp);
         for (int c = 0; c < 3; c++)
-            out[i + c] = (float)(expected(i) * hits / (CHANCE[method] * spp));
+            out[i + c] = (float)((double)mean[i + c] * lit);
     }
 }
 
 /* A reference by the second method, of two sides as reference_make has them. */
-static bool make_reference(struct test *t, struct rng *r, int spp, struct reference *out)
+static bool make_reference(struct test *t, struct rng *r, const float *mean, int spp, struct reference *out)
 {
     char name[300];
-    float pixels[VALUES];
+    float pixels[MOST];
     struct error err = {.text = ""};
     struct side side[2];
     struct provenance from = {"test", "here", 0, 0, NULL};
     for (int s = 0; s < 2; s++) {
-        side[s] = (struct side){"b", W, H, batches_new(BATCHES, VALUES, false)};
+        side[s] = (struct side){"b", LARGE.w, LARGE.h, batches_new(BATCHES, MOST, false)};
         for (int k = 0; k < BATCHES; k++) {
-            draw(r, 1, spp, pixels);
-            for (int i = 0; i < VALUES; i++)
-                side[s].pixels.value[VALUES * k + i] = (double)pixels[i];
+            draw(r, LARGE, mean, 1, spp, pixels);
+            for (int i = 0; i < MOST; i++)
+                side[s].pixels.value[MOST * k + i] = (double)pixels[i];
         }
     }
     snprintf(name, sizeof name, "%s/drawn", test_tmp(t));
@@ -61,81 +74,128 @@ static bool make_reference(struct test *t, struct rng *r, int spp, struct refere
     return ok;
 }
 
-/* Mean squared errors of both methods against what is expected. */
-static void measure_truth(struct rng *r, double truth[2][N_SQUARES])
+/* Mean squared errors of the first method over those of the second, against what is expected. */
+static void measure_truth(struct rng *r, struct size size, int n, double ratio[N_SQUARES])
 {
-    enum { MANY = 200 };
-    float mean[VALUES], x[VALUES];
-    double square[N_SQUARES];
-    expect(mean);
-    for (int n = 0; n < 2 * MANY; n++) {
-        draw(r, n % 2, SPP, x);
-        compare_squares(x, mean, mean, W, H, square);
+    float mean[MOST], x[MOST];
+    double square[N_SQUARES], sum[2][N_SQUARES] = {{0}};
+    expect(size, mean);
+    for (int i = 0; i < 2 * n; i++) {
+        draw(r, size, mean, i % 2, SPP, x);
+        compare_squares(x, mean, mean, size.w, size.h, square);
         for (int k = 0; k < N_SQUARES; k++)
-            truth[n % 2][k] += square[k] / MANY;
+            sum[i % 2][k] += square[k];
     }
+    for (int k = 0; k < N_SQUARES; k++)
+        ratio[k] = sum[0][k] / sum[1][k];
 }
 
-/* One measurement of the first method over the second against the reference. */
-static void measure_once(struct rng *r, struct scene_results *s)
+/* One measurement of both methods, of this many samples, against the reference. */
+static void measure_once(struct rng *r, struct size size, const float *mean, struct scene_results *s)
 {
-    float x[VALUES];
+    float x[MOST];
     for (int v = 0; v < 2; v++)
         for (int i = 0; i < s->plan->n_seeds; i++) {
             struct run *run = &s->run[v][i][0];
             run->spp = SPP;
-            draw(r, v, SPP, x);
-            compare_squares(x, s->reference.pixels, s->reference.pixels, W, H, run->square);
+            draw(r, size, mean, v, SPP, x);
+            compare_squares(x, s->reference.pixels, s->reference.pixels, size.w, size.h, run->square);
             for (int k = 0; k < N_SQUARES; k++)
                 run->square[k] -= s->reference.noise[k];
         }
 }
 
+/* A plan of two methods, and room for what is measured; both to be freed at once. */
+struct trial {
+    struct plan plan;
+    struct scene_results scene;
+};
+
+static struct trial *trial_new(int seeds)
+{
+    struct trial *out = mem_alloc(1, sizeof *out);
+    out->plan = (struct plan){.n_seeds = seeds, .n_scenes = 1, .n_steps = 1, .spp = {SPP}, .equal = true,
+                              .reference = "given"};
+    out->plan.methods.n = out->plan.n_compared = 2;
+    out->scene.plan = &out->plan;
+    for (int i = 0; i < 2 * seeds; i++)
+        out->scene.price[i % 2][i / 2] = (struct price){0, 1};
+    return out;
+}
+
 /* Of measurements against references of so many samples at most one in ten has an interval without the truth, whether
  * or not there are numbers; against clean ones there are. What references say of their own noise is true. */
-static void check(struct test *t, int seeds, int reference_spp, bool clean, const double ratio[N_SQUARES])
+static void check_noisy(struct test *t, int seeds, int reference_spp, bool clean, const double ratio[N_SQUARES])
 {
-    static const struct price price = {0, 1};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 880, (uint64_t)(100 * reference_spp + seeds));
-    struct plan p = {.n_seeds = seeds, .n_scenes = 1, .n_steps = 1, .spp = {SPP}, .equal = true, .reference = "given"};
-    struct scene_results *s = mem_alloc(1, sizeof *s);
+    struct trial *trial = trial_new(seeds);
+    struct reference *reference = &trial->scene.reference;
     int told[N_SQUARES] = {0}, wrong[N_SQUARES] = {0};
     double noise = 0, real = 0, square[N_SQUARES];
-    float mean[VALUES];
-    p.methods.n = p.n_compared = 2;
-    s->plan = &p;
-    for (int i = 0; i < 2 * seeds; i++)
-        s->price[i % 2][i / 2] = price;
-    expect(mean);
-    for (int n = 0; n < TRIALS && make_reference(t, &r, reference_spp, &s->reference); n++) {
-        measure_once(&r, s);
-        compare_squares(s->reference.pixels, mean, mean, W, H, square);
-        noise += s->reference.noise[SQUARE_MSE8] / TRIALS;
+    float mean[MOST];
+    expect(LARGE, mean);
+    for (int n = 0; n < TRIALS && make_reference(t, &r, mean, reference_spp, reference); n++) {
+        measure_once(&r, LARGE, mean, &trial->scene);
+        compare_squares(reference->pixels, mean, mean, LARGE.w, LARGE.h, square);
+        noise += reference->noise[SQUARE_MSE8] / TRIALS;
         real += square[SQUARE_MSE8] / TRIALS;
         for (int k = 0; k < N_SQUARES; k++) {
-            struct interval i = equal_ratio(s, 0, 1, (enum square)k);
+            struct interval i = equal_ratio(&trial->scene, 0, 1, (enum square)k);
             told[k] += isfinite(i.value);
             wrong[k] += i.low > ratio[k] || i.high < ratio[k];
         }
-        reference_free(&s->reference);
+        reference_free(reference);
     }
     for (int k = 0; k < N_SQUARES; k++)
         CHECK(t, wrong[k] <= TRIALS / 10 && (!clean || told[k] > TRIALS * 9 / 10), "%d seeds, a reference of %d "
               "samples: %d of %d measurements have %s, %d of them a wrong one", seeds,
               2 * BATCHES * reference_spp, told[k], TRIALS, EQUAL_NAMES[k], wrong[k]);
     CHECK(t, noise > real / 1.4 && noise < real * 1.4, "the reference's squared error is %g, not %g", noise, real);
-    free(s);
+    free(trial);
+}
+
+/* The probability that so many or more of n intervals miss, if each misses with 0.05. */
+static double miss_p(int wrong, int n)
+{
+    double sum = 0;
+    for (int k = wrong; k <= n; k++)
+        sum += exp(lgamma(n + 1.0) - lgamma(k + 1.0) - lgamma(n - k + 1.0) + k * log(0.05) + (n - k) * log(0.95));
+    return sum;
+}
+
+/* Against what is expected itself, intervals of five seeds hold the truth in 95 of 100 measurements, and no more than
+ * that: those of 92 of 100 are told apart. (Noise of references makes them wider.) */
+static void check_exact(struct test *t)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 882, 0);
+    struct trial *trial = trial_new(5);
+    int wrong[N_SQUARES] = {0}, n = MANY * test_effort(t);
+    double ratio[N_SQUARES];
+    float mean[MOST];
+    measure_truth(&r, SMALL, 1000, ratio);
+    expect(SMALL, mean);
+    trial->scene.reference.pixels = mean;
+    for (int i = 0; i < n; i++) {
+        measure_once(&r, SMALL, mean, &trial->scene);
+        for (int k = 0; k < N_SQUARES; k++) {
+            struct interval x = equal_ratio(&trial->scene, 0, 1, (enum square)k);
+            wrong[k] += !(x.low <= ratio[k] && x.high >= ratio[k]);
+        }
+    }
+    for (int k = 0; k < N_SQUARES; k++)
+        TEST_ACCEPT(t, miss_p(wrong[k], n), "%d of %d intervals of %s miss the truth", wrong[k], n, EQUAL_NAMES[k]);
+    TEST_REJECT(t, miss_p(MANY * 8 / 100, MANY), "of %d intervals 8 %% miss the truth", MANY);
+    free(trial);
 }
 
 void test_coverage(struct test *t)
 {
-    double truth[2][N_SQUARES] = {{0}}, ratio[N_SQUARES];
+    double ratio[N_SQUARES];
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 881, 0);
-    measure_truth(&r, truth);
-    for (int k = 0; k < N_SQUARES; k++)
-        ratio[k] = truth[0][k] / truth[1][k];
-    check(t, 2, 2, false, ratio); /* as noisy as what is measured */
-    check(t, 5, 2, false, ratio);
-    check(t, 2, 40, true, ratio);
-    check(t, 5, 40, true, ratio);
+    measure_truth(&r, LARGE, 200, ratio);
+    check_noisy(t, 2, 2, false, ratio); /* as noisy as what is measured */
+    check_noisy(t, 5, 2, false, ratio);
+    check_noisy(t, 2, 40, true, ratio);
+    check_noisy(t, 5, 40, true, ratio);
+    check_exact(t);
 }

@@ -1,4 +1,4 @@
-/* test_render.c: whole renders: radiance in closed form, tiles, blocks, stopping, crop windows. */
+/* test_render.c: whole renders: radiance in closed form, tiles, blocks, stopping, crop windows, borders. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -328,6 +328,51 @@ static void test_crop(struct test *t)
     scene_free(&scene);
 }
 
+/* --- the border of the film --------------------------------------------------------------------------- */
+
+/* A wall that a spot light shines on, far beyond the film. */
+static const char BORDER[] =
+    "LookAt 0 0 -3  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 60 PixelFilter \"gaussian\"\n"
+    "Film \"image\" \"integer xresolution\" 6 \"integer yresolution\" 6 WorldBegin\n"
+    "LightSource \"spot\" \"point from\" [0.1 0.2 -3] \"point to\" [0.1 0.2 0] \"float coneangle\" 50\n"
+    "Material \"matte\" " QUAD("-9 -9 0  9 -9 0  9 9 0  -9 9 0") "WorldEnd\n";
+
+/* The outermost pixels of one side of the film: every k-th, and how many are left out before. */
+static struct batches side_of(const struct batches *all, int first, int step)
+{
+    struct batches out = batches_new(all->n_batches, 1, false);
+    int side = (int)(sqrt((double)all->n / 3) + 0.5);
+    for (int b = 0; b < all->n_batches; b++)
+        for (int i = 0; i < side; i++)
+            out.value[b] += all->value[b * all->n + 3 * (first + i * step)] / side;
+    return out;
+}
+
+/* A filter wider than a pixel collects what arrives beside the film. The path tracer draws its rays there, light
+ * sub-paths are projected there. */
+static void test_border(struct test *t)
+{
+    enum { SIZE = 6 };
+    static const struct {
+        const char *name;
+        int first, step;
+    } SIDES[] = {{"left", 0, SIZE}, {"right", SIZE - 1, SIZE}, {"upper", 0, 1}, {"lower", SIZE * (SIZE - 1), 1}};
+    struct scene scene;
+    if (!scene_from_text(t, BORDER, &scene))
+        return;
+    struct batches pt = render_batches(t, &scene, "pt", 1, 64, 16, 1, 35);
+    struct batches lt = render_batches(t, &scene, "lt", 1, 512, 16, 1, 36);
+    for (size_t i = 0; i < sizeof SIDES / sizeof SIDES[0]; i++) {
+        struct batches a = side_of(&lt, SIDES[i].first, SIDES[i].step);
+        struct batches b = side_of(&pt, SIDES[i].first, SIDES[i].step);
+        check_agree(t, &a, &b, false, -0.02, "lt against pt, %s border of the film", SIDES[i].name);
+        batches_free(&b);
+    }
+    batches_free(&pt);
+    batches_free(&lt);
+    scene_free(&scene);
+}
+
 void test_render(struct test *t)
 {
     all_see(t, EMPTY, rgb_make(.25, .5, .75));
@@ -342,4 +387,5 @@ void test_render(struct test *t)
     test_negative_lobes(t);
     test_roulette_defaults(t);
     test_crop(t);
+    test_border(t);
 }

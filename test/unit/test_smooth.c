@@ -95,10 +95,40 @@ static void check_degenerate_uv(struct test *t)
     geometry_free(&geo);
 }
 
+/* A triangle as a scene has it, and as a file has it. */
+static void check_rows(struct test *t)
+{
+    static const double P[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, uv[] = {0, 0, 1, 0, 0, 1}, indices[] = {0, 1, 2};
+    static const char *const ROWS[] = {"trianglemesh", "plymesh"};
+    const char *path = "test/data/fixtures/parts/triangle.ply";
+    const struct field_list points = {P, 3}, corners = {indices, 1}, parameters = {uv, 3};
+    for (int i = 0; i < 2; i++) {
+        struct shape_fields f = shape_fields_of(ROWS[i]);
+        struct mesh m;
+        struct error err = {.text = ""};
+        if (i == 0) {
+            shape_fields_set(&f, "P", &points, sizeof points);
+            shape_fields_set(&f, "indices", &corners, sizeof corners);
+            shape_fields_set(&f, "uv", &parameters, sizeof parameters);
+        } else {
+            shape_fields_set(&f, "filename", &path, sizeof path);
+        }
+        bool ok = CHECK(t, shape_fields_mesh(&f, 1e4, &m, &err), "%s: %s", ROWS[i], err.text);
+        ok = ok && CHECK(t, m.n_vertices == 3 && m.n_triangles == 1 && m.UV != NULL, "%s: %d points, %d triangles",
+                         ROWS[i], m.n_vertices, m.n_triangles);
+        for (size_t k = 0; ok && k < 3; k++)
+            CHECK(t, near3(m.P[k], vec(P[3 * k], P[3 * k + 1], P[3 * k + 2]), 0) && m.index[k] == k &&
+                      (double)m.UV[2 * k] == uv[2 * k] && (double)m.UV[2 * k + 1] == uv[2 * k + 1],
+                  "%s: corner %d", ROWS[i], (int)k);
+        mesh_free(&m);
+    }
+}
+
 void test_smooth(struct test *t)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 102, 1);
     check_vertex_normals(t, &r);
     check_vertex_tangents(t, &r);
     check_degenerate_uv(t);
+    check_rows(t);
 }

@@ -45,6 +45,7 @@ static void test_arithmetic(struct test *t)
     int a = texture_add_constant(&set, rgb_make(0.2, 0.4, 0.8)), b = texture_add_constant(&set, rgb_make(3, 2, 1));
     int scale = add_pair(&set, TEXTURE_SCALE, a, b, IDENTITY), mix = add_pair(&set, TEXTURE_MIX, a, b, IDENTITY);
     int nested = add_pair(&set, TEXTURE_SCALE, mix, scale, IDENTITY);
+    CHECK(t, set.texture[a].kind == TEXTURE_CONSTANT, "a texture of one value has kind %d", (int)set.texture[a].kind);
     const struct {
         int id;
         rgb want;
