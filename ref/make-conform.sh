@@ -57,15 +57,16 @@ constant() {
     grey "$work/constant.pfm" "$2"
 }
 
-for file; do
-    name=$(basename "$file" .pbrt)
+# one FILE: the references of a scene.
+one() {
+    name=$(basename "$1" .pbrt)
     file=scenes/conform/$name.pbrt
     depth=$(sed -n 's/^Integrator .*maxdepth" //p' "$file")
     case $name in mirror-sun | glass-sun | caustic) other=lt ;; *) other=pt ;; esac
     render "$work/$name-bdpt" 1000 bdpt 512 "$file"
     render "$work/$name-other" 2000 $other 512 "$file"
     "$lab" verify "$file" --files "$work/$name-bdpt"-*.pfm --against "$work/$name-other"-*.pfm --store "$work/$name" \
-        >"$work/$name.said" || { cat "$work/$name.said"; exit 1; }
+        >"$work/$name.said" || { cat "$work/$name.said" >&2; exit 1; }
     grey "$work/$name.pfm" "$out/$name.pfm"
     grey "$work/$name.error.pfm" "$out/$name.error.pfm"
     closed=$(sed -n 's/^# closed form: //p' "$file")
@@ -92,5 +93,11 @@ for file; do
     awk -v name="$name" '$1 == "mean" { mean = $2 } $1 == "mean_error" { error = $2 } $1 == "agreement" { p = $3 + 0 }
         END { printf "%-14s mean %.6g  relative error %.2g  p of the agreement %.2g\n", name, mean, error, p }' "$work/$name.txt" \
         >"$work/$name.made"
-done
+}
+rm -f "$work/all"
+{
+    for file; do one "$file"; echo "$name"; done
+    : >"$work/all" # none had an error
+} | "$lab" progress --parts $#
+[ -f "$work/all" ]
 cat "$work"/*.made >"$out/made.txt"

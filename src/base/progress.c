@@ -52,11 +52,16 @@ void progress_update(struct progress *p, double done)
     char left[32];
     progress_duration(seconds, left, sizeof left);
     int bar = p->note[0] != '\0' ? BAR / 4 : BAR;
+    int n = 0; /* columns */
     if (p->bar)
-        fprintf(stderr, "\r[%-*.*s] ", bar, (int)(done * bar), "====================");
+        n = fprintf(stderr, "\r[%-*.*s] ", bar, (int)(done * bar), "====================") - 1;
     bool known = seconds < INFINITY;
-    fprintf(stderr, "%3d %%%s%s%s%s%s", (int)(done * 100), p->note, known ? ", " : "", known ? left : "",
-            known ? " left" : "", p->bar ? "      " : "\n");
+    n += fprintf(stderr, "%3d %%%s%s%s%s", (int)(done * 100), p->note, known ? ", " : "", known ? left : "",
+                 known ? " left" : "");
+    if (p->bar)
+        fprintf(stderr, "%*s", n < COLUMNS ? COLUMNS - 1 - n : 0, ""); /* over what is left of a longer line */
+    else
+        fputs("\n", stderr);
     fflush(stderr);
 }
 

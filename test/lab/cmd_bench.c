@@ -9,6 +9,7 @@
 
 #include "base/mem.h"
 #include "base/os.h"
+#include "lab/bar.h"
 #include "lab/commands.h"
 #include "lab/methods.h"
 #include "lab/rays.h"
@@ -16,6 +17,10 @@
 #include "parser/parser.h"
 #include "render/job.h"
 #include "render/render.h"
+
+/* What is measured one after the other, and about how much of the time a scene's take. */
+enum part { RAYS, RENDER_PT, RENDER_BDPT, RENDER_ASBDPT, RENDER_BY_ALL, N_PARTS };
+static const double SHARES[N_PARTS] = {0.2, 0.1, 0.2, 0.3, 0.2};
 
 enum measure { LOAD, BUILD, TRIANGLES, CLOSEST, ANY, PT, BDPT, ASBDPT, GAIN, MEMORY, N_MEASURES };
 
@@ -37,6 +42,7 @@ static const struct {
 struct bench_options {
     struct texts scenes;
     int spp, max_depth, n_threads;
+    struct bar bar;
 };
 
 #define AT(member) offsetof(struct bench_options, member)
@@ -79,12 +85,13 @@ static void measure_rays(const struct scene *s, double *value)
 
 /* --- whole renders ------------------------------------------------------------------------------------ */
 
-static bool render_once(const struct scene *s, const struct bench_options *o, const char *integrator, int n_threads,
-                        double *cpu, struct error *err)
+static bool render_once(const struct scene *s, struct bench_options *o, enum part part, const char *integrator,
+                        int n_threads, double *cpu, struct error *err)
 {
     struct render_options options = {
         .integrator = method_of(s, integrator), .end = o->spp, .max_depth = o->max_depth, .n_threads = n_threads};
     struct timed took;
+    bar_follow(&o->bar, SHARES[part] / o->scenes.n, &options);
     if (!timed_render(s, &options, &took, err))
         return false;
     free(took.pixels);
@@ -92,16 +99,16 @@ static bool render_once(const struct scene *s, const struct bench_options *o, co
     return true;
 }
 
-static bool measure_renders(const struct scene *s, const struct bench_options *o, double *value, struct error *err)
+static bool measure_renders(const struct scene *s, struct bench_options *o, double *value, struct error *err)
 {
     static const char *const NAMES[] = {METHODS_BENCH};
     double paths = (double)o->spp * rect_width(render_crop(s)) * rect_height(render_crop(s)), all;
     for (int i = 0; i < 3; i++) {
-        if (!render_once(s, o, NAMES[i], 1, &value[PT + i], err))
+        if (!render_once(s, o, (enum part)(RENDER_PT + i), NAMES[i], 1, &value[PT + i], err))
             return false;
         value[PT + i] *= 1e6 / paths;
     }
-    if (!render_once(s, o, METHOD_REFERENCE, o->n_threads, &all, err))
+    if (!render_once(s, o, RENDER_BY_ALL, METHOD_REFERENCE, o->n_threads, &all, err))
         return false;
     value[GAIN] = o->n_threads * value[BDPT] / (1e6 / paths * all);
     return true;
@@ -120,7 +127,7 @@ static void shrink_film(struct scene *s)
 }
 
 /* scene_prepare does little besides building the tree; its time is what a user waits for. */
-static bool measure_scene(const char *path, const struct bench_options *o, double *value, struct error *err)
+static bool measure_scene(const char *path, struct bench_options *o, double *value, struct error *err)
 {
     struct scene scene;
     double start = os_cpu_seconds();
@@ -133,6 +140,7 @@ static bool measure_scene(const char *path, const struct bench_options *o, doubl
     scene_prepare(&scene);
     value[BUILD] = os_cpu_seconds() - start;
     value[TRIANGLES] = scene.geo.n_triangles;
+    bar_part(&o->bar, SHARES[RAYS] / o->scenes.n);
     measure_rays(&scene, value);
     bool ok = measure_renders(&scene, o, value, err);
     scene_free(&scene);
@@ -142,11 +150,14 @@ static bool measure_scene(const char *path, const struct bench_options *o, doubl
 
 static int run(void *options)
 {
-    const struct bench_options *o = options;
+    struct bench_options *o = options;
     struct error err;
+    bar_start(&o->bar, false);
     for (int i = 0; i < o->scenes.n; i++) {
         double value[N_MEASURES];
-        if (!measure_scene(o->scenes.item[i], o, value, &err))
+        bool ok = measure_scene(o->scenes.item[i], o, value, &err);
+        bar_clear(&o->bar);
+        if (!ok)
             return fail(&err);
         printf("%s\n", o->scenes.item[i]);
         for (int m = 0; m < N_MEASURES; m++)

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/mem.h"
 #include "base/os.h"
+#include "base/progress.h"
 #include "lab/commands.h"
 #include "lab/conform.h"
 #include "lab/stats.h"
@@ -252,12 +253,18 @@ static bool conform(struct kit *kit, struct error *err)
     if (kit->n_there == 0)
         return error_set(err, "%s: holds no picture of the kit's scenes, such as %s.pfm or %s-1.pfm", kit->o->directory,
                          kit->scene[0].name, kit->scene[0].name);
+    struct progress bar;
+    int n_judged = 0;
+    progress_start(&bar, false);
     kit->level = stats_sidak(kit->o->alpha, 1.0 / kit->n_there);
     printf("%-14s %-11s %-20s %-8s %s\n", "scene", "pictures", "ratio of the means", "p", "verdict");
     for (struct scene_entry *s = kit->scene; s < kit->scene + kit->n; s++) {
         if (s->pictures.pixels.n_batches == 0)
             continue;
-        if (!judge_scene(kit, s, err))
+        progress_update(&bar, (double)n_judged++ / kit->n_there);
+        bool ok = judge_scene(kit, s, err);
+        progress_end(&bar);
+        if (!ok)
             return false;
         print_scene(s);
     }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "cli/job_options.h"
+#include "lab/bar.h"
 #include "lab/files.h"
 #include "lab/commands.h"
 #include "lab/pyramid.h"
@@ -63,11 +64,15 @@ static int run(void *options)
     struct scene scene;
     struct job job;
     struct error err;
+    struct bar bar;
     int status = load_job(&o->job, &scene, &job);
     if (status != EXIT_OK)
         return status;
+    bar_start(&bar, o->job.quiet);
+    bar_follow(&bar, 1, &job.options);
     bool ok = file_make_directory(o->directory, &err) &&
               render(&scene, job.options, o->directory, &err);
+    bar_clear(&bar);
     job_free(&job);
     scene_free(&scene);
     if (ok && !o->job.quiet)

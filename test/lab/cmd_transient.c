@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "cli/job_options.h"
 #include "image/image.h"
+#include "lab/bar.h"
 #include "lab/compare.h"
 #include "lab/files.h"
 #include "lab/commands.h"
@@ -89,16 +90,20 @@ static int run(void *options)
     struct gates gates = {o->range[0], (o->range[1] - o->range[0]) / o->n, o->n};
     struct scene scene;
     struct job job;
+    struct bar bar;
     struct error err;
     int status = load_job(&o->job, &scene, &job);
     if (status != EXIT_OK)
         return status;
+    bar_start(&bar, o->job.quiet);
+    bar_follow(&bar, 1, &job.options);
     struct pixel_rect r = render_crop(&scene);
     if (!(o->range[1] > 0))
         choose_range(&scene, &gates);
     bool ok = file_make_directory(o->directory, &err);
     float *pictures = ok ? render(&scene, &job.options, gates, &err) : NULL;
     ok = pictures != NULL && write_all(o->directory, gates, pictures, rect_width(r), rect_height(r), &err);
+    bar_clear(&bar);
     free(pictures);
     job_free(&job);
     scene_free(&scene);

@@ -5,7 +5,7 @@
 #   picture SCENE NUMBER FILE.pfm   one picture with a seed of its own; a scene that cannot be said makes none
 out=${1:?where the pictures go} method=${2:?the name of a method} pictures=${3:-8} spp=${4:-64}
 [ $# -gt 4 ] && shift 4 || set -- $(sed '/^#/d; s/ .*//' ref/conform/list.txt)
-names=$*
+names=$* lab=${LAB:-./asbdpt-lab}
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 # need PROGRAM: ends here, with a line, if there is none.
@@ -13,10 +13,15 @@ need() { command -v "$1" >/dev/null || { echo "skipped: $(basename "$0" .sh): no
 kit() {
     mkdir -p "$out"
     out=$(cd "$out" && pwd)
-    for name in $names; do
+    # shellcheck disable=SC2086
+    set -- $names
+    for name; do
+        none=
         for k in $(seq "$pictures"); do
-            [ -f "$out/$name-$k.pfm" ] || picture "$name" "$k" "$out/$name-$k.pfm" >>"$work/said" 2>&1 || break
+            [ -n "$none" ] || [ -f "$out/$name-$k.pfm" ] ||
+                picture "$name" "$k" "$out/$name-$k.pfm" </dev/null >>"$work/said" 2>&1 || none=yes
+            echo "$name"
         done
-    done
-    "${LAB:-./asbdpt-lab}" conform "$out"
+    done | "$lab" progress --parts $(($# * pictures))
+    "$lab" conform "$out"
 }

@@ -1,0 +1,36 @@
+#!/bin/sh
+# progress.sh PROGRAM: what may take long shows on a terminal how far it is, on stderr. In a file there is no bar.
+. test/run/expect.sh
+export program lab box
+mkdir test
+for name in ref scenes test/measure; do ln -s "$top/$name" $name; done
+terminal=yes
+script -qec true typescript >/dev/null 2>&1 </dev/null || terminal= # util-linux has it so
+[ -n "$terminal" ] || echo "skipped: bars on a terminal (no such command: script -qec)"
+
+# bars PATTERN COMMAND: its bar moves, and its lines end so (extended regular expression).
+bars() {
+    bar="^\\[=* *\\] +[1-9][0-9]* %$1 *\$"
+    echo "$2" >run.sh
+    sh run.sh >stdout.txt 2>stderr.txt </dev/null || fault "$2 ends with $?: $(cat stderr.txt)"
+    ! tr '\r' '\n' <stderr.txt | grep -q '^\[=* *\]' || fault "$2 has a bar in a file"
+    [ -n "$terminal" ] || return 0
+    script -qec 'sh run.sh >stdout.txt' typescript >/dev/null </dev/null || fault "$2 ends with $?: $(cat typescript)"
+    tr '\r' '\n' <typescript | grep -Eq "$bar" || fault "$2 shows no bar that ends in $1: $(cat typescript)"
+    ! tr '\r' '\n' <stdout.txt | grep -Eq "$bar" || fault "$2 has a bar in its standard output"
+}
+left='(, [0-9]+ (s|min.*) left)?'
+bars "$left" '"$program" render "$box" --res 120 --spp 16 -o box.pfm'
+bars "$left" '"$lab" strategies "$box" --res 96 --spp 32 --maxdepth 3 -o strategies'
+bars "$left" '"$lab" transient "$box" --res 96 --spp 32 -o flight'
+bars "$left" '"$lab" bench "$box" --spp 2'
+bars ", (area|mirror)$left" 'rm -rf shown; PROGRAM=$lab LAB=$lab sh test/measure/conform/ours.sh shown bdpt 4 16 area mirror'
+bars "$left" '"$lab" conform ref/conform || [ $? = 1 ]' # of all scenes; their tests are for pictures with noise
+bars ", second, [0-9]+ s left" '{ echo first; sleep 3; echo second; } | "$lab" progress --parts 3'
+# What must not pass.
+if [ -n "$terminal" ]; then
+    bars "$left" '"$lab" strategies "$box" --quiet --res 96 --spp 32 --maxdepth 3 -o strategies' >told.txt
+    [ $failures -gt 0 ] && grep -q 'shows no bar' told.txt && failures=$((failures - 1)) || fault "no bar is not noticed"
+fi
+[ $failures -eq 0 ] && echo "progress: all as expected"
+[ $failures -eq 0 ]
