@@ -302,7 +302,7 @@ function inspect(tries = 0) {
 
 // What the trace says, in words for who sees one for the first time; '' if it says something else.
 function tale(out) {
-  const walk = name => (new RegExp(`^The ${name} walk: +(.*): \\d+ vert`, 'm').exec(out) || [])[1];
+  const walk = name => (new RegExp(`^The ${name} sub-path: +(.*): \\d+ vert`, 'm').exec(out) || [])[1];
   const met = things => things.length > 0 ? `meets ${things.length} surface${things.length > 1 ? 's' : ''}: ${things.join(', ')}` :
     'meets nothing';
   const eye = walk('eye'), light = walk('light'), tried = /: (\d+) tried, (\d+) brought light/.exec(out);

@@ -11,6 +11,7 @@
 #include "base/mem.h"
 #include "base/near.h"
 #include "base/version.h"
+#include "integrators/race.h"
 #include "render/job.h"
 
 /* --- messages ----------------------------------------------------------------------------------------- */
@@ -57,6 +58,19 @@ static void print_parameters(const struct field *p)
     }
 }
 
+/* What the parameter `race` is about. */
+static void print_runners(void)
+{
+    printf("\nrunners\n    ");
+    print_wrapped("With race=on, ways to render compete before the render: the runners. From samples that no image uses, "
+                  "asbdpt predicts the variance of each, and the price of its samples. The runner with the least variance "
+                  "times price renders. asbdpt-lab info --race SCENE.pbrt shows the predictions.", 4, 4);
+    for (int i = 0; i < MAX_RUNNERS; i++) {
+        printf("    %-20s ", runner_kinds[i].name);
+        print_wrapped(runner_kinds[i].help, 25, 25);
+    }
+}
+
 /* Rows of the table with the same name are one integrator, and as many selections. */
 static void print_integrators(void)
 {
@@ -77,6 +91,7 @@ static void print_integrators(void)
         if ((*m)->own != NULL)
             print_parameters((*m)->own);
     }
+    print_runners();
 }
 
 static void print_help(void)

@@ -242,6 +242,13 @@ bool race_path_tracer_sees_all(const struct scene *scene)
     return !(delta_light && delta_lobe);
 }
 
+const struct runner_kind runner_kinds[MAX_RUNNERS] = {
+    {"all", "as the parameters say: pathpixels, connections, later, lightpoints"},
+    {"quarter", "a light sub-path for four times as many pixels"},
+    {"quarter_first", "so, too; one light vertex for each eye vertex that the camera sees, none for others"},
+    {"guided", "no light sub-paths: path tracing that has learnt which lights matter where"},
+    {"plain", "no light sub-paths: path tracing that chooses lights by power"}};
+
 /* The first COMPLETE runners make every path that the method can make. The others lack strategies: a path tracer must
  * see the light that these would bring. */
 static void add_runners(const struct scene *scene, struct prepared *p)

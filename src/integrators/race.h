@@ -29,6 +29,12 @@
 
 #include "integrators/method.h"
 
+/* The runners that there are, as `info --race` calls them, and what each is for users. */
+struct runner_kind {
+    const char *name, *help;
+};
+extern const struct runner_kind runner_kinds[MAX_RUNNERS];
+
 /* race: add the runners to *p, which is prepared for the first, with what is predicted of them, and choose the winner.
  * If job->watch ends the race, the first wins. */
 void race(const struct render_job *job, struct prepared *p);

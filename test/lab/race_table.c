@@ -13,7 +13,7 @@ struct race_result race_result(const struct prepared *p)
 /* "quarter" of "race_quarter". */
 static const char *name(const struct runner *k) { return strchr(k->name, '_') + 1; }
 
-/* Error times price, over the winner's. */
+/* Variance times price, over the winner's. */
 static double relative_cost(const struct race_result *r, const struct runner *k)
 {
     const struct runner *winner = &r->runner[r->winner];
@@ -22,10 +22,11 @@ static double relative_cost(const struct race_result *r, const struct runner *k)
 
 void race_print_winner(FILE *f, const struct race_result *r)
 {
-    const char *before = "; of others, in its units:";
+    const char *before = "\n  That of the others, over its own:";
     if (r->n == 0 || !(r->runner[r->winner].price > 0))
         return;
-    fprintf(f, "RACE: \"%s\" runs, of the least predicted error times price", name(&r->runner[r->winner]));
+    fprintf(f, "RACE: the runner %s renders, because it has the least predicted variance times price.",
+            name(&r->runner[r->winner]));
     for (int i = 0; i < r->n; i++)
         if (i != r->winner) {
             fprintf(f, "%s %s %.3g", before, name(&r->runner[i]), relative_cost(r, &r->runner[i]));
@@ -39,7 +40,7 @@ void race_print_table(FILE *f, const struct race_result *r)
     fprintf(f, "race          %d runners\n", r->n);
     if (r->n > 0)
         fprintf(f, "  %-14s %8s %6s %6s %12s %10s %8s %8s\n", "runner", "at first", "later", "points", "pixels each",
-                "error", "price", "product");
+                "variance", "price", "product");
     for (int i = 0; i < r->n; i++) {
         const struct runner *k = &r->runner[i];
         const struct numbers *n = &k->numbers;
@@ -57,7 +58,7 @@ void race_print_table(FILE *f, const struct race_result *r)
     }
     if (r->n > 0)
         fputs("  at first, later: light vertices for an eye vertex; points: light points at a first hit; pixels each:\n"
-              "  for a light sub-path; error: predicted variance, relative to brightness, of all samples of the race;\n"
-              "  product: error times price, over that of the chosen one\n",
+              "  for a light sub-path; variance: predicted, relative to brightness, of all samples of the race;\n"
+              "  product: variance times price, over that of the chosen one\n",
               f);
 }

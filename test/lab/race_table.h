@@ -15,7 +15,7 @@ struct race_result {
 };
 struct race_result race_result(const struct prepared *p);
 
-/* race_print_winner: one line; nothing if there was no race, or if it was cut short.
+/* race_print_winner: who, and the others; nothing if there was no race, or if it was cut short.
  * race_print_table: a line for each runner. */
 void race_print_winner(FILE *f, const struct race_result *r);
 void race_print_table(FILE *f, const struct race_result *r);

@@ -55,16 +55,16 @@ void trace_tell(FILE *f, const struct trace_story *s, bool all)
     }
     fprintf(f, "%s, pixel %d,%d, sample %ld: %s, seed %llu\n", s->scene_path, t->x, t->y, t->iteration,
             s->integrator->name, (unsigned long long)s->seed);
-    fputs("The eye walk:  ", f);
+    fputs("The eye sub-path:  ", f);
     print_walk(f, s->scene, &t->eye);
     if (t->n_lights > 0 && t->light[0].n > 0) {
-        fputs("The light walk:", f);
+        fputs("The light sub-path:", f);
         print_walk(f, s->scene, &t->light[0]);
     }
     if (t->n_lights > 1)
-        fprintf(f, "  and %d light walks more.\n", t->n_lights - 1);
+        fprintf(f, "  and %d light sub-path%s more.\n", t->n_lights - 1, t->n_lights > 2 ? "s" : "");
     if (t->why != NULL)
-        fprintf(f, "CHOICE of what to connect with: %s\n", t->why);
+        fprintf(f, "CHOICE of what to connect with: %s.\n", t->why);
     race_print_winner(f, &t->race);
     fprintf(f, "Strategies (s,t) join s light and t eye vertices: %d tried, %d brought light to the pixel%s\n",
             tried[0], bright[0], bright[0] > TOLD ? ", most of all:" : bright[0] > 0 ? ":" : ".");

@@ -190,7 +190,7 @@ void trace_text(FILE *f, const struct trace_story *s)
     fprintf(f, "\n(s,t): a path of s vertices from the light, y_0 ... y_{s-1}, and t from the eye, z_{t-1} ... z_0.\n");
     print_paths(f, s);
     if (t->why != NULL)
-        fprintf(f, "\nCHOICE of what to connect with: %s\n", t->why);
+        fprintf(f, "\nCHOICE of what to connect with: %s.\n", t->why);
     for (const struct method_number *n = t->number; n->name != NULL; n++)
         fprintf(f, "  chosen: %s %.3g\n", n->name, n->value);
     fprintf(f, "\nCONNECTIONS, t >= 2: C* times the next two columns is added to the pixel\n");

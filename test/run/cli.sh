@@ -386,6 +386,11 @@ printf 'WorldBegin Translate 5 6 7 Material "none" AreaLightSource "diffuse" Sha
 prints 'bounds  *(4, 5, 6) to (6, 7, 8)' \
     "$lab" info lamp.pbrt # bounds are those of the surfaces that rays pass through, too
 prints '  chosen$' "$lab" info "$box" --res 24 --race
+# Every runner is explained: help has those of the race, in their order.
+sed -n '/^  runner /,/^  at first/s/^  \([a-z_]*\)  *[0-9].*/\1/p' stdout.txt >runners.txt
+check [ "$(wc -l <runners.txt)" -eq 5 ]
+expect 0 '' "$program" help integrators
+check [ "$(sed -n '/^runners$/,$s/^    \([a-z_][a-z_]*\)    *[a-z].*/\1/p' stdout.txt)" = "$(cat runners.txt)" ]
 expect 2 'pt has no race' "$lab" info "$box" --res 24 --race --integrator pt
 
 # --- trace
@@ -415,7 +420,22 @@ check awk '/<svg x=/ { n = 0 }
 prints '^CHOICE of what to connect with: ' "$lab" trace "$box" $one --spp 4 --brightest -P select=vertices \
     --integrator asbdpt --all
 check grep -Eq '^  \([2-9],[2-9]\) +y_[0-9(]+\)? - z_[0-9] +0\.' stdout.txt # with its probability
-prints '^RACE: "[a-z_]*" runs, ' "$lab" trace "$box" $one --integrator asbdpt
+prints '^RACE: the runner [a-z_]* renders, ' "$lab" trace "$box" $one --integrator asbdpt
+
+# How a method chooses is said in the words of the page that renders.
+awk -F "'" '/^const ABOUT = / { on = 1 }
+    on { for (i = 2; i < NF; i += 2) { gsub(/[^a-z0-9]/, "", $(i - 1)); print $(i - 1), $i } }
+    on && /};/ { exit }' "$top/doc/web/page.js" >about.txt
+told=0
+while read -r name about; do
+    case $name in subspaces | vertices | pool | bins) set -- asbdpt -P select=$name ;; *) set -- $name ;; esac
+    "$lab" trace "$box" $one --spp 4 --integrator "$@" 2>/dev/null </dev/null |
+        sed -n 's/^CHOICE of what to connect with: //p' >choice.txt
+    [ -s choice.txt ] || continue
+    echo "$about" | grep -Fiq -e "$(cat choice.txt)" || fault "the page says \"$about\" of $name, trace $(cat choice.txt)"
+    told=$((told + 1))
+done <about.txt
+check [ $told -ge 12 ]
 
 # --- worth
 # worth: what was learnt, as a picture.
