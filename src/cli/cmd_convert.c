@@ -39,4 +39,4 @@ static int run(void *options)
 const struct command command_convert = {
     "convert", "write an image in other formats", {"IN -o FILE... [options]"}, OPTIONS, sizeof(struct convert_options),
     run, false,
-    "convert image.exr -o image.png --exposure 1 --tonemap filmic"};
+    "convert ref/bathroom.pfm -o out/bathroom.png --exposure 1 --tonemap filmic"};

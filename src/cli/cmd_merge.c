@@ -162,4 +162,4 @@ static int run(void *options)
 const struct command command_merge = {
     "merge", "add up parts of an image's samples", {"PART... -o FILE... [options]"}, OPTIONS,
     sizeof(struct merge_options), run, false,
-    "merge 0.part 1.part -o image.exr"};
+    "merge out/0.part out/1.part -o out/image.exr"};

@@ -127,4 +127,4 @@ static int run(void *options)
 const struct command command_compare = {
     "compare", "how far apart two pictures are", {"IMAGE REFERENCE [options]"}, OPTIONS,
     sizeof(struct compare_options), run, true,
-    "compare picture.pfm reference.pfm --max-rmse 0.01"};
+    "compare doc/bathroom-bdpt.png doc/bathroom-asbdpt.png --heatmap out/heat.png"};

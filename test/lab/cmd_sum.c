@@ -97,4 +97,4 @@ static int run(void *options)
 
 const struct command command_sum = {
     "sum", "add up images, each times a weight", {"IN... -o FILE... [options]"}, OPTIONS, sizeof(struct sum_options),
-    run, false, "sum out/light00_infinite.pfm out/light01_distant.pfm --weights 3,0.2 -o out/cloudy.png"};
+    run, false, "sum out/forest/light00_infinite.pfm out/forest/light01_distant.pfm --weights 3,0.2 -o out/cloudy.png"};

@@ -101,17 +101,20 @@ bool worth_values(const struct scene *scene, const struct render_options *option
                   float *draws, struct error *err)
 {
     struct view v = {.worth = worth, .draws = draws};
-    struct prepared prepared;
-    struct pixel_rect all = {0, 0, scene->width, scene->height};
-    if (!render_prepare(scene, options, all, &v.job, &prepared, err))
+    struct job job;
+    if (!job_settle(scene, options, &job, err))
         return false;
-    v.counts = prepared.counts;
+    job.state.film_rect = (struct pixel_rect){0, 0, scene->width, scene->height};
+    job.prepared.parameters.race = 0; /* which may choose a path tracer, that has no pairs */
+    job_prepare(&job);
+    v.job = job.state;
+    v.counts = job.prepared.counts;
     v.light = mem_alloc((size_t)v.job.max_depth + 1, sizeof *v.light);
     v.work = workspaces_new(1, v.job.max_depth);
     bool ok = fill(&v, x, y, err);
     workspaces_free(v.work, 1);
     free(v.light);
-    method_release(&prepared);
+    job_free(&job);
     return ok;
 }
 

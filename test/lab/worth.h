@@ -8,7 +8,9 @@
  * The last two are coloured by their logarithm, over a factor of WORTH_RANGE below their largest value. A bar below
  * them shows the colours.
  *
- * Tests: test_pictures.c.
+ * Nothing of it depends on the race before a render, which is left out: a path tracer has learnt no pairs.
+ *
+ * Tests: test_pictures.c, test/run/examples.sh.
  */
 #ifndef ASBDPT_WORTH_H
 #define ASBDPT_WORTH_H
