@@ -150,7 +150,7 @@ static void report(const struct render_run *r)
     if (n > 0)
         snprintf(warnings, sizeof warnings, "; %ld warning%s about the scene", n, n > 1 ? "s" : "");
     if (!r->asked->quiet)
-        say_line("%s: %dx%d, %ld spp, %s%s; %.2f s, %.2f s of CPU, %.2f us per sample path%s", r->asked->scene_path,
+        say_line("%s: %dx%d, %ld spp, %s%s; %.2f s, %.2f s of CPU: %.2f us per sample path%s", r->asked->scene_path,
                  rect_width(film->rect), rect_height(film->rect), film->iterations, r->job.options.integrator->name,
                  other ? " (for asbdpt: --integrator asbdpt)" : "", r->wall, r->cpu, stats_us_per_path(r), warnings);
 }

@@ -76,11 +76,12 @@ struct sheet pictures_sheet(const struct scene_results *s)
     char text[100];
     sheet_init(&sheet, (p->n_compared + 1) * (s->width * k + COLUMN_GAP) + COLUMN_GAP,
                COLUMN_GAP + COLUMN_LABEL + 2 * (s->height * k + COLUMN_GAP), SHEET_PAPER);
-    draw_column(&sheet, p->n_compared, "reference", "noise", s->reference.noise8, s->reference.kind,
-                s->reference.pixels, s->width, s->height, k);
+    snprintf(text, sizeof text, "%s; rmse8 includes its noise", s->reference.kind);
+    draw_column(&sheet, p->n_compared, "reference", "noise", s->reference.noise8, text, s->reference.pixels, s->width,
+                s->height, k);
     for (int v = 0; v < p->n_compared; v++) {
         const struct run *last = &s->run[v][0][plan_last_step(p)];
-        snprintf(text, sizeof text, "%ld spp, %.1f s; 8x8 means %.1f", last->spp, last->value[Q_SECONDS],
+        snprintf(text, sizeof text, "%ld spp, %.1f s of CPU; 8x8 means %.1f", last->spp, last->value[Q_SECONDS],
                  compare_shown_blocks(s->image[v], s->reference.pixels, s->width, s->height));
         draw_column(&sheet, v, p->methods.item[v].label, "rmse8", last->value[Q_RMSE8], text, s->image[v], s->width,
                     s->height, k);

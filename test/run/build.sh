@@ -71,6 +71,18 @@ mv src/base/word.c word.c
 expect 2 'word' "${MAKE:-make}" CC="$cc"
 mv word.c src/base
 
+# make demo says the error that its picture shows, rmse8 of runs.csv, of which noise is known, and ends with what to open.
+mkdir -p ref/demo scenes
+echo 'noise8 1.79' >ref/demo/corridor.txt
+cat >measures.sh <<'END'
+mkdir -p out/demo/images && : >out/demo/images/corridor.png
+printf 'scene,method,seed,spp,seconds,rmse8,mean_error,mse8\ncorridor,bdpt,7,48,15.53,13.98,0.1,192.3\n' >out/demo/runs.csv
+END
+expect 0 '' "${MAKE:-make}" CC="$cc" LTO= demo LAB='sh measures.sh'
+says '^bdpt: 48 samples in 15.5 s of CPU, rmse8 14.0$' '^rmse8: .* the noise of the reference, 1.8, is part of it$'
+check [ "$(tail -n 1 stdout.txt)" = "wrote out/demo.png; curves: out/demo/report.html" ]
+check [ -e out/demo.png ]
+
 # How long lines, pages and the tree are is told by make tidy, which is no test.
 expect 0 '' "${MAKE:-make}" -n test
 check [ -z "$(grep -E 'tree_stats|words\.sh|columns' stdout.txt)" ]

@@ -2,9 +2,10 @@
 # readme.sh PROGRAM [DOCUMENT...]: the commands of the documents (README.md, CONTRIBUTING.md, doc/*.md,
 # doc/cluster/*.md, doc/tour/*.md, doc/mini/*.md) do what these say.
 # Run are all indented lines that begin as commands of this tree do, in order, in a scratch directory where the tree is
-# linked, so that they write nothing into it: each must end without an error. What follows a command in the same listing
-# is quoted from its output: each line but "..." must be there, letter by letter, and if one names the place of an error
-# in a file, the command must fail. Prints how long each took. Not run, and said so:
+# linked, so that they write nothing into it: each must end without an error, and leave nothing that git would show as
+# untracked. What follows a command in the same listing is quoted from its output: each line but "..." must be there,
+# letter by letter, and if one names the place of an error in a file, the command must fail. Prints how long each took.
+# Not run, and said so:
 #   - with a placeholder, a word of capitals such as SCENE or REF;
 #   - those of the list below.
 . test/run/expect.sh
@@ -32,6 +33,17 @@ why() {
     *) echo "$1" | grep -Eq '(^|[ /])[A-Z]{2,}([ ./]|$)|\.\.\.' && echo "placeholder" ;;
     esac
 }
+
+# left: is something new here, outside of out/ and of what make builds? Then it is named in left.txt, once.
+mkdir "$dir.seen" && trap 'rm -rf "$dir" "$dir.seen"' EXIT
+left() {
+    ls -A | grep -Evx 'out|build.*|asbdpt|asbdpt-lab|(commands|said|left|wrong)\.(txt|md)' >"$dir.seen/now"
+    comm -13 "$dir.seen/before" "$dir.seen/now" >left.txt
+    mv "$dir.seen/now" "$dir.seen/before"
+    [ ! -s left.txt ]
+}
+: >"$dir.seen/before"
+left
 
 # A line each: "$ COMMAND", and "> LINE" for what is quoted from its output.
 awk '
@@ -64,6 +76,7 @@ while IFS= read -r line; do
     fi
     start=$(date +%s)
     sh -c "$command" >said.txt 2>&1 </dev/null || status=$?
+    left || fault "$command leaves: $(cat left.txt)"
     n=$((n + 1))
     echo "$(($(date +%s) - start)) s: $command"
 done <commands.txt
@@ -81,6 +94,7 @@ if [ $all -gt 0 ]; then
 fi
 wrong '    ./asbdpt --version\n    asbdpt 0.0\n'
 wrong '    ./asbdpt --nothing\n'
+wrong '    ./asbdpt --version >mini\n'
 wrong '    ./asbdpt --version\n    asbdpt: a.pbrt:1:1: x\n'
 wrong 'nothing\n'
 [ $failures -eq 0 ] && [ $n -gt 10 ] && [ $quoted -gt 5 ]
