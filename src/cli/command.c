@@ -61,10 +61,10 @@ static void print_parameters(const struct field *p)
 /* What the parameter `race` is about. */
 static void print_runners(void)
 {
-    printf("\nrunners\n    ");
-    print_wrapped("With race=on, ways to render compete before the render: the runners. From samples that no image uses, "
-                  "asbdpt predicts the variance of each, and the price of its samples. The runner with the least variance "
-                  "times price renders. asbdpt-lab info --race SCENE.pbrt shows the predictions.", 4, 4);
+    printf("\n");
+    print_wrapped("Runners: with race=on, ways to render compete before the render. From samples that no image uses, "
+                  "asbdpt predicts the variance of each, and the price of its samples. The runner with the least "
+                  "variance times price renders. asbdpt-lab info --race SCENE.pbrt shows the predictions.", 0, 0);
     for (int i = 0; i < MAX_RUNNERS; i++) {
         printf("    %-20s ", runner_kinds[i].name);
         print_wrapped(runner_kinds[i].help, 25, 25);

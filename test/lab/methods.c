@@ -54,42 +54,44 @@ const char *method_why(const struct method *m)
         const char *name, *why;
     } REASONS[] = {
         {"bins", "one of a few kept light sub-paths, as in the dissertation.\n"
-                 "  A bin of the pixel has two, of which one is taken with probability beta_e^2 / (beta_0^2 + beta_1^2). "
-                 "No factor makes up for that"},
+                 "  A bin of the pixel has two, of which one is taken with probability beta_e^2 / (beta_0^2 + "
+                 "beta_1^2). No factor makes up for that"},
         {"pool", "one light sub-path of a shared pool, by an alias table.\n"
-                 "  Of the tile's K sub-paths, number k with q_k = (1 - delta) I_k / sum I + delta / K, by its importance "
-                 "I_k. It counts 1 / (K q_k) times"},
+                 "  Of the tile's K sub-paths, number k with q_k = (1 - delta) I_k / sum I + delta / K, by its "
+                 "importance I_k. It counts 1 / (K q_k) times"},
         {"vertices", "single light vertices, by how much light they can send to the camera.\n"
                      "  C draws for each eye vertex from the tile's K light sub-paths, with q_v in proportion to "
                      "luminance(beta) h(x). Each counts 1 / (C K q_v) times"},
         {"subspaces", "single light vertices, chosen for the region of the eye vertex.\n"
                       "  C draws for each eye vertex from the tile's K light sub-paths, with P in proportion to "
-                      "luminance(beta) h(e,l), of the regions e of the eye and l of the light vertex. Each counts "
-                      "1 / (C K P) times"},
+                      "luminance(beta) h(e,l), of the regions e of the eye and l of the light vertex. Each counts 1 "
+                      "/ (C K P) times"},
         {"cbdpt", "all connections with some light sub-paths of neighbouring pixels.\n"
-                  "  M of the tile's K light sub-paths, in random order, all used equally often. Each counts 1 / M times"},
+                  "  M of the tile's K light sub-paths, in random order, all used equally often. Each counts 1 / M "
+                  "times"},
         {"lvc", "light vertices of a shared cache, all equally likely.\n"
-                "  C draws for each eye vertex from the V light vertices of the tile's K light sub-paths. Each counts "
-                "V / (C K) times"},
+                "  C draws for each eye vertex from the V light vertices of the tile's K light sub-paths. Each "
+                "counts V / (C K) times"},
         {"mbdpt", "pairs of sorted sub-paths, spread evenly.\n"
                   "  For each strategy one of the tile's K light sub-paths, by a shifted lattice over eye and light "
                   "sub-paths sorted by length or throughput, each equally likely. It counts once"},
         {"pcbdpt", "light vertices by what was useful nearby.\n"
-                   "  C draws for each eye vertex from the tile's K light sub-paths, with P the mean of the probabilities "
-                   "of the records nearby and of the uniform choice. Each counts 1 / (C K P) times"},
+                   "  C draws for each eye vertex from the tile's K light sub-paths, with P the mean of the "
+                   "probabilities of the records nearby and of the uniform choice. Each counts 1 / (C K P) times"},
         {"ris", "light vertices resampled by what was useful nearby.\n"
                 "  One draw for each eye vertex from the tile's K light sub-paths, with probability P by one of the "
                 "records nearby or uniformly. It counts 1 / (K P) times"},
         {"ris2", "the same in two stages, by power first.\n"
-                 "  Light vertices are drawn in proportion to luminance(beta), which gives them a factor u. Of these one "
-                 "is drawn for each eye vertex, with probability P by one of the records nearby or uniformly. It counts "
-                 "u / (K P) times"},
+                 "  Light vertices are drawn in proportion to luminance(beta), which gives them a factor u. Of "
+                 "these one is drawn for each eye vertex, with probability P by one of the records nearby or "
+                 "uniformly. It counts u / (K P) times"},
         {"spcbpt", "regions of eye and light vertices, our reconstruction of a paper.\n"
-                   "  C draws for each eye vertex: a region l of light vertices by Gamma(e,l), with e the region of the eye "
-                   "vertex, then one of its vertices in proportion to luminance(beta). Each counts 1 / (C K P) times"},
+                   "  C draws for each eye vertex: a region l of light vertices by Gamma(e,l), with e the region of "
+                   "the eye vertex, then one of its vertices in proportion to luminance(beta). Each counts 1 / (C K "
+                   "P) times"},
         {"vcm", "bdpt, which also merges vertices that are close.\n"
-                "  All of the tile's light vertices within the radius r, besides the pixel's own light sub-path, which "
-                "counts once. A merge counts 1 / (K pi r^2) times"}};
+                "  All of the tile's light vertices within the radius r, besides the pixel's own light sub-path, "
+                "which counts once. A merge counts 1 / (K pi r^2) times"}};
     for (size_t i = 0; i < sizeof REASONS / sizeof *REASONS; i++)
         if (strcmp(REASONS[i].name, m->select != NULL ? m->select : m->name) == 0)
             return REASONS[i].why;

@@ -390,7 +390,7 @@ prints '  chosen$' "$lab" info "$box" --res 24 --race
 sed -n '/^  runner /,/^  at first/s/^  \([a-z_]*\)  *[0-9].*/\1/p' stdout.txt >runners.txt
 check [ "$(wc -l <runners.txt)" -eq 5 ]
 expect 0 '' "$program" help integrators
-check [ "$(sed -n '/^runners$/,$s/^    \([a-z_][a-z_]*\)    *[a-z].*/\1/p' stdout.txt)" = "$(cat runners.txt)" ]
+check [ "$(sed -n '/^Runners: /,$s/^    \([a-z_][a-z_]*\)    *[a-z].*/\1/p' stdout.txt)" = "$(cat runners.txt)" ]
 expect 2 'pt has no race' "$lab" info "$box" --res 24 --race --integrator pt
 
 # --- trace

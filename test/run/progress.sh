@@ -24,13 +24,15 @@ bars "$left" '"$program" render "$box" --res 120 --spp 16 -o box.pfm'
 bars "$left" '"$lab" strategies "$box" --res 96 --spp 32 --maxdepth 3 -o strategies'
 bars "$left" '"$lab" transient "$box" --res 96 --spp 32 -o flight'
 bars "$left" '"$lab" bench "$box" --spp 2'
-bars ", (area|mirror)$left" 'rm -rf shown; PROGRAM=$lab LAB=$lab sh test/measure/conform/ours.sh shown bdpt 4 16 area mirror'
+export PROGRAM="$lab" LAB="$lab"
+bars ", (area|mirror)$left" 'rm -rf shown; sh test/measure/conform/ours.sh shown bdpt 4 16 area mirror'
 bars "$left" '"$lab" conform ref/conform || [ $? = 1 ]' # of all scenes; their tests are for pictures with noise
 bars ", second, [0-9]+ s left" '{ echo first; sleep 3; echo second; } | "$lab" progress --parts 3'
 # What must not pass.
 if [ -n "$terminal" ]; then
     bars "$left" '"$lab" strategies "$box" --quiet --res 96 --spp 32 --maxdepth 3 -o strategies' >told.txt
-    [ $failures -gt 0 ] && grep -q 'shows no bar' told.txt && failures=$((failures - 1)) || fault "no bar is not noticed"
+    [ $failures -gt 0 ] && grep -q 'shows no bar' told.txt && failures=$((failures - 1)) ||
+        fault "no bar is not noticed"
 fi
 [ $failures -eq 0 ] && echo "progress: all as expected"
 [ $failures -eq 0 ]
