@@ -24,8 +24,9 @@ for number in $(seq "$first" $((first + ${COUNT:-40} - 1))); do
 done
 ./asbdpt-lab equal-time "$@" -o "$dir" --methods bdpt,pt,asbdpt --res "${RES:-128x96}" --spp "${SPP:-64}" \
     --seeds "${SEEDS:-3}" --quiet >"$dir/said" || exit 1
-awk -v worst="${WORST-1.15}" -v mean="${MEAN-0.55}" -f test/measure/evidence/better.awk \
-    -f test/measure/evidence/structures.awk "$dir/equal-time.md" >"$dir/structures.txt"
+awk -f test/measure/evidence/unknown.awk "$dir/equal-time.md" >"$dir/unknown"
+awk -v missing="$dir/unknown" -v worst="${WORST-1.15}" -v mean="${MEAN-0.55}" -f test/measure/evidence/better.awk \
+    -f test/measure/evidence/runs.awk -f test/measure/evidence/structures.awk "$dir/runs.csv" >"$dir/structures.txt"
 status=$?
 draw <"$dir/structures.txt" >"$dir/structures.svg"
 exit $status

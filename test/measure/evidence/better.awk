@@ -1,59 +1,65 @@
-# better.awk: functions of equal.awk and structures.awk: the error of asbdpt over that of the better of bdpt and pt, by
-# each measure. awk -f test/measure/evidence/better.awk -f test/measure/evidence/equal.awk, say. What they are given
-# is over bdpt.
-
-# over_better: of asbdpt's and pt's cells, "VALUE [LOW, HIGH] MARK". bdpt always counts, and pt, unless it alone has a
-# mark. Each measure has its own better method. 0: not known.
-function over_better(asbdpt, pt) {
-    if (asbdpt !~ /^[0-9]/) return 0
-    if (pt !~ /^[0-9]/ || pt + 0 >= 1 || (pt ~ /[a-z]/ && asbdpt !~ /[a-z]/)) return least(asbdpt)
-    return least(asbdpt) / least(pt)
-}
-function least(v) { return v + 0 > 0 ? v + 0 : 0.0005 } # what is printed as 0.000 is taken for half of the last digit
+# better.awk: functions on sets of ratios of squared errors, of which a set has one for each scene, by three measures:
+# geometric means, their intervals, losses, the worst. What reads the ratios is runs.awk.
 
 # unseen_scenes: into out, the scenes that nothing was chosen on: every second of a file of scenes, from the first.
 function unseen_scenes(file, out,    line, rows, part) {
     while ((getline line < file) > 0) if (line !~ /^#/ && ++rows % 2) { split(line, part, " "); out[part[1]] }
     close(file)
 }
-
-# take: a ratio, among those of a group and measure; 0 is counted as not known.
-function take(group, m, v) {
-    if (v <= 0) { lost[group, m]++; return }
-    logs[group, m] += log(v); squares[group, m] += log(v) ^ 2; number[group, m]++; above[group, m] += v > 1
-    if (v > most[group, m]) most[group, m] = v
+# loses: is a ratio one of a loss? Ratios within 0.5 % of 1 are ties.
+function loses(v) { return v > 1.005 }
+# take: into a set a ratio v, with a name if the worst is asked for; 0: not known, counted. What is below 0.0005
+# counts as that: one scene shall not make the mean.
+function take(set, m, v, name) {
+    if (v <= 0) { lost[set, m]++; return }
+    if (v < 0.0005) v = 0.0005
+    logs[set, m] += log(v); squares[set, m] += log(v) ^ 2; each[set, m, ++number[set, m]] = log(v)
+    above[set, m] += loses(v)
+    if (v > most[set, m]) { most[set, m] = v; worst_name[set, m] = name }
 }
-function mean_of(group, m) { return number[group, m] ? exp(logs[group, m] / number[group, m]) : 0 }
+function mean_of(set, m) { return number[set, m] ? exp(logs[set, m] / number[set, m]) : 0 }
+# error_of: the standard error of the mean logarithm.
+function error_of(set, m,    n, v) {
+    n = number[set, m]
+    v = n > 1 ? (squares[set, m] - logs[set, m] ^ 2 / n) / (n - 1) / n : 0
+    return v > 0 ? sqrt(v) : 0
+}
 # interval: geometric mean with its 95 % interval, Student's on the logarithms, if there are five scenes.
-function interval(group, m,    n, error) {
-    n = number[group, m]
-    if (n < 5) return n ? sprintf("%.2f", mean_of(group, m)) : "-"
-    error = sqrt((squares[group, m] - logs[group, m] ^ 2 / n) / (n - 1) / n) * student(n - 1)
-    n = mean_of(group, m)
-    return sprintf("%.2f [%.2f, %.2f]", n, n * exp(-error), n * exp(error))
+function interval(set, m,    n, error, v) {
+    n = number[set, m]; v = mean_of(set, m)
+    if (n < 5) return n ? sprintf("%.2f", v) : "-"
+    error = error_of(set, m) * student(n - 1)
+    return sprintf("%.2f [%.2f, %.2f]", v, v * exp(-error), v * exp(error))
 }
-# student: the quantile of Student's t that 2.5 % lie above: Cornish and Fisher's series, within .3 % from 4 on.
-function student(n,    z) {
+# student: the quantile of Student's t with n degrees of freedom that 2.5 % lie above; below 5 of the whole number below
+# n, from 5 on by Cornish and Fisher's series, within 0.1 %.
+function student(n,    z, t) {
+    if (n < 5) { split("12.706 4.303 3.182 2.776", t, " "); return t[n < 1 ? 1 : int(n)] }
     z = 1.959964
     return z + (z ^ 3 + z) / (4 * n) + (5 * z ^ 5 + 16 * z ^ 3 + 3 * z) / (96 * n ^ 2) + \
         (3 * z ^ 7 + 19 * z ^ 5 + 17 * z ^ 3 - 15 * z) / (384 * n ^ 3)
 }
-# cells: of a group: for each measure the mean with its interval, the worst, and in how many scenes it is above 1.
-function cells(group,    m, text) {
-    for (m = 1; m <= 3; m++)
-        text = text sprintf(" %s | %.2f | %d |", interval(group, m), most[group, m], above[group, m])
-    return text
+# student_p: the two-sided p-value of Student's t with a whole number n of degrees of freedom [Abramowitz &
+# Stegun 1964 26.7.3].
+function student_p(t, n,    angle, c, term, sum, i) {
+    angle = atan2(t < 0 ? -t : t, sqrt(n)); c = cos(angle)
+    term = n % 2 ? c : 1
+    for (i = n % 2 + 2; i <= n; i += 2) { sum += term; term *= c * c * (i - 1) / i }
+    return 1 - (n % 2 ? 2 / 3.14159265358979 * (angle + sin(angle) * sum) : sin(angle) * sum)
 }
 # median_of: of x[1] to x[n], which it sorts.
-function median_of(x, n,    i, j, y) {
+function median_of(x, n) {
+    sort(x, n)
+    return n % 2 ? x[(n + 1) / 2] : (x[n / 2] + x[n / 2 + 1]) / 2
+}
+function sort(x, n,    i, j, y) {
     for (i = 1; i <= n; i++) {
         y = x[i]
         for (j = i - 1; j >= 1 && x[j] > y; j--) x[j + 1] = x[j]
         x[j + 1] = y
     }
-    return n % 2 ? x[(n + 1) / 2] : (x[n / 2] + x[n / 2 + 1]) / 2
 }
-# two: a number in two digits: 0.59, 1.2, 12, 490,000.
+# two: a number in two digits: 0.59, 1.2, 12, 490,000. digits: in three below 0.1.
 function two(v,    unit, text) {
     if (v < 9.95) return sprintf(v < 0.995 ? "%.2f" : "%.1f", v)
     for (unit = 1; v / unit >= 99.5; unit *= 10) ;
@@ -65,21 +71,45 @@ function commas(text,    first) {
     match(text, /^[0-9]+/); first = RLENGTH - 3
     return substr(text, 1, first) "," substr(text, first + 1)
 }
-# means_of, worst_of: of a group, by each measure, in words.
-function three(a, b, c) { return two(a) " (mse8), " two(b) " (relmse) and " two(c) " (8x8)" }
-function means_of(group) { return three(mean_of(group, 1), mean_of(group, 2), mean_of(group, 3)) }
-function worst_of(group) { return three(most[group, 1], most[group, 2], most[group, 3]) }
-# row: of a group, cells of a table: the means by each measure, and in how many scenes asbdpt has more error.
-function row(group,    m, text, losses, each, same) {
-    same = number[group, 1] == number[group, 2] && number[group, 2] == number[group, 3]
-    for (m = 1; m <= 3; m++) {
-        text = text interval(group, m) " | "
-        losses = losses (m > 1 ? ", " : "") above[group, m]
-        each = each (m > 1 ? ", " : "") above[group, m] " of " number[group, m]
-    }
-    return text (same ? losses " of " number[group, 1] : each)
+function digits(v) { return v < 0.0995 ? sprintf("%.3f", v) : two(v) }
+# means_of, worst_of: of a set, by each measure, in words; the worst with its range as each seed is left out.
+function means_of(set) { return three(two(mean_of(set, 1)), two(mean_of(set, 2)), two(mean_of(set, 3))) }
+function worst_of(set) { return three(worst_cell(set, 1), worst_cell(set, 2), worst_cell(set, 3)) }
+function three(a, b, c) { return a " (mse8), " b " (relmse) and " c " (8x8)" }
+function worst_cell(set, m,    part) {
+    if (!number[set, m]) return "-"
+    split(worst_name[set, m], part, SUBSEP)
+    return two(most[set, m]) (part[2] != "" ? " [" spread(part[1], part[2], m) "]" : "")
 }
-# answers: of a group the sections row and worst, their names after `before`.
-function answers(group, before) {
-    printf "== %srow\n%s\n== %sworst\n%s\n", before, row(group), before, worst_of(group)
+# row: of a set, cells of a table: the means by each measure, and in how many scenes asbdpt has more error.
+function row(set,    m, text, losses, of_each, same) {
+    same = number[set, 1] == number[set, 2] && number[set, 2] == number[set, 3]
+    for (m = 1; m <= 3; m++) {
+        text = text interval(set, m) " | "
+        losses = losses (m > 1 ? ", " : "") above[set, m]
+        of_each = of_each (m > 1 ? ", " : "") above[set, m] " of " number[set, m]
+    }
+    return text (same ? losses " of " number[set, 1] : of_each)
+}
+# answers: of a set the sections row and worst, their names after `before`.
+function answers(set, before) { printf "== %srow\n%s\n== %sworst\n%s\n", before, row(set), before, worst_of(set) }
+# coverage: in how many of 1,000 sets drawn from a set's own ratios the interval holds their mean, in per cent; those
+# where the mean is above it are added to too_high. Random numbers are x = 16807 x mod (2^31 - 1), from one seed.
+function coverage(set, m,    n, i, draw, v, sum, squares_of, error, truth, held) {
+    n = number[set, m]; truth = logs[set, m] / n; random = 20231
+    too_high = 0
+    for (draw = 1; draw <= 1000; draw++) {
+        sum = squares_of = 0
+        for (i = 1; i <= n; i++) {
+            random = random * 16807 % 2147483647
+            v = each[set, m, int(random / 2147483647 * n) + 1]
+            sum += v; squares_of += v * v
+        }
+        v = (squares_of - sum * sum / n) / (n - 1) / n
+        error = student(n - 1) * (v > 0 ? sqrt(v) : 0)
+        held += sum / n - error <= truth && truth <= sum / n + error
+        too_high += sum / n + error < truth
+    }
+    too_high /= 10
+    return held / 10
 }

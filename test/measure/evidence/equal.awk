@@ -1,118 +1,113 @@
-# equal.awk, after better.awk: sections of doc/measured from family.md of `asbdpt-lab family`, where the default is
-# called subspaces; all is over the better of bdpt and pt, unless it is said. Of the last file: table, a line for each
-# scene; data, lines of a figure, "SCENE MSE8 LOW HIGH 8x8"; row and worst, see better.awk. With -v say=SCENE, SCENE:
-# its mse8 over bdpt. With -v but=, names of scenes: rest, the means without them, with -v kinds= also rest-row,
-# and typical, the median over scenes by mse8. Of two files, with 16 and 64 samples: sizes, the same by
-# scenes; first-row and first-worst of the first. With -v kinds=, a file of scenes and their kinds: kinds, the means of
-# each; unseen-row and unseen-worst, of the scenes that nothing was chosen on. With -v runners=, runners.txt: light, the
-# mean of the scenes that not all seeds render by a path tracer.
+# equal.awk, after better.awk and runs.awk: sections of doc/measured from the runs of `asbdpt-lab family`, of the last
+# group; all is over the better of bdpt and pt, unless it is said. table, a line for each scene; data, lines of a
+# figure, "SCENE MSE8 LOW HIGH 8x8"; row and worst, see better.awk; median, the row of medians over seeds; sure, of
+# how many losses intervals tell. With -v say=SCENE, SCENE: its mse8 over bdpt. With -v but=, names of scenes: rest,
+# the means without them, with -v kinds= also rest-row, and typical, the median over scenes by mse8. Of groups NAME.16
+# and NAME.64: sizes, the same by scenes; first-row and first-worst of the first. With -v kinds=, a file of scenes and
+# their kinds: kinds, the means of each; unseen-row and unseen-worst, of the scenes that nothing was chosen on. With
+# -v runners=, runners.txt: tracer, guided, light: the means by mse8 of the scenes that all seeds render by a path
+# tracer, of these with learnt lights, and of the others.
 BEGIN {
-    while (kinds != "" && (getline < kinds) > 0) kind[$1] = $2
-    if (kinds != "") { close(kinds); unseen_scenes(kinds, unseen) }
-    while (runners != "" && (getline < runners) > 0)
-        if (/^\| others \| [^ ]+ \|( guided| plain)+ \|$/) { tracer[$4]; traced++ }
+    while (kinds != "" && (getline line < kinds) > 0) { split(line, part, " "); kind[part[1]] = part[2] }
+    while (runners != "" && (getline line < runners) > 0)
+        if (line ~ /^\| others \| [^ ]+ \|( guided| plain)+ \|$/) {
+            split(line, part, " ")
+            tracer[part[4]] = line ~ /plain/ ? "plain" : "guided"
+        }
     split(but, part, " ")
     for (i in part) left_out[part[i]]
-    split("mse8 relmse 8x8", name, " ")
 }
-FNR == 1 { file++; measure = "" }
-/^(mse8|relmse|8x8): squared/ { measure = $1; sub(/:/, "", measure) }
-/^\| method \|/ && measure != "" {
-    n = split($0, scene, / *\| */) - 3
-    for (i = 1; i <= n; i++) {
-        scene[i] = scene[i + 2]
-        first_marked[i] = scene[i] ~ /\(bdpt: /
-        sub(/,.*/, "", scene[i])
-    }
+# ends: a ratio and its interval, in up to three digits.
+function ends(g, l, other, s, k,    v, by) {
+    v = ratio(g, l, other, s, k)
+    if (v < 0.0005) return v <= 0 ? "-" : "below 0.0005"
+    by = factor(g, l, other, s, k)
+    return digits(v) (by ? " [" digits(v / by) ", " digits(v * by) "]" : "")
 }
-/^\| (pt|subspaces) \|/ && measure != "" {
-    m = split($0, c, / *\| */)
-    for (i = 3; i < m; i++) value[file, c[2], measure, i - 2] = c[i]
-}
-function over(f, m, i) { return over_better(value[f, "subspaces", m, i], value[f, "pt", m, i]) } # 0: not known
-# ends: the mean and the interval, that over bdpt scaled, in up to three digits.
-function ends(m, i,    v, part, by) {
-    v = over(file, m, i)
-    if (v <= 0) return "-"
-    split(value[file, "subspaces", m, i], part, /[][, ]+/)
-    by = v / least(part[1])
-    return digits(v) " [" digits(by * least(part[2])) ", " digits(by * least(part[3])) "]"
-}
-function digits(v) { return v < 0.0995 ? sprintf("%.3f", v) : two(v) }
-# marked: which methods have a mark.
-function marked(i,    text) {
-    if (first_marked[i]) text = "`bdpt`"
-    if (value[file, "pt", "mse8", i] ~ /[a-z]/) text = text (text ? ", " : "") "`pt`"
-    if (value[file, "subspaces", "mse8", i] ~ /[a-z]/) text = text (text ? ", " : "") "`asbdpt`"
-    return text ~ /bdpt.*pt.*asbdpt/ ? "all" : text
-}
-function table(    i, m, v) {
+function table(g,    i, k, s, v) {
     print "== table\n| scene | `pt` over `bdpt`, mse8 | mse8 | relmse | 8x8 | marked |\n|---|---:|---:|---:|---:|---|"
-    for (i = 1; i <= n; i++) {
-        v = value[file, "pt", "mse8", i]
-        printf "| %s | %s |", scene[i], (v ~ /^[0-9]/ ? digits(least(v)) : "-")
-        for (m = 1; m <= 3; m++) printf((over(file, name[m], i) > 1 ? " **%s** |" : " %s |"), ends(name[m], i))
-        print " " marked(i) (marked(i) ? " " : "") "|"
+    for (i = 1; i <= scenes[g]; i++) {
+        s = scene[g, i]; v = ratio(g, "pt", "bdpt", s, 1)
+        printf "| %s | %s |", s, (v > 0 ? digits(v) : "-")
+        for (k = 1; k <= 3; k++) {
+            v = ends(g, "subspaces", the_better(g, s, k), s, k)
+            printf(loses(over_better(g, s, k)) ? " **%s** |" : " %s |", v)
+        }
+        print " " marked(g, s) (marked(g, s) ? " " : "") "|"
     }
     printf "| **geometric mean** | |"
-    for (m = 1; m <= 3; m++) printf " %s |", interval("all", m)
+    for (k = 1; k <= 3; k++) printf " %s |", interval("all", k)
     print " |"
 }
-function data(    i, part, b) {
+function data(g,    i, s, by, blocks) {
     print "== data"
-    for (i = 1; i <= n; i++) if (over(file, "mse8", i) > 0) {
-        split(value[file, "subspaces", "mse8", i], part, /[][, ]+/)
-        b = over(file, "mse8", i) / least(part[1])
-        printf "%s %.3f %.3f %.3f %s\n", scene[i], b * least(part[1]), b * part[2], b * part[3],
-            (over(file, "8x8", i) > 0 ? sprintf("%.3f", over(file, "8x8", i)) : "-")
+    for (i = 1; i <= scenes[g]; i++) if ((v = over_better(g, s = scene[g, i], 1)) > 0) {
+        by = factor(g, "subspaces", the_better(g, s, 1), s, 1); if (!by) by = 1
+        blocks = over_better(g, s, 3)
+        printf "%s %.3f %.3f %.3f %s\n", s, v, v / by, v * by, (blocks > 0 ? sprintf("%.4f", blocks) : "-")
     }
 }
-function sizes(    i, f, m, q) {
+function sizes(a, b,    i, f, k, v, g) {
     print "== sizes\n| scene | 16: mse8 | relmse | 8x8 | 64: mse8 | relmse | 8x8 |\n|---|---:|---:|---:|---:|---:|---:|"
-    for (i = 1; i <= n; i++) {
-        printf "| %s |", scene[i]
-        for (f = 1; f <= 2; f++) for (m = 1; m <= 3; m++) {
-            q = over(f, name[m], i)
-            if (f == 1) take("first", m, q)
-            printf((q > 0 ? (q > 1 ? " **%.2f** |" : " %.2f |") : " **-** |"), q)
+    for (i = 1; i <= scenes[b]; i++) {
+        printf "| %s |", scene[b, i]
+        for (f = 1; f <= 2; f++) for (k = 1; k <= 3; k++) {
+            v = over_better(f == 1 ? a : b, scene[b, i], k)
+            printf(v <= 0 ? " **-** |" : loses(v) ? " **%.2f** |" : " %.2f |", v)
         }
+        take_scene("first", a, scene[b, i])
         print ""
     }
     printf "| **geometric mean** |"
-    for (m = 1; m <= 6; m++) printf(" %.2f |", (m < 4 ? mean_of("first", m) : mean_of("all", m - 3)))
+    for (k = 1; k <= 6; k++) printf " %.2f |", mean_of(k < 4 ? "first" : "all", (k - 1) % 3 + 1)
     print ""
+    answers("first", "first-")
 }
 # typical: the median over scenes by mse8, of all or of those that nothing was chosen on.
-function typical(only,    i, k, v, x) {
-    for (i = 1; i <= n; i++)
-        if ((v = over(file, "mse8", i)) > 0 && (!only || scene[i] in unseen)) x[++k] = v
-    return median_of(x, k)
+function typical(g, only,    i, n, v, x) {
+    for (i = 1; i <= scenes[g]; i++)
+        if ((v = over_better(g, scene[g, i], 1)) > 0 && (!only || scene[g, i] in unseen)) x[++n] = v
+    return median_of(x, n)
 }
 END {
-    if (!n) exit 1
-    for (i = 1; i <= n; i++) {
-        k = kind[scene[i]]
-        if (k != "" && !count[k]++) order[++groups] = k
-        for (m = 1; m <= 3; m++) {
-            v = over(file, name[m], i)
-            take("all", m, v)
-            take(k, m, v)
-            if (scene[i] in unseen) take("unseen", m, v)
-            if (!(scene[i] in tracer)) take("light", m, v)
-            if (!(scene[i] in left_out)) take("rest", m, v)
+    g = group[groups]
+    if (!scenes[g]) exit 1
+    for (i = 1; i <= scenes[g]; i++) {
+        s = scene[g, i]; k = kind[s]
+        if (k != "" && !count[k]++) order[++kinds_there] = k
+        take_scene("all", g, s)
+        take_scene(k, g, s)
+        if (s in unseen) take_scene("unseen", g, s)
+        if (!(s in left_out)) take_scene("rest", g, s)
+        take_scene(s in tracer ? "tracer" : "light", g, s)
+        if (tracer[s] == "guided") take_scene("guided", g, s)
+        for (k = 1; k <= 3; k++) {
+            take("median", k, over_median(g, s, k))
+            if (!loses(over_better(g, s, k))) continue
+            by = factor(g, "subspaces", the_better(g, s, k), s, k)
+            sure += by && over_better(g, s, k) > by
         }
     }
-    table()
-    data()
+    table(g)
+    data(g)
     answers("all", "")
-    for (i = 1; i <= n; i++) if (scene[i] == say) printf "== %s\n%s\n", say, value[file, "subspaces", "mse8", i]
+    print "== median\n" row("median")
+    printf "== sure\n%d of %d losses\n", sure, above["all", 1] + above["all", 2] + above["all", 3]
+    if (say != "") {
+        by = factor(g, "subspaces", "bdpt", say, 1); v = ratio(g, "subspaces", "bdpt", say, 1)
+        printf "== %s\n%.3f [%.3f, %.3f]\n", say, v, v / by, v * by
+    }
     if (but != "") printf "== rest\n%s\n", means_of("rest")
-    if (but != "" && kinds != "")
-        printf "== rest-row\n%s\n== typical\n%.2f, of those not used for tuning %.2f\n", row("rest"), typical(0), typical(1)
-    if (file > 1) { sizes(); answers("first", "first-") }
+    if (but != "" && kinds != "") {
+        print "== rest-row\n" row("rest")
+        printf "== typical\n%.2f, of those not used for tuning %.2f\n", typical(g, 0), typical(g, 1)
+    }
+    if (groups == 2) sizes(group[1], group[2])
     if (kinds != "") answers("unseen", "unseen-")
-    if (traced) printf "== light\n%.2f\n", mean_of("light", 1)
-    if (groups) print "== kinds\n| scenes | number | mse8 | relmse | 8x8 |\n|---|---:|---:|---:|---:|"
-    for (k = 1; k <= groups; k++) printf "| %s | %d | %s | %s | %s |\n", order[k], count[order[k]], interval(order[k], 1),
-        interval(order[k], 2), interval(order[k], 3)
+    if (number["tracer", 1])
+        printf "== tracer\n%.2f\n== guided\n%.2f\n== light\n%.2f\n", mean_of("tracer", 1), mean_of("guided", 1),
+            mean_of("light", 1)
+    if (kinds_there) print "== kinds\n| scenes | number | mse8 | relmse | 8x8 |\n|---|---:|---:|---:|---:|"
+    for (k = 1; k <= kinds_there; k++) printf "| %s | %d | %s | %s | %s |\n", order[k], count[order[k]],
+        interval(order[k], 1), interval(order[k], 2), interval(order[k], 3)
 }
