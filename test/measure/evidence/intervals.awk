@@ -10,7 +10,7 @@ function cover(set, k,    v) {
     if (!covered || v > most_held) most_held = v
     if (!covered++ || too_high > most_high) most_high = too_high
 }
-function held() {
+function shares() {
     return sprintf("%.0f to %.0f %%, and the mean is above it in at most %.1f %%", least, most_held, most_high)
 }
 function cover_better(name,    g, i, k) {
@@ -38,7 +38,7 @@ function compare(g,    j, k, set) {
 }
 END {
     for (i = 1; i <= groups; i++) if (group[i] ~ /^(others|gains|structures)/) cover_better(i)
-    printf "== coverage\n%s\n", held()
+    printf "== coverage\n%s\n", shares()
     covered = 0
     for (i = 1; i <= groups; i++) if (group[i] ~ /^(family|rivals|choice)/) compare(group[i])
     for (i = 1; i <= all; i++) sorted[i] = p[i]
@@ -47,5 +47,5 @@ END {
     for (i = 1; i <= all; i++) if (m > 1 && below[i] && p[i] <= limit) said = said (left++ ? "; " : ": ") text[i]
     printf "== pairs\nin %d of %d cells the interval is below 1. Holm\047s correction at 5 %% leaves %d%s\n", \
         sure, all, left, said
-    printf "== pairs-coverage\n%s\n", held()
+    printf "== pairs-coverage\n%s\n", shares()
 }
