@@ -158,7 +158,8 @@ bool scene_intersect(const struct scene *s, const struct ray *ray, struct surfac
     return true;
 }
 
-bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surface *end, struct surface *out)
+bool scene_lamp(const struct scene *s, const struct ray *ray, bool from_lens, const struct surface *end,
+                struct surface *out)
 {
     struct hit hit;
     if (s->kd_lamps.n_nodes == 0)
@@ -166,10 +167,13 @@ bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surfa
     struct ray before = *ray;
     if (end != NULL)
         before.tmax = length(sub(end->p, ray->o)) + ray_margin(end->p);
-    if (!kd_closest(&s->kd_lamps, &s->geo, &before, &hit))
-        return false;
-    shape_surface(&s->geo, &hit, ray, out);
-    return true;
+    while (kd_closest(&s->kd_lamps, &s->geo, &before, &hit)) {
+        shape_surface(&s->geo, &hit, ray, out);
+        if (!from_lens || !s->lights.light[out->light].hidden)
+            return true;
+        before.tmin = hit.t + ray_margin(out->p);
+    }
+    return false;
 }
 
 bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end)

@@ -92,7 +92,7 @@ static const struct vertex *meet_lamp(const struct walk *w, const struct vertex 
                                       const struct surface *end)
 {
     struct surface at;
-    if (!scene_lamp(w->scene, &from->ray, end, &at))
+    if (!scene_lamp(w->scene, &from->ray, prev->kind == VERTEX_LENS, end, &at))
         return NULL;
     struct vertex *v = arena_alloc(w->arena, sizeof *v);
     memset(v, 0, sizeof *v);

@@ -102,7 +102,7 @@ static struct surface seen_from(const struct scene *s, vec3 z, vec3 w)
     struct ray ray = {z, w, ray_margin(z), INFINITY, 0, 0};
     struct surface at = {.light = -1}, lamp;
     bool met = scene_intersect(s, &ray, &at);
-    return scene_lamp(s, &ray, met ? &at : NULL, &lamp) ? lamp : at;
+    return scene_lamp(s, &ray, false, met ? &at : NULL, &lamp) ? lamp : at;
 }
 
 /* Of a light sub-path from a point of a light in direction w: does it reach z, or another light in the place of this
