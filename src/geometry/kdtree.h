@@ -25,9 +25,9 @@ struct kdtree {
     double reach;       /* largest absolute coordinate of the bounds */
 };
 
-/* Which primitives: those with a material; those without, except those that only bound media. */
+/* Which primitives: those with a material; of those without the lights, and what bounds media, which may be both. */
 enum kd_of { KD_SURFACES, KD_LAMPS, KD_INTERFACES };
-enum kd_of kd_kind(const struct shape_group *group);
+bool kd_has(enum kd_of kind, const struct shape_group *group);
 
 /* kd_build: build the tree of all primitives of one kind; kd_free releases it. Cannot fail (memory: see mem.h). The
  * result depends on the geometry alone. The geometry must not change afterwards. */

@@ -132,7 +132,6 @@ struct parser {
         struct symbols known;           /* -> scene->media.medium[], from 1; 0: nothing */
         bool seen;                      /* by the integrator, once the world begins */
         struct source_position used_at; /* the last that a MediumInterface names; no file: none */
-        struct source_position bare_light_at; /* an area light without a material; no file: there is none */
     } media;
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     struct symbols places; /* hashes of shapes and instances in the world -> their lines */
@@ -214,10 +213,10 @@ int parse_changed_material(struct parser *p);
 
 /* parse_begin_media: the world begins: are media to be seen? parse_medium: the number of the medium inside (0) or
  * outside (1) of objects here, looked up by its name, as pbrt-v3 does; 0 with a message if it cannot be rendered.
- * parse_settle_media: the world is complete. False with a message. */
+ * parse_settle_media: the world is complete. */
 void parse_begin_media(struct parser *p);
 int parse_medium(struct parser *p, int side);
-bool parse_settle_media(struct parser *p);
+void parse_settle_media(struct parser *p);
 
 /* parse_state_reset: the transform as a file or its world begins. parse_name_system: name a coordinate system.
  * parse_open_block, parse_close_block: save the graphics state and restore what was saved last, with a warning if that

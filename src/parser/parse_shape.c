@@ -233,8 +233,6 @@ static bool add_shape(struct parser *p, const struct shape_item *item, struct tr
         return source_error(&p->messages, at, "%s", inner.text);
     if (item->area.on)
         add_lights(s, id, n, &item->area);
-    if (item->area.on && group.material == MATERIAL_NONE)
-        p->media.bare_light_at = at;
     return true;
 }
 

@@ -31,7 +31,8 @@ static bool world_end(struct parser *p)
 {
     p->phase = AFTER_WORLD;
     parse_close_all(p);
-    return parse_settle_media(p);
+    parse_settle_media(p);
+    return true;
 }
 
 static bool include(struct parser *p);

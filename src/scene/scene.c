@@ -166,7 +166,7 @@ bool scene_lamp(const struct scene *s, const struct ray *ray, bool from_lens, co
         return false;
     struct ray before = *ray;
     if (end != NULL)
-        before.tmax = length(sub(end->p, ray->o)) + ray_margin(end->p);
+        before.tmax = length(sub(end->p, ray->o)) + end_margin(end->p, end->prim_id);
     while (kd_closest(&s->kd_lamps, &s->geo, &before, &hit)) {
         shape_surface(&s->geo, &hit, ray, out);
         if (!from_lens || !s->lights.light[out->light].hidden)
@@ -182,7 +182,7 @@ bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct
     if (s->kd_lamps.n_nodes == 0 || distance <= -ray->tmin)
         return distance <= -ray->tmin;
     struct ray before = *ray;
-    before.tmax = distance - ray_margin(end->p);
+    before.tmax = distance - end_margin(end->p, end->prim_id);
     return kd_occluded(&s->kd_lamps, &s->geo, &before, INFINITY);
 }
 
