@@ -267,6 +267,12 @@ static bool numbers_usable(struct params *p, const struct param *item)
     return true;
 }
 
+static void warn_of_empty(struct params *p, const struct param *item)
+{
+    source_warn(p->messages, item->position, "parameter \"%s %s\" is empty, and is passed over",
+                params_type_name(item->type), item->name);
+}
+
 /* A parameter that is n values, all of them usable. As in pbrt-v3, of fewer the default counts, and of more, except for
  * a rest: four numbers are one colour, six are two. */
 static struct param *find_n(struct params *p, const char *name, unsigned types, int n)
@@ -275,7 +281,9 @@ static struct param *find_n(struct params *p, const char *name, unsigned types, 
     if (item == NULL || p->failed)
         return NULL;
     bool fits = item->type == PARAM_FLOAT ? item->n == n : item->n / n == 1;
-    if (item->n != n)
+    if (item->n == 0)
+        warn_of_empty(p, item);
+    else if (item->n != n)
         source_warn(p->messages, item->position, "parameter \"%s %s\" of %s \"%s\" wants %d value%s%s, not %d; %s",
                     params_type_name(item->type), name, p->directive, p->type, n, n > 1 ? "s" : "",
                     item->type == PARAM_BLACKBODY ? ", kelvin and a factor" : "", item->n,
@@ -371,7 +379,9 @@ struct field_list params_list(struct params *p, const char *name, unsigned types
     if (item == NULL || p->failed || !numbers_usable(p, item))
         return (struct field_list){NULL, 0};
     int n = item->is_text ? 0 : item->n / group;
-    if (n == 0 || item->n % group != 0)
+    if (item->n == 0)
+        warn_of_empty(p, item);
+    else if (n == 0 || item->n % group != 0)
         source_warn(p->messages, item->position,
                     "parameter \"%s %s\" wants its numbers in groups of %d, but there are %d; the rest is passed over",
                     params_type_name(item->type), name, group, item->n);

@@ -187,9 +187,10 @@ struct transform parse_to_world(const struct parser *p, struct transform t);
 bool parse_placed(struct parser *p);
 
 /* parse_constant: a constant texture. parse_named_texture: that of "texture NAME"; -1 without such a parameter or, with
- * a warning, such a texture. */
+ * a warning, such a texture, which is `unknown`: the
+ * default counts then, as in pbrt-v3, even if there is a value of this name. */
 int parse_constant(struct parser *p, rgb value);
-int parse_named_texture(struct parser *p, const char *name, bool is_float);
+int parse_named_texture(struct parser *p, const char *name, bool is_float, bool *unknown);
 
 /* parse_file: the number of what is in the file that a parameter names, -1 if it names none or, with an error, cannot
  * be read. `read` is called for the first one who names it; its number is then found among those that are known.
