@@ -402,52 +402,66 @@ char *params_file(struct params *p, const char *name, struct source_position *at
     return path;
 }
 
-/* The colour of wavelength and value pairs: numbers, between blanks or commas, with comments from # to the end of the
- * line. */
-static rgb rgb_from_pairs(struct params *p, struct source_file *file)
+/* The numbers of an .spd file. As in pbrt-v3 [pbrt-v3 core/floatfile.cpp] a number ends at any character that it cannot
+ * have, # begins a comment, and other text is passed over, with a warning for the first of each line. The place: that of
+ * the last number. */
+static double *numbers_of_file(struct params *p, struct source_file *file, struct source_position *at, size_t *n)
 {
-    rgb colour = rgb_black();
-    struct arena arena = {NULL, NULL};
-    struct lexer l = {.arena = &arena, .messages = p->messages};
-    lexer_enter(&l, file);
+    static const char OF_NUMBERS[] = "0123456789.+-eE";
     double *number = NULL;
-    size_t n = 0;
-    struct token t = {0};
-    bool ok = lexer_next(&l, &t);
-    for (; ok && t.kind == TOKEN_NUMBER; ok = lexer_next(&l, &t)) {
-        number = mem_append(number, n, sizeof *number);
-        number[n++] = t.number;
+    const char *line = file->text, *warned = NULL;
+    int n_lines = 0;
+    *at = (struct source_position){file, 1, 1};
+    *n = 0;
+    for (const char *c = line; c < file->end; c++) {
+        char token[64], *end = token;
+        size_t length = *c == 'e' || *c == 'E' ? 0 : strspn(c, OF_NUMBERS);
+        struct source_position here = {file, n_lines + 1, (int)(c - line) + 1};
+        snprintf(token, sizeof token, "%.*s", length < 63 ? (int)length : 63, c);
+        double value = strtod(token, &end);
+        if (end > token) {
+            number = mem_append(number, *n, sizeof *number);
+            number[(*n)++] = value;
+            *at = here;
+            c += length - 1;
+        } else if (*c == '#') {
+            c += strcspn(c, "\r\n") - 1;
+        } else if (*c == '\n' || (*c == '\r' && c[1] != '\n')) {
+            n_lines++;
+            line = c + 1;
+        } else if (strchr(" \t\r,;:", *c) == NULL && warned != line) {
+            source_warn(p->messages, here, "this text of a spectrum file is passed over, as in pbrt-v3: it should hold "
+                        "pairs of numbers, wavelength in nm and value");
+            warned = line;
+        }
     }
-    if (!ok)
-        p->failed = true;
-    else if (t.kind != TOKEN_END || n < 2 || n % 2 != 0)
-        params_fail(p, t.position,
-                    "a spectrum file holds pairs of numbers, wavelength in nm and value, and nothing else");
-    else
-        colour = spectrum_from_samples((double(*)[2])number, (int)(n / 2));
-    lexer_leave(&l);
-    free(number);
-    arena_free(&arena);
-    return colour;
+    return number;
 }
 
-/* That of an .spd file. Errors in it are shown at their position in that file. */
+/* The colour of an .spd file. Messages about it are shown at their place in that file. */
 static rgb rgb_from_file(struct params *p, const struct param *item)
 {
     rgb colour = rgb_black();
     struct error inner;
-    size_t size;
+    struct source_position at;
+    size_t size, n;
     char *path = scene_files_path(p->files, item->text[0], &inner);
     char *text = path != NULL ? scene_files_read(p->files, path, &size, &inner) : NULL;
     if (text != NULL) {
         struct source_file file = {path, text, text + size, false};
-        for (char *c = strchr(text, ','); c != NULL; c = strchr(c, ','))
-            *c = ' ';
-        colour = rgb_from_pairs(p, &file);
+        double *number = numbers_of_file(p, &file, &at, &n);
+        if (n < 2)
+            params_fail(p, at, "a spectrum file holds pairs of numbers, wavelength in nm and value");
+        else
+            colour = spectrum_from_samples((double(*)[2])number, (int)(n / 2));
+        if (n > 2 && n % 2 != 0)
+            source_warn(p->messages, at, "this number of a spectrum file has no partner, and is passed over");
+        free(number);
     } else {
         params_fail(p, item->position, "%s%s", inner.text, strchr(item->text[0], '.') != NULL ? "" :
                     "; a spectrum here is a file, or numbers: pbrt-v4's names of spectra are not known");
     }
+    free(text);
     free(path);
     return colour;
 }
