@@ -36,7 +36,8 @@ void kd_free(struct kdtree *kd);
 
 /* Where surfaces lie in one place, it is the same one for all rays (shape_rank). Next to a light where a ray ends or
  * begins, nothing counts except a light that is there instead. So it is for walks: a light comes before what they meet
- * up to ray_margin (surface.h) before it. Of other surfaces, those that rounding alone tells apart are in one place.
+ * up to ray_margin (surface.h) before it. Two surfaces are in one place that are no farther apart than that, at their
+ * normals, where rays meet them. Of all that are in one place with the nearest, the first by shape_rank is there.
  *
  * kd_closest: the first hit in (tmin, tmax), honouring alpha. Returns false if there is none. Thread-safe. tmin is
  * below 0 where the ray begins on a light, whose place extends to -tmin.

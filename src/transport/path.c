@@ -244,7 +244,7 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
     vertex_light_end(w->scene, w->counts, &at, &path[0]);
     path[0].beta = light_Le(&w->scene->lights, &at, from.ray.d);
     from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf)); /* alpha_2 of [V97 eq. 10.6] */
-    from.ray.tmin = ray_margin(from.ray.o) * (at.prim_id != 0 ? -1 : 1);
+    from.ray.tmin = ray_margin(from.ray.o) * (at.prim_id != 0 ? -GRAZING : 1);
     return walk_on(w, from, path, 1, max_vertices, IMPORTANCE);
 }
 
