@@ -444,10 +444,16 @@ void put_area_light(struct writer *w)
 
 static void delta_light(struct writer *w, double unit)
 {
-    bool spot = chance(w, 0.5);
+    static const char *const KINDS[] = {"point", "spot", "goniometric", "projection"};
+    int kind = pick(w, 4);
+    bool spot = kind == 1;
     double strength = across(w, 10, 30) * unit * unit;
     w->delta_light = true;
-    put(w, "LightSource \"%s\" ", spot ? "spot" : "point");
+    put(w, "LightSource \"%s\" ", KINDS[kind]);
+    if (kind >= 2 && chance(w, 0.8))
+        put(w, "\"string mapname\" \"%s%s\" ", w->top, "scenes/test/colours.tga");
+    if (kind == 3)
+        put_float(w, "fov", between(w, 20, 120));
     put_point(w, "rgb", "I", mul(within(w, vec(1, 0.3, 0.3), vec(1, 1, 1)), strength));
     if (spot) {
         put_float(w, "coneangle", between(w, 2, 80));
