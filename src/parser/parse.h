@@ -37,7 +37,9 @@ struct transform_state {
     struct transform ctm; /* object to the file's world, before WorldBegin that to camera; of use where parse_placed
                            * says so */
     struct token made_by; /* the last directive to change a usable ctm: if it is of no use, the culprit */
-    bool start_active;    /* ActiveTransform: transforms act on the start of the shutter interval */
+    struct transform at[2]; /* at the two times of TransformTimes; ctm is that when the shutter opens */
+    bool active[2];       /* ActiveTransform: transforms act on these */
+    bool turns;           /* the shutter opens between them, and they differ in more than where things are */
 };
 
 /* What AttributeBegin and ObjectBegin save in addition. */
@@ -116,6 +118,7 @@ struct parser {
     struct symbols images, tables, maps; /* paths -> textures.image[], table[], lights.map[] of scene */
 
     struct transform_state place;
+    double times[2], shutter; /* of TransformTimes; when the shutter opens */
     struct graphics_state state;
     struct block *block;       /* [n_blocks], innermost last, owned */
     struct saved_state *saved; /* [n_saved] */
@@ -125,7 +128,7 @@ struct parser {
     struct material_source *material;                            /* [n_materials], owned */
     int n_materials;
     struct symbols systems;                                      /* -> system[] */
-    struct transform *system;                                    /* [systems.n], owned */
+    struct transform (*system)[2];                               /* [systems.n], at both times; owned */
     struct symbols objects;    /* -> object[] */
     struct shape_list *object; /* [objects.n], owned */
     struct {
@@ -219,11 +222,13 @@ void parse_begin_media(struct parser *p);
 int parse_medium(struct parser *p, int side);
 void parse_settle_media(struct parser *p);
 
-/* parse_state_reset: the transform as a file or its world begins. parse_name_system: name a coordinate system.
+/* parse_state_reset: the transform as a file or its world begins. parse_open_shutter: when it opens.
+ * parse_name_system: name a coordinate system, which is that of the two transforms.
  * parse_open_block, parse_close_block: save the graphics state and restore what was saved last, with a warning if that
  * was another kind of block; false, with a warning, if nothing was. parse_close_all: warn of blocks that are open. */
 void parse_state_reset(struct parser *p);
-void parse_name_system(struct parser *p, const char *name, struct transform t);
+void parse_open_shutter(struct parser *p, double time);
+void parse_name_system(struct parser *p, const char *name, const struct transform at[2]);
 bool parse_open_block(struct parser *p, enum block_kind kind);
 bool parse_close_block(struct parser *p, enum block_kind kind);
 void parse_close_all(struct parser *p);
