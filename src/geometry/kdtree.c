@@ -108,8 +108,8 @@ struct search {
     const struct kdtree *kd;
     const struct geometry *geo;
     struct triangle_ray ray;
-    const struct ray *world; /* the same ray outside of objects */
-    double start;    /* up to there surfaces may be in one place with that where the ray begins */
+    const struct ray *world; /* the same outside of objects */
+    double start;    /* up to there surfaces may be in one place with that where it begins */
     int instance;    /* of the object whose tree it is; 0: of none */
     double limit;    /* what lies behind it does not matter */
     /* of a shadow ray: */
@@ -119,11 +119,10 @@ struct search {
     double margin;   /* what is in one place is no farther apart along the ray */
     bool found;
     struct hit *hit; /* the first so far */
-    bool *close;     /* were there others near the first? Then they are compared in a second search, */
-    const struct hit *nearest; /* which has the first of all, of however many in one place; else NULL */
+    bool *close;     /* were others near the first? A second search compares them with that, */
+    const struct hit *nearest; /* which the first search has found; NULL in that */
 };
 
-/* The cosine between the ray and the normal where it meets something. */
 static double cosine_at(const struct search *q, const struct hit *h)
 {
     struct surface at;
@@ -135,21 +134,19 @@ static double cosine_at(const struct search *q, const struct hit *h)
 static bool is_beside(const struct search *q, const struct hit *a, const struct hit *b, double margin)
 {
     double apart = fabs(a->t - b->t);
-    return apart <= margin || (apart < GRAZING * margin && apart * cosine_at(q, a) <= margin &&
-                               apart * cosine_at(q, b) <= margin);
+    return apart <= margin || (apart < GRAZING * margin && apart * fmax(cosine_at(q, a), cosine_at(q, b)) <= margin);
 }
 
 /* Is a surface in one place with the nearest, and there rather than what has been found? */
 static bool comes_first(const struct search *q, const struct hit *h)
 {
-    const struct ray *ray = q->world;
-    const vec3 w = neg(ray->d);
-    double margin = ray_margin(add(ray->o, mul(ray->d, q->nearest->t))) + 1e-6 * ray_margin(ray->o);
+    const vec3 o = q->world->o, d = q->world->d;
+    double margin = ray_margin(add(o, mul(d, q->nearest->t))) + 1e-6 * ray_margin(o);
     return is_beside(q, h, q->nearest, margin) &&
-           (!q->found || shape_rank(q->geo, h, ray, w) < shape_rank(q->geo, q->hit, ray, w));
+           (!q->found || shape_rank(q->geo, h, q->world, neg(d)) < shape_rank(q->geo, q->hit, q->world, neg(d)));
 }
 
-/* The end of the ray at distance t, as if the ray met there the primitive that it ends on. */
+/* The end of the ray, at distance t, on this primitive. */
 static struct hit end_hit(uint64_t id, double t)
 {
     return (struct hit){.t = t, .b1 = 1.0 / 3, .b2 = 1.0 / 3, .prim = shape_prim(id), .instance = (int)(id >> 32)};
@@ -162,7 +159,7 @@ static bool is_taken(const struct search *q, const struct hit *h, bool light, co
     return !light || shape_rank(q->geo, h, q->world, w) >= shape_light_rank(q->geo, own->prim);
 }
 
-/* Does a surface near the ray's origin, which is on a primitive, not count? */
+/* Does a surface near the ray's origin not count, or near a shadow ray's end? Both are on primitives. */
 static bool is_at_start(const struct search *q, const struct hit *h)
 {
     const struct ray *ray = q->world;
@@ -170,7 +167,6 @@ static bool is_at_start(const struct search *q, const struct hit *h)
     return is_beside(q, h, &own, start_margin(ray)) ? is_taken(q, h, ray->tmin < 0, &own, ray->d) : h->t < 0;
 }
 
-/* The same near the primitive where a shadow ray ends. */
 static bool is_at_end(const struct search *q, const struct hit *h)
 {
     const struct ray *ray = q->world;
@@ -179,10 +175,10 @@ static bool is_at_end(const struct search *q, const struct hit *h)
     return is_beside(q, h, &own, margin) ? is_taken(q, h, q->light < INFINITY, &own, neg(ray->d)) : h->t > own.t;
 }
 
-/* Does what has been found come before this? If both are near each other, take note of that. */
+/* Does what has been found come before this? Take note if both are near each other. */
 static bool is_near(struct search *q, const struct hit *h)
 {
-    bool same = h->prim == q->hit->prim && h->instance == q->hit->instance; /* in another cell */
+    bool same = h->prim == q->hit->prim && h->instance == q->hit->instance;
     *q->close |= !same && fabs(h->t - q->hit->t) < q->margin;
     return !(h->t < q->hit->t);
 }
@@ -190,9 +186,7 @@ static bool is_near(struct search *q, const struct hit *h)
 /* Take note of a hit. Is the search at its end? */
 static inline bool note(struct search *q, bool shadow, const struct hit *h)
 {
-    if (h->t < q->start && is_at_start(q, h))
-        return false;
-    if (shadow && q->ends && is_at_end(q, h))
+    if ((h->t < q->start && is_at_start(q, h)) || (shadow && q->ends && is_at_end(q, h)))
         return false;
     if (shadow)
         return true;
@@ -415,24 +409,29 @@ static bool instance_met(const struct search *q, int prim, const double range[2]
 /* Up to where may surfaces be in one place with that which the ray leaves? */
 static double start_of(const struct ray *ray) { return ray->from != 0 ? GRAZING * start_margin(ray) : 0; }
 
+/* What all searches begin with; the rest is left as it is. */
+static void begin(struct search *q, const struct kdtree *kd, const struct geometry *geo, const struct ray *ray)
+{
+    q->kd = kd;
+    q->geo = geo;
+    q->world = ray;
+    q->start = start_of(ray);
+    q->instance = 0;
+    q->limit = ray->tmax;
+}
+
 bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit)
 {
     struct search q;
-    q.kd = kd;
-    q.geo = geo;
-    q.world = ray;
-    q.start = start_of(ray);
-    q.instance = 0;
-    q.limit = ray->tmax;
-    q.margin = GRAZING * 3e-7 * kd->reach;
+    begin(&q, kd, geo, ray);
     bool close = false;
-    struct hit nearest;
+    q.margin = GRAZING * 3e-7 * kd->reach;
     q.hit = hit;
     q.close = &close;
     q.nearest = NULL;
     if (!meets_first(&q, ray, ray->tmin, ray->tmax) || !close)
         return q.found;
-    nearest = *hit;
+    const struct hit nearest = *hit;
     q.nearest = &nearest;
     q.limit = smaller(ray->tmax, nearest.t + q.margin);
     return meets_first(&q, ray, ray->tmin, ray->tmax);
@@ -441,12 +440,7 @@ bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struc
 bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, double light)
 {
     struct search q;
-    q.kd = kd;
-    q.geo = geo;
-    q.world = ray;
-    q.start = start_of(ray);
-    q.instance = 0;
-    q.limit = ray->tmax;
+    begin(&q, kd, geo, ray);
     q.ends = ray->to != 0 && ray->to != WITHIN_MEDIUM && ray->tmax < INFINITY;
     q.light = light;
     return meets_any(&q, ray, ray->tmin, ray->tmax);

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/near.h"
 #include "base/number.h"
+#include "parser/spd.h"
 #include "parser/spectrum.h"
 
 /* --- reading ------------------------------------------------------------------------------------------ */
@@ -402,42 +403,6 @@ char *params_file(struct params *p, const char *name, struct source_position *at
     return path;
 }
 
-/* The numbers of an .spd file. As in pbrt-v3 [pbrt-v3 core/floatfile.cpp] a number ends at any character that it cannot
- * have, # begins a comment, and other text is passed over, with a warning for the first of each line. The place: that of
- * the last number. */
-static double *numbers_of_file(struct params *p, struct source_file *file, struct source_position *at, size_t *n)
-{
-    static const char OF_NUMBERS[] = "0123456789.+-eE";
-    double *number = NULL;
-    const char *line = file->text, *warned = NULL;
-    int n_lines = 0;
-    *at = (struct source_position){file, 1, 1};
-    *n = 0;
-    for (const char *c = line; c < file->end; c++) {
-        char token[64], *end = token;
-        size_t length = *c == 'e' || *c == 'E' ? 0 : strspn(c, OF_NUMBERS);
-        struct source_position here = {file, n_lines + 1, (int)(c - line) + 1};
-        snprintf(token, sizeof token, "%.*s", length < 63 ? (int)length : 63, c);
-        double value = strtod(token, &end);
-        if (end > token) {
-            number = mem_append(number, *n, sizeof *number);
-            number[(*n)++] = value;
-            *at = here;
-            c += length - 1;
-        } else if (*c == '#') {
-            c += strcspn(c, "\r\n") - 1;
-        } else if (*c == '\n' || (*c == '\r' && c[1] != '\n')) {
-            n_lines++;
-            line = c + 1;
-        } else if (strchr(" \t\r,;:", *c) == NULL && warned != line) {
-            source_warn(p->messages, here, "this text of a spectrum file is passed over, as in pbrt-v3: it should hold "
-                        "pairs of numbers, wavelength in nm and value");
-            warned = line;
-        }
-    }
-    return number;
-}
-
 /* The colour of an .spd file. Messages about it are shown at their place in that file. */
 static rgb rgb_from_file(struct params *p, const struct param *item)
 {
@@ -449,7 +414,7 @@ static rgb rgb_from_file(struct params *p, const struct param *item)
     char *text = path != NULL ? scene_files_read(p->files, path, &size, &inner) : NULL;
     if (text != NULL) {
         struct source_file file = {path, text, text + size, false};
-        double *number = numbers_of_file(p, &file, &at, &n);
+        double *number = spd_numbers(p->messages, &file, &at, &n);
         if (n < 2)
             params_fail(p, at, "a spectrum file holds pairs of numbers, wavelength in nm and value");
         else

@@ -56,7 +56,7 @@ static bool is_none(const char *type) { return type[0] == '\0' || strcmp(type, "
 static void settle_kind(struct parser *p, const struct object_type *types)
 {
     struct params *q = &p->params;
-    bool known = strcmp(q->type, "hair") == 0 || parse_foreign(q->type)[0] != '\0';
+    bool known = strcmp(q->type, "hair") == 0 || parse_foreign_type(q->directive, q->type).text[0] != '\0';
     for (const struct object_type *t = types; t->name != NULL; t++)
         known |= strcmp(t->name, q->type) == 0;
     if (known)
