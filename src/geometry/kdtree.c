@@ -406,16 +406,13 @@ static bool instance_met(const struct search *q, int prim, const double range[2]
     return shadow ? meets_any(&in, &r, tmin, tmax) : meets_first(&in, &r, tmin, tmax);
 }
 
-/* Up to where may surfaces be in one place with that which the ray leaves? */
-static double start_of(const struct ray *ray) { return ray->from != 0 ? GRAZING * start_margin(ray) : 0; }
-
 /* What all searches begin with; the rest is left as it is. */
 static void begin(struct search *q, const struct kdtree *kd, const struct geometry *geo, const struct ray *ray)
 {
     q->kd = kd;
     q->geo = geo;
     q->world = ray;
-    q->start = start_of(ray);
+    q->start = ray->from != 0 ? GRAZING * start_margin(ray) : 0;
     q->instance = 0;
     q->limit = ray->tmax;
 }

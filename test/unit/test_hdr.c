@@ -174,6 +174,9 @@ static void test_refused(struct test *t)
         {"tiles.exr", "tiles", 0, 4, "\0\0\0\0", DAMAGED}, /* no tile so wide, or so high */
         {"tiles.exr", "tiles", 4, 4, "\0\0\0\0", DAMAGED},
         {"tiles.exr", "tiles", 0, 1, "\7", BLOCK},
+        {"tiles.exr", "", 469, 1, "\1", BLOCK}, /* the column, row and level of the first tile */
+        {"tiles.exr", "", 473, 1, "\1", BLOCK},
+        {"tiles.exr", "", 477, 1, "\1", BLOCK},
         {"tiles.exr", "tiles", 0, 8, "\xff\xff\xff\xff\xff\xff\xff\xff", BLOCK},
         {"none.exr", "", 0, 1, "w", DAMAGED},
         {"none.exr", "", 4, 1, "\3", "other versions than 2"},
