@@ -25,7 +25,7 @@ render() {
     shift 5
     for i in 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
         [ -f "$to-$i.pfm" ] && continue
-        "$program" render "$from" --integrator "$method" "$@" --spp "$spp" --seed $((seed + i)) -j 1 --quiet -o "$work/part.pfm" \
+        "$program" render "$from" --integrator "$method" "$@" --spp "$spp" --seed $((seed + i)) -j 1 --quiet --unclamped -o "$work/part.pfm" \
             2>>"$work/messages"
         mv "$work/part.pfm" "$to-$i.pfm"
     done

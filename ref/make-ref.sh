@@ -58,7 +58,7 @@ render() {
         file=$work/$1-$2-$i.pfm
         if [ ! -f "$file" ]; then
             "$lab" render "$(file "$1")" ${MAXDEPTH:+--maxdepth "$MAXDEPTH"} --integrator "${2%%:*}" ${parameter:+-P "${parameter#:}"} --filter box \
-                --res "$(resolution "$1")" --spp "$(samples "$1")" --seed $(($3 + i)) --nthreads 1 --quiet \
+                --res "$(resolution "$1")" --spp "$(samples "$1")" --seed $(($3 + i)) --nthreads 1 --quiet --unclamped \
                 -o "$work/part.pfm"
             mv "$work/part.pfm" "$file"
         fi

@@ -11,7 +11,7 @@
 struct merge_options {
     struct texts output, part;
     struct tone_options tone;
-    bool partial, quiet;
+    bool partial, unclamped, quiet;
 };
 
 #define AT(member) offsetof(struct merge_options, member)
@@ -22,6 +22,7 @@ static const struct option OPTIONS[] = {
     {"--partial", NULL, OPTION_ON, AT(partial), .help = "make an image even if samples are missing"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
+    {"--unclamped", NULL, OPTION_ON, AT(unclamped), .help = UNCLAMPED_HELP},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not print what was written"}, {.name = NULL}};
 
 struct named {
@@ -112,10 +113,11 @@ static bool write_film(const struct merge_options *o, struct merge *m, long end,
     struct part whole = m->part[0].part; /* its identity is borrowed */
     float *pixels = mem_alloc((size_t)whole.width * (size_t)whole.height * 3, sizeof *pixels);
     whole.end = end;
-    film_warn(film, film_develop(film, whole.scale, pixels));
     out->place = whole.place;
     out->part = &whole;
     out->film = film;
+    out->unclamped = o->unclamped;
+    film_warn(film, outputs_develop(out, pixels));
     bool ok = outputs_write(out, whole.width, whole.height, pixels, o->quiet, err);
     free(pixels);
     return ok;

@@ -21,6 +21,7 @@ const struct option RENDER_OPTIONS[] = {
              "(default: the scene's Film name)"},
     {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
     {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
+    {"--unclamped", NULL, OPTION_ON, AT(unclamped), .help = UNCLAMPED_HELP},
     {"--time", "TIME", OPTION_TIME, AT(keep.time), 1e-9, 1e9,
      .help = "render for at most TIME, in seconds or as 90s, 5m, 1h, and write the image so far (default: no limit)"},
     {"--noise", "X", OPTION_NUMBER, AT(keep.noise[NOISE_RELATIVE]), 1e-9, 1e9,
@@ -210,7 +211,7 @@ static bool write_pictures(struct render_run *r, bool ok, struct error *err)
 {
     const struct film *film = &r->film;
     float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels);
-    film_warn(film, film_develop(film, r->scene.film_scale, pixels));
+    film_warn(film, outputs_develop(&r->pictures, pixels));
     warn_of_black(&r->scene, film, r->job.options.integrator->name, pixels);
     ok = outputs_write(&r->pictures, rect_width(film->rect), rect_height(film->rect), pixels, r->asked->quiet,
                        ok ? err : NULL) && ok;
@@ -226,6 +227,7 @@ bool render_work(struct render_run *r, struct error *err)
     r->pictures.place = r->keep.part.place;
     r->pictures.part = &r->keep.part;
     r->pictures.film = &r->film;
+    r->pictures.unclamped = r->asked->unclamped;
     r->samples = film_samples(&r->film);
     r->cpu = os_cpu_seconds();
     bool ok = render_scene(&r->job, &r->film, err);

@@ -46,6 +46,7 @@ struct job_options {
     /* Of render alone: */
     const char *stats;      /* file or NULL */
     struct tone_options tone;
+    bool unclamped;
     struct keep_options keep;
 };
 /* Of render; RUN_OPTIONS, for what takes samples; JOB_OPTIONS, for all: each leads on to the next. */

@@ -70,6 +70,14 @@ static bool write_one(struct outputs *o, struct output *one, int width, int heig
     return file_commit(&one->file, err);
 }
 
+long outputs_develop(const struct outputs *o, float *out)
+{
+    long cut = film_develop(o->film, o->part->scale, out);
+    for (size_t i = 0; !o->unclamped && i < rect_pixels(o->film->rect) * 3; i++)
+        out[i] = out[i] > 0 ? out[i] : 0;
+    return cut;
+}
+
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err)
 {
     bool ok = true;
@@ -100,7 +108,7 @@ bool outputs_preview(const struct outputs *o, struct error *err)
     if (!add_file(&first, o->item[0].file.path, false, err))
         return false;
     float *pixels = mem_alloc(rect_pixels(f->rect) * 3, sizeof *pixels);
-    film_develop(f, o->part->scale, pixels);
+    outputs_develop(o, pixels);
     bool ok = outputs_write(&first, rect_width(f->rect), rect_height(f->rect), pixels, true, err);
     free(pixels);
     return ok;

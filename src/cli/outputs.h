@@ -26,6 +26,7 @@ struct outputs {
     struct placement place;  /* where the pictures lie in their whole */
     const struct part *part; /* what is written into parts; borrowed */
     const struct film *film;
+    bool unclamped;          /* pictures keep values below 0 */
 };
 
 /* What the options --exposure and --tonemap say, and their help. */
@@ -35,6 +36,7 @@ struct tone_options {
 };
 #define EXPOSURE_HELP "make 8-bit images brighter by EV stops, a factor of 2 each"
 #define TONEMAP_HELP "tone curve of 8-bit images: none or filmic (default none)"
+#define UNCLAMPED_HELP "keep negative values in .pfm and .exr, for images that are averaged (default: 0 instead)"
 
 /* outputs_is_part: does the name end in .part? outputs_possible: can a file of this name be made? False with a
  * message. */
@@ -48,13 +50,16 @@ bool outputs_possible(const char *name, struct error *err);
 bool outputs_open(const struct texts *names, const struct tone_options *tone, bool parts, struct outputs *out,
                   struct error *err);
 
-/* outputs_write: the picture into all of them; unless `quiet` a line on stderr names each. One that fails does not
+/* outputs_develop: film_develop of the film, where values below 0 become 0 as in pbrt-v3's files, unless `unclamped`.
+ * Only pictures are cut: cut parts would add up to a biased whole.
+ * outputs_write: the picture into all of them; unless `quiet` a line on stderr names each. One that fails does not
  * keep the others from being written: the first message is kept and false returned.
  * outputs_preview: the film as it is now into the file of the first, which outputs_write replaces in the end;
  * outputs_previews: can it be? False with a message.
  * outputs_abandon: remove what outputs_write has not written.
  * outputs_end: write a picture that was read from a file, of which `about` tells the place, unless `pixels` is NULL,
  * whose message *err has then. Releases the outputs and the pixels. False with a message. */
+long outputs_develop(const struct outputs *o, float *out);
 bool outputs_write(struct outputs *o, int width, int height, const float *pixels, bool quiet, struct error *err);
 bool outputs_preview(const struct outputs *o, struct error *err);
 bool outputs_previews(const struct outputs *o, struct error *err);

@@ -108,48 +108,89 @@ struct search {
     const struct kdtree *kd;
     const struct geometry *geo;
     struct triangle_ray ray;
+    const struct ray *world; /* the same outside of objects */
+    double start;    /* up to there surfaces may be in one place with that where it begins */
     int instance;    /* of the object whose tree it is; 0: of none */
     double limit;    /* what lies behind it does not matter */
     /* of a shadow ray: */
+    bool ends;       /* on a primitive */
     double light;    /* from there on only lights count that are in the place of the one where the ray ends */
     /* else: */
-    double margin;   /* no margin in the world is larger */
+    double margin;   /* what is in one place is no farther apart along the ray */
     bool found;
     struct hit *hit; /* the first so far */
+    bool *close;     /* were others near the first? A second search compares them with that, */
+    const struct hit *nearest; /* which the first search has found; NULL in that */
 };
 
-/* Does a come before b, which is near to it? */
-static bool comes_first(const struct search *q, const struct hit *a, const struct hit *b)
+static double cosine_at(const struct search *q, const struct hit *h)
 {
-    if (a->prim == b->prim && a->instance == b->instance)
-        return false; /* the same in another cell */
-    const struct ray *ray = q->ray.ray;
-    uint64_t rank[2] = {shape_rank(q->geo, a, ray, neg(ray->d)), shape_rank(q->geo, b, ray, neg(ray->d))};
-    double margin = ray_margin(add(ray->o, mul(ray->d, b->t)));
-    if (!shape_is_light(q->geo, a->prim) && !shape_is_light(q->geo, b->prim))
-        margin = 1e-6 * (margin + ray_margin(ray->o)); /* rounding */
-    if (q->instance > 0)
-        margin /= length(ray->d);
-    return fabs(a->t - b->t) > margin ? a->t < b->t : rank[0] < rank[1];
+    struct surface at;
+    shape_surface(q->geo, h, q->world, &at);
+    return fabs(dot(at.ng, q->world->d));
 }
 
-/* The hit is next to the end of the ray on a light that shines in direction w. Is that light there instead? */
-static bool is_taken(const struct search *q, const struct hit *h, uint64_t light, vec3 w)
+/* Are two surfaces in one place that the ray meets so far from each other? */
+static bool is_beside(const struct search *q, const struct hit *a, const struct hit *b, double margin)
 {
-    return shape_rank(q->geo, h, q->ray.ray, w) >= shape_light_rank(q->geo, shape_prim(light));
+    double apart = fabs(a->t - b->t);
+    return apart <= margin || (apart < GRAZING * margin && apart * fmax(cosine_at(q, a), cosine_at(q, b)) <= margin);
+}
+
+/* Is a surface in one place with the nearest, and there rather than what has been found? */
+static bool comes_first(const struct search *q, const struct hit *h)
+{
+    const vec3 o = q->world->o, d = q->world->d;
+    double margin = ray_margin(add(o, mul(d, q->nearest->t))) + 1e-6 * ray_margin(o);
+    return is_beside(q, h, q->nearest, margin) &&
+           (!q->found || shape_rank(q->geo, h, q->world, neg(d)) < shape_rank(q->geo, q->hit, q->world, neg(d)));
+}
+
+/* The end of the ray, at distance t, on this primitive. */
+static struct hit end_hit(uint64_t id, double t)
+{
+    return (struct hit){.t = t, .b1 = 1.0 / 3, .b2 = 1.0 / 3, .prim = shape_prim(id), .instance = (int)(id >> 32)};
+}
+
+/* The ray ends where it meets `own`. If that is a light that shines in direction w, is it there in spite of this
+ * surface, which is in one place with it? */
+static bool is_taken(const struct search *q, const struct hit *h, bool light, const struct hit *own, vec3 w)
+{
+    return !light || shape_rank(q->geo, h, q->world, w) >= shape_light_rank(q->geo, own->prim);
+}
+
+/* Does a surface near the ray's origin not count, or near a shadow ray's end? Both are on primitives. */
+static bool is_at_start(const struct search *q, const struct hit *h)
+{
+    const struct ray *ray = q->world;
+    const struct hit own = end_hit(ray->from, 0);
+    return is_beside(q, h, &own, start_margin(ray)) ? is_taken(q, h, ray->tmin < 0, &own, ray->d) : h->t < 0;
+}
+
+static bool is_at_end(const struct search *q, const struct hit *h)
+{
+    const struct ray *ray = q->world;
+    double end = smaller(ray->tmax, q->light), margin = ray_margin(add(ray->o, mul(ray->d, end)));
+    const struct hit own = end_hit(ray->to, end + margin);
+    return is_beside(q, h, &own, margin) ? is_taken(q, h, q->light < INFINITY, &own, neg(ray->d)) : h->t > own.t;
+}
+
+/* Does what has been found come before this? Take note if both are near each other. */
+static bool is_near(struct search *q, const struct hit *h)
+{
+    bool same = h->prim == q->hit->prim && h->instance == q->hit->instance;
+    *q->close |= !same && fabs(h->t - q->hit->t) < q->margin;
+    return !(h->t < q->hit->t);
 }
 
 /* Take note of a hit. Is the search at its end? */
 static inline bool note(struct search *q, bool shadow, const struct hit *h)
 {
-    const struct ray *ray = q->ray.ray;
-    if (h->t <= -ray->tmin && is_taken(q, h, ray->from, ray->d))
-        return false;
-    if (shadow && h->t >= q->light && is_taken(q, h, ray->to, neg(ray->d)))
+    if ((h->t < q->start && is_at_start(q, h)) || (shadow && q->ends && is_at_end(q, h)))
         return false;
     if (shadow)
         return true;
-    if (q->found && h->t > q->hit->t - q->margin && !comes_first(q, h, q->hit))
+    if (q->nearest != NULL ? !comes_first(q, h) : q->found && is_near(q, h))
         return false;
     q->found = true;
     *q->hit = *h;
@@ -365,25 +406,39 @@ static bool instance_met(const struct search *q, int prim, const double range[2]
     return shadow ? meets_any(&in, &r, tmin, tmax) : meets_first(&in, &r, tmin, tmax);
 }
 
+/* What all searches begin with; the rest is left as it is. */
+static void begin(struct search *q, const struct kdtree *kd, const struct geometry *geo, const struct ray *ray)
+{
+    q->kd = kd;
+    q->geo = geo;
+    q->world = ray;
+    q->start = ray->from != 0 ? GRAZING * start_margin(ray) : 0;
+    q->instance = 0;
+    q->limit = ray->tmax;
+}
+
 bool kd_closest(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, struct hit *hit)
 {
     struct search q;
-    q.kd = kd;
-    q.geo = geo;
-    q.instance = 0;
-    q.limit = ray->tmax;
-    q.margin = 3e-7 * kd->reach;
+    begin(&q, kd, geo, ray);
+    bool close = false;
+    q.margin = GRAZING * 3e-7 * kd->reach;
     q.hit = hit;
+    q.close = &close;
+    q.nearest = NULL;
+    if (!meets_first(&q, ray, ray->tmin, ray->tmax) || !close)
+        return q.found;
+    const struct hit nearest = *hit;
+    q.nearest = &nearest;
+    q.limit = smaller(ray->tmax, nearest.t + q.margin);
     return meets_first(&q, ray, ray->tmin, ray->tmax);
 }
 
 bool kd_occluded(const struct kdtree *kd, const struct geometry *geo, const struct ray *ray, double light)
 {
     struct search q;
-    q.kd = kd;
-    q.geo = geo;
-    q.instance = 0;
-    q.limit = ray->tmax;
+    begin(&q, kd, geo, ray);
+    q.ends = ray->to != 0 && ray->to != WITHIN_MEDIUM && ray->tmax < INFINITY;
     q.light = light;
     return meets_any(&q, ray, ray->tmin, ray->tmax);
 }

@@ -25,9 +25,9 @@ struct kdtree {
     double reach;       /* largest absolute coordinate of the bounds */
 };
 
-/* Which primitives: those with a material; those without, except those that only bound media. */
+/* Which primitives: those with a material; of those without the lights, and what bounds media, which may be both. */
 enum kd_of { KD_SURFACES, KD_LAMPS, KD_INTERFACES };
-enum kd_of kd_kind(const struct shape_group *group);
+bool kd_has(enum kd_of kind, const struct shape_group *group);
 
 /* kd_build: build the tree of all primitives of one kind; kd_free releases it. Cannot fail (memory: see mem.h). The
  * result depends on the geometry alone. The geometry must not change afterwards. */
@@ -36,7 +36,8 @@ void kd_free(struct kdtree *kd);
 
 /* Where surfaces lie in one place, it is the same one for all rays (shape_rank). Next to a light where a ray ends or
  * begins, nothing counts except a light that is there instead. So it is for walks: a light comes before what they meet
- * up to ray_margin (surface.h) before it. Of other surfaces, those that rounding alone tells apart are in one place.
+ * up to ray_margin (surface.h) before it. Two surfaces are in one place that are no farther apart than that, at their
+ * normals, where rays meet them. Of all that are in one place with the nearest, the first by shape_rank is there.
  *
  * kd_closest: the first hit in (tmin, tmax), honouring alpha. Returns false if there is none. Thread-safe. tmin is
  * below 0 where the ray begins on a light, whose place extends to -tmin.

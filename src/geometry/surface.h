@@ -9,7 +9,7 @@
 /* A ray segment: the open interval (tmin, tmax) of o + t d. d is unit, so t is a world distance. */
 struct ray {
     vec3 o, d;
-    double tmin, tmax; /* tmin < 0: the ray begins on a light, whose place extends to -tmin; tmax may be HUGE_VAL */
+    double tmin, tmax; /* tmin < 0: the ray begins on a light, tmin being -GRAZING margins; tmax may be HUGE_VAL */
     uint64_t from, to; /* primitives that the segment begins and ends on, as shape_prim_id numbers them; 0: none
                         * known. A line meets a triangle once and a quadric twice, so these meetings are left out. */
 };
@@ -17,11 +17,17 @@ struct ray {
 /* Where a ray begins or ends, or a surface is, that is a point within a medium, instead of a primitive. */
 #define WITHIN_MEDIUM UINT64_MAX
 
+/* A ray that grazes surfaces in one place meets them farther from each other than they are, but we look no farther than
+ * for so many margins. */
+enum { GRAZING = 100 };
+
 /* ray_margin: how far from a point p of a surface, which is not met again (`from`, `to`), a ray meets others.
  * Corners are floats: surfaces nearer to each other than a float's step at p are one.
- * end_margin: the same where the point is on `prim`; none within a medium, where it may be close to a surface. */
+ * end_margin: the same where the point is on `prim`; none within a medium, where it may be close to a surface.
+ * start_margin: that of a ray's origin. */
 static inline double ray_margin(vec3 p) { return 1e-7 * (fabs(p.x) + fabs(p.y) + fabs(p.z)); }
 static inline double end_margin(vec3 p, uint64_t prim) { return prim == WITHIN_MEDIUM ? 0 : ray_margin(p); }
+static inline double start_margin(const struct ray *ray) { return ray->tmin < 0 ? ray->tmin / -GRAZING : ray->tmin; }
 
 /* Where a ray meets a primitive. */
 struct hit {

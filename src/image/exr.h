@@ -35,7 +35,8 @@ struct exr {
     enum exr_compression compression;
     int64_t data_window[4], display[4]; /* left, top, right, bottom, all in it */
     size_t width, height;        /* of the data window, not empty */
-    size_t rows;                 /* of a block; the last may have fewer */
+    bool tiled;
+    size_t columns, rows;        /* of a block; the last may have fewer */
     struct exr_channel *channel; /* [n_channels], at least one; owned */
     size_t n_channels, capacity;
     size_t pixel_bytes; /* of all channels */

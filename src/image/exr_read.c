@@ -1,6 +1,6 @@
 /* exr_read.c: OpenEXR files read, see exr.h and image.h. [OpenEXR]
  *
- * Read are single pictures with full-resolution channels. Of the attributes only those that say where the pixels are
+ * Read are single pictures with full-resolution channels, in rows or in tiles, of which only the finest level counts. Of the attributes only those that say where the pixels are
  * matter here. Like pbrt-v3, this program takes the data window for the picture; the display window is the whole of
  * which that is a part. */
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 /* --- the header --------------------------------------------------------------------------------------- */
 
 static const uint8_t MAGIC[4] = {0x76, 0x2f, 0x31, 0x01};
-enum { VERSION = 2, LONG_NAMES = 0x400 };
+enum { VERSION = 2, TILED = 0x200, LONG_NAMES = 0x400 };
 
 bool exr_matches(const uint8_t *data, size_t size)
 {
@@ -29,9 +29,10 @@ static bool read_version(struct exr *e)
         return damaged(e);
     uint32_t version = exr_u32(e->data + 4);
     e->at = 8;
-    return (version & ~(uint32_t)LONG_NAMES) == VERSION ||
-           error_set(e->err, "OpenEXR files in tiles or several parts, deep ones and other versions than 2 are not "
-                             "read (this is of kind %lx); save it as one flat image in rows", (unsigned long)version);
+    e->tiled = (version & TILED) != 0;
+    return (version & ~(uint32_t)(LONG_NAMES | TILED)) == VERSION ||
+           error_set(e->err, "OpenEXR files in several parts, deep ones and other versions than 2 are not read (this is "
+                             "of kind %lx); save it as one flat image", (unsigned long)version);
 }
 
 /* The next text before `end`, stepping over it; NULL if it has no end. */
@@ -69,10 +70,13 @@ static bool read_channels(struct exr *e, size_t end)
 
 static bool read_compression(struct exr *e, unsigned number)
 {
+    static const char *const NAMES[] = {"none", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB"};
+    enum { N_NAMES = sizeof NAMES / sizeof NAMES[0] };
     bool known = number < EXR_READ && number != EXR_RLE;
     e->compression = known ? (enum exr_compression)number : EXR_READ;
-    return known || error_set(e->err, "OpenEXR compression %u (RLE, PXR24, B44, DWA or the like) is not read; save it "
-                                      "with ZIP or PIZ", number);
+    return known || error_set(e->err, "OpenEXR compression %u (%s) is not read; save it with ZIP or PIZ, as with: "
+                                      "oiiotool x.exr --compression zip -o y.exr", number,
+                              number < N_NAMES ? NAMES[number] : "unknown");
 }
 
 /* The value of an attribute, n bytes at e->at. */
@@ -83,6 +87,10 @@ static bool read_value(struct exr *e, const char *name, size_t n)
         return read_channels(e, e->at + n);
     if (strcmp(name, "compression") == 0 && n == 1)
         return read_compression(e, p[0]);
+    if (strcmp(name, "tiles") == 0 && n == 9) { /* and how levels are made, which does not matter here */
+        e->columns = exr_u32(p);
+        e->rows = exr_u32(p + 4);
+    }
     int64_t *window = strcmp(name, "dataWindow") == 0 ? e->data_window : e->display;
     if ((window == e->data_window || strcmp(name, "displayWindow") == 0) && n == 16)
         for (size_t i = 0; i < 4; i++)
@@ -110,6 +118,8 @@ static bool read_attributes(struct exr *e)
     }
 }
 
+static size_t smaller(size_t a, size_t b) { return a < b ? a : b; }
+
 static bool read_header(struct exr *e)
 {
     static const int64_t EMPTY[4] = {0, 0, -1, -1};
@@ -124,9 +134,14 @@ static bool read_header(struct exr *e)
         return false;
     e->width = (size_t)width;
     e->height = (size_t)height;
-    e->rows = e->compression == EXR_ZIP ? EXR_ZIP_ROWS : e->compression == EXR_PIZ ? EXR_PIZ_ROWS : 1;
-    e->rows = e->rows < e->height ? e->rows : e->height;
-    return (e->n_channels > 0 && e->compression != EXR_READ) || damaged(e);
+    if (!e->tiled) {
+        e->columns = e->width;
+        e->rows = e->compression == EXR_ZIP ? EXR_ZIP_ROWS : e->compression == EXR_PIZ ? EXR_PIZ_ROWS : 1;
+    }
+    e->columns = smaller(e->columns, e->width);
+    e->rows = smaller(e->rows, e->height);
+    bool empty = e->columns == 0 || e->rows == 0 || e->n_channels == 0;
+    return (!empty && e->compression != EXR_READ) || damaged(e);
 }
 
 /* --- compressed blocks -------------------------------------------------------------------------------- */
@@ -140,12 +155,26 @@ static void undo_differences(uint8_t *in, size_t n, uint8_t *out)
         out[i] = in[i / 2 + (i % 2 != 0 ? (n + 1) / 2 : 0)];
 }
 
+/* A block: where it begins in the picture, and its size. */
+struct block {
+    size_t x, y, width, height;
+};
+
+static size_t blocks_across(const struct exr *e) { return (e->width - 1) / e->columns + 1; }
+static size_t blocks_down(const struct exr *e) { return (e->height - 1) / e->rows + 1; }
+
+static struct block block_of(const struct exr *e, size_t number)
+{
+    size_t x = number % blocks_across(e) * e->columns, y = number / blocks_across(e) * e->rows;
+    return (struct block){x, y, smaller(e->columns, e->width - x), smaller(e->rows, e->height - y)};
+}
+
 /* The [size] bytes of a compressed block of [n], to out; scratch is as large. False on damage. */
-static bool unpack(const struct exr *e, const uint8_t *in, size_t n, size_t rows, uint8_t *scratch, uint8_t *out,
-                   size_t size)
+static bool unpack(const struct exr *e, const uint8_t *in, size_t n, const struct block *b, uint8_t *scratch,
+                   uint8_t *out, size_t size)
 {
     if (e->compression == EXR_PIZ)
-        return piz_unpack(e, in, n, e->width, rows, out, size);
+        return piz_unpack(e, in, n, b->width, b->height, out, size);
     bool ok = inflate_zlib(in, n, scratch, size, NULL);
     if (ok)
         undo_differences(scratch, size, out);
@@ -173,38 +202,47 @@ static bool find_colours(const struct exr *e, const struct exr_channel **colour)
                             e->channel[0].name);
 }
 
-/* Find the block that begins at row y by the table of offsets at e->at and unpack it: its number, its size, its data.
- * False if it is not there, or damaged. */
-static bool read_block(const struct exr *e, size_t y, size_t rows, uint8_t *scratch, uint8_t *out)
+/* Does the head of this block say which it is? A tile: its column, its row, and its level, 0 0; else its first row. */
+static bool is_head(const struct exr *e, const uint8_t *p, size_t number, const struct block *b)
 {
-    uint64_t offset = bits_of_bytes(e->data + e->at + 8 * (y / e->rows), 8, false);
-    size_t bytes = e->width * rows * e->pixel_bytes;
-    if (offset > e->size || e->size - offset < 8)
+    if (!e->tiled)
+        return exr_i32(p) == e->data_window[1] + (int64_t)b->y;
+    return exr_u32(p) == number % blocks_across(e) && exr_u32(p + 4) == number / blocks_across(e) &&
+           exr_u32(p + 8) == 0 && exr_u32(p + 12) == 0;
+}
+
+/* Find a block by the table of offsets at e->at and unpack it: its head, its size, its data. False if it is not there,
+ * or damaged. */
+static bool read_block(const struct exr *e, size_t number, const struct block *b, uint8_t *scratch, uint8_t *out)
+{
+    uint64_t offset = bits_of_bytes(e->data + e->at + 8 * number, 8, false);
+    size_t bytes = b->width * b->height * e->pixel_bytes, head = e->tiled ? 16 : 4;
+    if (offset > e->size || e->size - offset < head + 4)
         return false;
     const uint8_t *p = e->data + offset;
-    size_t n = exr_u32(p + 4), left = e->size - (size_t)offset - 8;
-    if (exr_i32(p) != e->data_window[1] + (int64_t)y || n > left || n > bytes ||
-        (n < bytes && e->compression == EXR_NONE))
+    size_t n = exr_u32(p + head), left = e->size - (size_t)offset - head - 4;
+    if (!is_head(e, p, number, b) || n > left || n > bytes || (n < bytes && e->compression == EXR_NONE))
         return false;
+    p += head + 4;
     if (n < bytes)
-        return unpack(e, p + 8, n, rows, scratch, out, bytes);
-    memcpy(out, p + 8, n);
+        return unpack(e, p, n, b, scratch, out, bytes);
+    memcpy(out, p, n);
     return true;
 }
 
 /* --- pixels ------------------------------------------------------------------------------------------- */
 
-/* Put one channel of the rows from y on in its place, or leave it 0 where there is none. */
-static void place(const struct exr *e, size_t y, size_t rows, const uint8_t *bytes, const struct exr_channel *c,
+/* Put one channel of a block in its place, or leave it 0 where there is none. */
+static void place(const struct exr *e, const struct block *b, const uint8_t *bytes, const struct exr_channel *c,
                   struct image *out, size_t k)
 {
     if (c == NULL)
         return;
     size_t step = exr_type_bytes(c->type), channels = (size_t)out->channels;
-    for (size_t j = 0; j < rows; j++) {
-        const uint8_t *from = bytes + (j * e->pixel_bytes + c->start) * e->width;
-        float *to = out->f32 + (y + j) * e->width * channels + k;
-        for (size_t x = 0; x < e->width; x++) {
+    for (size_t j = 0; j < b->height; j++) {
+        const uint8_t *from = bytes + (j * e->pixel_bytes + c->start) * b->width;
+        float *to = out->f32 + ((b->y + j) * e->width + b->x) * channels + k;
+        for (size_t x = 0; x < b->width; x++) {
             uint32_t bits = (uint32_t)bits_of_bytes(from + x * step, step, false);
             to[x * channels] = c->type == EXR_HALF ? half_to_float((uint16_t)bits)
                              : c->type == EXR_FLOAT ? float_of_bits(bits) : (float)bits;
@@ -215,18 +253,18 @@ static void place(const struct exr *e, size_t y, size_t rows, const uint8_t *byt
 static bool read_blocks(const struct exr *e, const struct exr_channel *const *colour, struct image *out)
 {
     bool grey = colour[RED] == NULL && colour[GREEN] == NULL && colour[BLUE] == NULL, ok = true;
-    size_t pixels = e->width * e->rows;
+    size_t pixels = e->columns * e->rows;
     uint64_t blocks = 2 * (uint64_t)pixels * e->pixel_bytes;
     if (!budget_has(e->memory, (double)(blocks + (uint64_t)e->width * e->height * 3 * sizeof *out->f32), e->err))
         return false;
     uint8_t *bytes = mem_alloc(pixels, e->pixel_bytes), *scratch = mem_alloc(pixels, e->pixel_bytes);
     picture_alloc_f32(out, e->width, e->height, grey ? 1 : 3);
-    for (size_t y = 0; ok && y < e->height; y += e->rows) {
-        size_t rows = e->rows < e->height - y ? e->rows : e->height - y;
-        ok = read_block(e, y, rows, scratch, bytes) ||
-             error_set(e->err, "the file is incomplete, truncated or damaged in row %lu", (unsigned long)y);
+    for (size_t i = 0; ok && i < blocks_across(e) * blocks_down(e); i++) {
+        const struct block b = block_of(e, i);
+        ok = read_block(e, i, &b, scratch, bytes) ||
+             error_set(e->err, "the file is incomplete, truncated or damaged in row %lu", (unsigned long)b.y);
         for (size_t k = 0; ok && k < (size_t)out->channels; k++)
-            place(e, y, rows, bytes, grey ? colour[GREY] : colour[k], out, k);
+            place(e, &b, bytes, grey ? colour[GREY] : colour[k], out, k);
     }
     free(scratch);
     free(bytes);
@@ -243,7 +281,7 @@ static bool read_picture(struct exr *e, struct image *out)
     if (!read_header(e) || !find_colours(e, colour))
         return false;
     size_t left = e->size - e->at;
-    uint64_t blocks = (e->height - 1) / e->rows + 1;
+    uint64_t blocks = (uint64_t)blocks_across(e) * blocks_down(e);
     uint64_t bytes = (uint64_t)e->width * e->height * e->pixel_bytes;
     if (blocks > left / 8 || bytes / INFLATE_MAX_RATIO > left || bytes > SIZE_MAX / 2)
         return picture_truncated((unsigned long)e->width, (unsigned long)e->height, e->err);

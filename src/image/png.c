@@ -2,6 +2,7 @@
  *
  * A file is a signature and chunks (length, name, data, CRC). The data of all IDAT chunks together are a zlib
  * stream of rows, each a filter's number and the row's bytes less what a filter predicts from their neighbours [PNG 9].
+ * An interlaced picture is seven smaller ones, one after the other [PNG 8.2].
  */
 #include <math.h>
 #include <stdlib.h>
@@ -53,6 +54,7 @@ struct png {
     const uint8_t *data;
     size_t size, at;
     size_t width, height;
+    bool interlaced;
     unsigned depth; /* bits of a sample */
     enum colour colour;
     unsigned samples; /* of a pixel as stored */
@@ -111,8 +113,7 @@ static bool read_header(struct png *p)
     p->samples = samples_of(c.data[9], p->depth);
     if (p->samples == 0 || c.data[10] != 0 || c.data[11] != 0 || c.data[12] > 1)
         return error_set(p->err, "unknown kind of PNG file (colour type %u, %u bits)", (unsigned)c.data[9], p->depth);
-    if (c.data[12] == 1)
-        return error_set(p->err, "interlaced PNG files are not read; save it without interlacing");
+    p->interlaced = c.data[12] == 1;
     p->colour = (enum colour)c.data[9];
     return picture_size_ok(p->width, p->height, p->err);
 }
@@ -139,10 +140,38 @@ static bool read_chunks(struct png *p)
     return false;
 }
 
-/* Bytes of a row without the filter's number. */
-static size_t row_bytes(const struct png *p)
+/* Every `step`th pixel from `first` on, across and down: a picture of this size. [PNG 8.2] */
+struct pass {
+    size_t first[2], step[2], width, height;
+};
+
+enum { PASSES = 7 };
+
+/* A picture that is not interlaced has one pass with all of it. */
+static struct pass pass_of(const struct png *p, int number)
 {
-    return (size_t)(((uint64_t)p->width * p->samples * p->depth + 7) / 8);
+    static const uint8_t ADAM7[PASSES][4] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+                                             {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
+    const uint8_t *a = ADAM7[number];
+    struct pass s = {{0, 0}, {1, 1}, p->width, p->height};
+    if (p->interlaced)
+        s = (struct pass){{a[0], a[1]}, {a[2], a[3]}, (p->width + a[2] - a[0] - 1u) / a[2],
+                          (p->height + a[3] - a[1] - 1u) / a[3]};
+    return s;
+}
+
+static int passes(const struct png *p) { return p->interlaced ? PASSES : 1; }
+
+/* Bytes of a row of so many pixels without the filter's number. */
+static size_t row_bytes(const struct png *p, size_t width)
+{
+    return (size_t)(((uint64_t)width * p->samples * p->depth + 7) / 8);
+}
+
+/* All rows of a pass with their filters' numbers. */
+static size_t pass_bytes(const struct png *p, const struct pass *s)
+{
+    return s->width == 0 ? 0 : s->height * (1 + row_bytes(p, s->width));
 }
 
 /* Sample number `i` of a row. */
@@ -177,17 +206,12 @@ static bool put_pixel(const struct png *p, const uint8_t *row, size_t i, struct 
     return true;
 }
 
-/* Undo the filters and put all unpacked pixels in place. `above`: a row of zeros. */
-static bool place_pixels(const struct png *p, const uint8_t *above, uint8_t *bytes, struct image *out)
+/* Undo the filters of a pass and put its pixels in place. `above`: a row of zeros. */
+static bool place_pass(const struct png *p, const struct pass *s, const uint8_t *above, uint8_t *bytes,
+                       struct image *out)
 {
-    int channels = p->colour == GREY || p->colour == GREY_ALPHA ? 1 : 3;
-    size_t n = row_bytes(p), step = p->samples * p->depth < 8 ? 1 : p->samples * p->depth / 8;
-    if (p->depth == 16)
-        picture_alloc_f32(out, p->width, p->height, channels);
-    else
-        picture_alloc_u8(out, p->width, p->height, channels);
-    out->linear = false;
-    for (size_t y = 0; y < p->height; y++) {
+    size_t n = row_bytes(p, s->width), step = p->samples * p->depth < 8 ? 1 : p->samples * p->depth / 8;
+    for (size_t y = 0; s->width > 0 && y < s->height; y++) {
         uint8_t *row = bytes + y * (n + 1);
         if (row[0] >= FILTERS)
             return damaged(p);
@@ -195,22 +219,44 @@ static bool place_pixels(const struct png *p, const uint8_t *above, uint8_t *byt
         for (size_t i = 0; i < n; i++)
             row[i] = (uint8_t)(row[i] + predict(f, row, above, i, step));
         above = row;
-        for (size_t x = 0; x < p->width; x++)
-            if (!put_pixel(p, row, x, out, y * p->width + x))
+        size_t line = (s->first[1] + y * s->step[1]) * p->width + s->first[0];
+        for (size_t x = 0; x < s->width; x++)
+            if (!put_pixel(p, row, x, out, line + x * s->step[0]))
                 return false;
     }
     return true;
 }
 
+static bool place_pixels(const struct png *p, const uint8_t *zeros, uint8_t *bytes, struct image *out)
+{
+    int channels = p->colour == GREY || p->colour == GREY_ALPHA ? 1 : 3;
+    bool ok = true;
+    if (p->depth == 16)
+        picture_alloc_f32(out, p->width, p->height, channels);
+    else
+        picture_alloc_u8(out, p->width, p->height, channels);
+    out->linear = false;
+    for (int i = 0; ok && i < passes(p); i++) {
+        const struct pass s = pass_of(p, i);
+        ok = place_pass(p, &s, zeros, bytes, out);
+        bytes += pass_bytes(p, &s);
+    }
+    return ok;
+}
+
 static bool read_pixels(const struct png *p, struct image *out)
 {
-    size_t total = p->height * (1 + row_bytes(p));
+    size_t total = 0;
+    for (int i = 0; i < passes(p); i++) {
+        const struct pass s = pass_of(p, i);
+        total += pass_bytes(p, &s);
+    }
     if (total / INFLATE_MAX_RATIO > p->n_packed)
         return picture_truncated(p->width, p->height, p->err);
     uint64_t samples = (uint64_t)p->width * p->height * 3;
     if (!budget_has(p->memory, (double)(total + samples * (p->depth == 16 ? sizeof *out->f32 : 1)), p->err))
         return false;
-    uint8_t *bytes = mem_alloc(total, 1), *zeros = mem_alloc(row_bytes(p), 1);
+    uint8_t *bytes = mem_alloc(total, 1), *zeros = mem_alloc(row_bytes(p, p->width), 1);
     bool ok = inflate_zlib(p->packed, p->n_packed, bytes, total, p->err);
     if (ok && !place_pixels(p, zeros, bytes, out)) {
         image_free(out);

@@ -18,7 +18,8 @@ double fresnel_dielectric(double cos_i, double eta_a, double eta_b)
     return 0.5 * (sqr(parallel) + sqr(perpendicular));
 }
 
-/* [Lagarde 2013] */
+/* [Lagarde 2013] Where there is hardly a boundary (eta 1, k 0) rounding would make it less than 0, and grazing light 0/0,
+ * which fmax drops. */
 static double conductor_channel(double cos_i, double eta, double k)
 {
     double cos2 = cos_i * cos_i, sin2 = 1 - cos2;
@@ -26,9 +27,9 @@ static double conductor_channel(double cos_i, double eta, double k)
     double a2_plus_b2 = sqrt(sqr(difference) + 4 * sqr(eta * k));
     double a = safe_sqrt(0.5 * (a2_plus_b2 + difference));
     double sum = a2_plus_b2 + cos2, cross_term = 2 * cos_i * a;
-    double perpendicular = (sum - cross_term) / (sum + cross_term);
+    double perpendicular = fmax((sum - cross_term) / (sum + cross_term), 0);
     double sum_p = cos2 * a2_plus_b2 + sin2 * sin2, cross_p = cross_term * sin2;
-    double parallel = perpendicular * (sum_p - cross_p) / (sum_p + cross_p);
+    double parallel = fmax(perpendicular * (sum_p - cross_p) / (sum_p + cross_p), 0);
     return 0.5 * (parallel + perpendicular);
 }
 

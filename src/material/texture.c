@@ -35,15 +35,29 @@ int texture_add_space(struct texture_set *set, struct transform current)
     return set->n_spaces++;
 }
 
+static int add_image(struct texture_set *set, struct image img)
+{
+    set->image = mem_append(set->image, (size_t)set->n_images, sizeof *set->image);
+    set->image[set->n_images] = img;
+    return set->n_images++;
+}
+
+int texture_add_grey(struct texture_set *set, bool linear)
+{
+    struct image img;
+    picture_alloc_f32(&img, 1, 1, 1);
+    img.f32[0] = 0.5f;
+    img.linear = linear;
+    return add_image(set, img);
+}
+
 int texture_load_image(struct texture_set *set, const char *path, const struct budget *memory, struct error *err)
 {
     struct image img;
     if (!image_read(path, memory, &img, err))
         return -1;
     image_mend(&img, false);
-    set->image = mem_append(set->image, (size_t)set->n_images, sizeof *set->image);
-    set->image[set->n_images] = img;
-    return set->n_images++;
+    return add_image(set, img);
 }
 
 void texture_set_free(struct texture_set *set)

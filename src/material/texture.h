@@ -89,8 +89,10 @@ int texture_add_constant(struct texture_set *set, rgb value);
 int texture_add_space(struct texture_set *set, struct transform current);
 
 /* texture_load_image: the number of an image that is read from this file, which may use this memory; -1 with a message.
+ * texture_add_grey: that of one pixel of 0.5, light or sRGB, in place of a file.
  * texture_set_free: releases all images, textures and transforms; the set is empty and usable again. */
 int texture_load_image(struct texture_set *set, const char *path, const struct budget *memory, struct error *err);
+int texture_add_grey(struct texture_set *set, bool linear);
 void texture_set_free(struct texture_set *set);
 
 /* texture_rgb, texture_float: the value at a surface point; may be negative, infinite or NaN. `id`: a valid texture

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/near.h"
 #include "base/number.h"
+#include "parser/spd.h"
 #include "parser/spectrum.h"
 
 /* --- reading ------------------------------------------------------------------------------------------ */
@@ -267,6 +268,12 @@ static bool numbers_usable(struct params *p, const struct param *item)
     return true;
 }
 
+static void warn_of_empty(struct params *p, const struct param *item)
+{
+    source_warn(p->messages, item->position, "parameter \"%s %s\" is empty, and is passed over",
+                params_type_name(item->type), item->name);
+}
+
 /* A parameter that is n values, all of them usable. As in pbrt-v3, of fewer the default counts, and of more, except for
  * a rest: four numbers are one colour, six are two. */
 static struct param *find_n(struct params *p, const char *name, unsigned types, int n)
@@ -275,7 +282,9 @@ static struct param *find_n(struct params *p, const char *name, unsigned types, 
     if (item == NULL || p->failed)
         return NULL;
     bool fits = item->type == PARAM_FLOAT ? item->n == n : item->n / n == 1;
-    if (item->n != n)
+    if (item->n == 0)
+        warn_of_empty(p, item);
+    else if (item->n != n)
         source_warn(p->messages, item->position, "parameter \"%s %s\" of %s \"%s\" wants %d value%s%s, not %d; %s",
                     params_type_name(item->type), name, p->directive, p->type, n, n > 1 ? "s" : "",
                     item->type == PARAM_BLACKBODY ? ", kelvin and a factor" : "", item->n,
@@ -371,7 +380,9 @@ struct field_list params_list(struct params *p, const char *name, unsigned types
     if (item == NULL || p->failed || !numbers_usable(p, item))
         return (struct field_list){NULL, 0};
     int n = item->is_text ? 0 : item->n / group;
-    if (n == 0 || item->n % group != 0)
+    if (item->n == 0)
+        warn_of_empty(p, item);
+    else if (n == 0 || item->n % group != 0)
         source_warn(p->messages, item->position,
                     "parameter \"%s %s\" wants its numbers in groups of %d, but there are %d; the rest is passed over",
                     params_type_name(item->type), name, group, item->n);
@@ -392,52 +403,30 @@ char *params_file(struct params *p, const char *name, struct source_position *at
     return path;
 }
 
-/* The colour of wavelength and value pairs: numbers, between blanks or commas, with comments from # to the end of the
- * line. */
-static rgb rgb_from_pairs(struct params *p, struct source_file *file)
-{
-    rgb colour = rgb_black();
-    struct arena arena = {NULL, NULL};
-    struct lexer l = {.arena = &arena, .messages = p->messages};
-    lexer_enter(&l, file);
-    double *number = NULL;
-    size_t n = 0;
-    struct token t = {0};
-    bool ok = lexer_next(&l, &t);
-    for (; ok && t.kind == TOKEN_NUMBER; ok = lexer_next(&l, &t)) {
-        number = mem_append(number, n, sizeof *number);
-        number[n++] = t.number;
-    }
-    if (!ok)
-        p->failed = true;
-    else if (t.kind != TOKEN_END || n < 2 || n % 2 != 0)
-        params_fail(p, t.position,
-                    "a spectrum file holds pairs of numbers, wavelength in nm and value, and nothing else");
-    else
-        colour = spectrum_from_samples((double(*)[2])number, (int)(n / 2));
-    lexer_leave(&l);
-    free(number);
-    arena_free(&arena);
-    return colour;
-}
-
-/* That of an .spd file. Errors in it are shown at their position in that file. */
+/* The colour of an .spd file. Messages about it are shown at their place in that file. */
 static rgb rgb_from_file(struct params *p, const struct param *item)
 {
     rgb colour = rgb_black();
     struct error inner;
-    size_t size;
+    struct source_position at;
+    size_t size, n;
     char *path = scene_files_path(p->files, item->text[0], &inner);
     char *text = path != NULL ? scene_files_read(p->files, path, &size, &inner) : NULL;
     if (text != NULL) {
         struct source_file file = {path, text, text + size, false};
-        for (char *c = strchr(text, ','); c != NULL; c = strchr(c, ','))
-            *c = ' ';
-        colour = rgb_from_pairs(p, &file);
+        double *number = spd_numbers(p->messages, &file, &at, &n);
+        if (n < 2)
+            params_fail(p, at, "a spectrum file holds pairs of numbers, wavelength in nm and value");
+        else
+            colour = spectrum_from_samples((double(*)[2])number, (int)(n / 2));
+        if (n > 2 && n % 2 != 0)
+            source_warn(p->messages, at, "this number of a spectrum file has no partner, and is passed over");
+        free(number);
     } else {
         params_fail(p, item->position, "%s%s", inner.text, strchr(item->text[0], '.') != NULL ? "" :
                     "; a spectrum here is a file, or numbers: pbrt-v4's names of spectra are not known");
     }
+    free(text);
     free(path);
     return colour;
 }

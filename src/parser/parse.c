@@ -124,16 +124,15 @@ bool parse_done(struct parser *p)
 
 int parse_constant(struct parser *p, rgb value) { return texture_add_constant(&p->scene->textures, value); }
 
-int parse_named_texture(struct parser *p, const char *name, bool is_float)
+int parse_named_texture(struct parser *p, const char *name, bool is_float, bool *unknown)
 {
     struct params *q = &p->params;
     const struct symbols *table = is_float ? &p->float_textures : &p->spectrum_textures;
     struct source_position at;
     const char *texture = params_text(q, name, PARAM_TEXTURE, &at);
-    if (texture == NULL)
-        return -1;
-    int id = symbols_find(table, texture);
-    if (id < 0)
+    int id = texture != NULL ? symbols_find(table, texture) : -1;
+    *unknown = texture != NULL && id < 0;
+    if (*unknown)
         source_warn(&p->messages, at, "there is no %s texture \"%.60s\"; the default is taken%s",
                     is_float ? "float" : "spectrum", texture, parse_near_symbol(p, texture, table).text);
     return id;
@@ -213,8 +212,11 @@ static int checked(struct parser *p, const struct field *f, int texture)
 
 static int float_texture(struct parser *p, const struct field *f, int kept)
 {
-    int id = parse_named_texture(p, f->name, true);
-    double value = id < 0 ? params_number(&p->params, f->name, f->fallback, -NUMBER_MAX, NUMBER_MAX) : 0;
+    bool unknown;
+    int id = parse_named_texture(p, f->name, true, &unknown);
+    double value = f->fallback;
+    if (id < 0 && !unknown)
+        value = params_number(&p->params, f->name, value, -NUMBER_MAX, NUMBER_MAX);
     if (id < 0)
         id = isnan(value) ? kept : parse_constant(p, rgb_grey(value));
     return checked(p, f, id);
@@ -222,8 +224,11 @@ static int float_texture(struct parser *p, const struct field *f, int kept)
 
 static int rgb_texture(struct parser *p, const struct field *f, int kept)
 {
-    int id = parse_named_texture(p, f->name, false);
-    rgb value = id < 0 ? params_rgb(&p->params, f->name, rgb_grey(f->fallback)) : rgb_black();
+    bool unknown;
+    int id = parse_named_texture(p, f->name, false, &unknown);
+    rgb value = rgb_grey(f->fallback);
+    if (id < 0 && !unknown)
+        value = params_rgb(&p->params, f->name, value);
     if (id < 0)
         id = isnan(value.r) ? kept : parse_constant(p, value);
     return checked(p, f, id);

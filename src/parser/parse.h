@@ -37,7 +37,9 @@ struct transform_state {
     struct transform ctm; /* object to the file's world, before WorldBegin that to camera; of use where parse_placed
                            * says so */
     struct token made_by; /* the last directive to change a usable ctm: if it is of no use, the culprit */
-    bool start_active;    /* ActiveTransform: transforms act on the start of the shutter interval */
+    struct transform at[2]; /* at the two times of TransformTimes; ctm is that when the shutter opens */
+    bool active[2];       /* ActiveTransform: transforms act on these */
+    bool turns;           /* the shutter opens between them, and they differ in more than where things are */
 };
 
 /* What AttributeBegin and ObjectBegin save in addition. */
@@ -116,6 +118,7 @@ struct parser {
     struct symbols images, tables, maps; /* paths -> textures.image[], table[], lights.map[] of scene */
 
     struct transform_state place;
+    double times[2], shutter; /* of TransformTimes; when the shutter opens */
     struct graphics_state state;
     struct block *block;       /* [n_blocks], innermost last, owned */
     struct saved_state *saved; /* [n_saved] */
@@ -125,14 +128,13 @@ struct parser {
     struct material_source *material;                            /* [n_materials], owned */
     int n_materials;
     struct symbols systems;                                      /* -> system[] */
-    struct transform *system;                                    /* [systems.n], owned */
+    struct transform (*system)[2];                               /* [systems.n], at both times; owned */
     struct symbols objects;    /* -> object[] */
     struct shape_list *object; /* [objects.n], owned */
     struct {
         struct symbols known;           /* -> scene->media.medium[], from 1; 0: nothing */
         bool seen;                      /* by the integrator, once the world begins */
         struct source_position used_at; /* the last that a MediumInterface names; no file: none */
-        struct source_position bare_light_at; /* an area light without a material; no file: there is none */
     } media;
     int current_object; /* between ObjectBegin and ObjectEnd, else -1 */
     struct symbols places; /* hashes of shapes and instances in the world -> their lines */
@@ -188,9 +190,10 @@ struct transform parse_to_world(const struct parser *p, struct transform t);
 bool parse_placed(struct parser *p);
 
 /* parse_constant: a constant texture. parse_named_texture: that of "texture NAME"; -1 without such a parameter or, with
- * a warning, such a texture. */
+ * a warning, such a texture, which is `unknown`: the
+ * default counts then, as in pbrt-v3, even if there is a value of this name. */
 int parse_constant(struct parser *p, rgb value);
-int parse_named_texture(struct parser *p, const char *name, bool is_float);
+int parse_named_texture(struct parser *p, const char *name, bool is_float, bool *unknown);
 
 /* parse_file: the number of what is in the file that a parameter names, -1 if it names none or, with an error, cannot
  * be read. `read` is called for the first one who names it; its number is then found among those that are known.
@@ -214,16 +217,18 @@ int parse_changed_material(struct parser *p);
 
 /* parse_begin_media: the world begins: are media to be seen? parse_medium: the number of the medium inside (0) or
  * outside (1) of objects here, looked up by its name, as pbrt-v3 does; 0 with a message if it cannot be rendered.
- * parse_settle_media: the world is complete. False with a message. */
+ * parse_settle_media: the world is complete. */
 void parse_begin_media(struct parser *p);
 int parse_medium(struct parser *p, int side);
-bool parse_settle_media(struct parser *p);
+void parse_settle_media(struct parser *p);
 
-/* parse_state_reset: the transform as a file or its world begins. parse_name_system: name a coordinate system.
+/* parse_state_reset: the transform as a file or its world begins. parse_open_shutter: when it opens.
+ * parse_name_system: name a coordinate system, which is that of the two transforms.
  * parse_open_block, parse_close_block: save the graphics state and restore what was saved last, with a warning if that
  * was another kind of block; false, with a warning, if nothing was. parse_close_all: warn of blocks that are open. */
 void parse_state_reset(struct parser *p);
-void parse_name_system(struct parser *p, const char *name, struct transform t);
+void parse_open_shutter(struct parser *p, double time);
+void parse_name_system(struct parser *p, const char *name, const struct transform at[2]);
 bool parse_open_block(struct parser *p, enum block_kind kind);
 bool parse_close_block(struct parser *p, enum block_kind kind);
 void parse_close_all(struct parser *p);

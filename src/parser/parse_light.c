@@ -63,12 +63,6 @@ static void spot_light(struct parser *p, void *object)
     l->position = transform_point(&l->to_world, vec(0, 0, 0));
 }
 
-static void distant_light(struct parser *p, void *object)
-{
-    struct light_item *item = object;
-    item->frame.direction = direction(&p->params, transform_vector(&item->frame.to_world, sub(item->from, item->to)));
-}
-
 static int read_map(struct parser *p, const char *path, struct source_position at, struct error *err)
 {
     struct light_set *set = &p->scene->lights;
@@ -76,11 +70,51 @@ static int read_map(struct parser *p, const char *path, struct source_position a
     return id >= 0 && parse_picture(p, at, &set->map[id]->image, envmap_bytes(set->map[id]), err) ? id : -1;
 }
 
+/* The map of a file, or none. */
+static void map_of(struct parser *p, struct light_frame *frame)
+{
+    int map = parse_file(p, "mapname", &p->maps, read_map);
+    frame->env = map >= 0 ? p->scene->lights.map[map] : NULL;
+}
+
+/* The map's axis is y, so that pbrt-v3 exchanges y and z. */
+static void goniometric_light(struct parser *p, void *object)
+{
+    static const double EXCHANGE[16] = {1, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1};
+    struct light_item *item = object;
+    struct transform from_map = transform_identity();
+    map_of(p, &item->frame);
+    point_light(p, item);
+    transform_from_matrix(EXCHANGE, &from_map);
+    item->frame.to_world = transform_compose(item->frame.to_world, from_map);
+}
+
+/* The screen is as wide as "fov" on its shorter side, and has the shape of its picture. (pbrt-v3's cone for light that
+ * leaves the light does not hold a wide screen; this one does.) */
+static void projection_light(struct parser *p, void *object)
+{
+    struct light_item *item = object;
+    struct light_frame *l = &item->frame;
+    double sine, cosine;
+    map_of(p, l);
+    point_light(p, item);
+    m_sincos(item->cone * PI / 360, &sine, &cosine);
+    double half = sine / cosine, aspect = l->env == NULL ? 1 : (double)l->env->image.width / l->env->image.height;
+    l->screen[0] = half * fmax(aspect, 1);
+    l->screen[1] = half * fmax(1 / aspect, 1);
+    l->cos_total = l->cos_falloff = 1 / sqrt(1 + sqr(l->screen[0]) + sqr(l->screen[1]));
+}
+
+static void distant_light(struct parser *p, void *object)
+{
+    struct light_item *item = object;
+    item->frame.direction = direction(&p->params, transform_vector(&item->frame.to_world, sub(item->from, item->to)));
+}
+
 static void infinite_light(struct parser *p, void *object)
 {
     struct light_item *item = object;
-    int map = parse_file(p, "mapname", &p->maps, read_map);
-    item->frame.env = map >= 0 ? p->scene->lights.map[map] : NULL;
+    map_of(p, &item->frame);
     item->light.hidden = !params_bool(&p->params, "visible", true);
 }
 
@@ -107,6 +141,9 @@ static const struct field SPOT_LIGHT[] = {
     {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT},
     {.name = "I"}, {.name = "scale"}, {.name = "group"}, {"from", .kind = FIELD_POINT, .place = AT(from)},
     {.name = NULL}};
+static const struct field PROJECTION_LIGHT[] = {
+    {"fov", FIELD_NUMBER, AT(cone), 45, 1e-3, .high = 179.999}, /* of a projection alone */
+    {.name = "mapname"}, {.name = "I"}, {.name = "scale"}, {.name = "group"}, {.name = NULL}};
 static const struct field DISTANT_LIGHT[] = {
     {.name = "L"}, {.name = "scale"}, {.name = "group"}, {"from", .kind = FIELD_POINT, .place = AT(from)},
     {"to", FIELD_POINT, AT(to), .fallback = FIELD_KEPT}, {.name = NULL}};
@@ -117,6 +154,8 @@ static const struct field INFINITE_LIGHT[] = {
 static const struct object_type LIGHTS[] = {
     {"point", SPOT_LIGHT + 3, LIGHT_POINT, point_light},
     {"spot", SPOT_LIGHT, LIGHT_SPOT, spot_light},
+    {"goniometric", PROJECTION_LIGHT + 1, LIGHT_POINT, goniometric_light},
+    {"projection", PROJECTION_LIGHT, LIGHT_SPOT, projection_light},
     {"distant", DISTANT_LIGHT, LIGHT_DISTANT, distant_light},
     {"infinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light},
     {"exinfinite", INFINITE_LIGHT, LIGHT_INFINITE, infinite_light}, {.name = NULL}};

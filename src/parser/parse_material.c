@@ -52,6 +52,23 @@ void parse_material_types(struct object_type out[MOST_TYPES])
 
 static bool is_none(const char *type) { return type[0] == '\0' || strcmp(type, "none") == 0; }
 
+/* A kind that nobody knows is a matte one, as in pbrt-v3; not one that pbrt-v3 has, or pbrt-v4. */
+static void settle_kind(struct parser *p, const struct object_type *types)
+{
+    struct params *q = &p->params;
+    bool known = strcmp(q->type, "hair") == 0 || parse_foreign_type(q->directive, q->type).text[0] != '\0';
+    for (const struct object_type *t = types; t->name != NULL; t++)
+        known |= strcmp(t->name, q->type) == 0;
+    if (known)
+        return;
+    struct near near = parse_near(p, q->type);
+    for (; types->name != NULL; types++)
+        near_try(&near, types->name);
+    source_warn(&p->messages, q->position, "there is no material \"%.40s\"; as in pbrt-v3, it is \"matte\"%s", q->type,
+                near.text);
+    q->type = "matte";
+}
+
 /* A material of kind params.type, whose parameters that nobody has asked for are left. */
 static bool make(struct parser *p, int *out)
 {
@@ -65,6 +82,7 @@ static bool make(struct parser *p, int *out)
     }
     struct object_type types[MOST_TYPES];
     parse_material_types(types);
+    settle_kind(p, types);
     if (!parse_type(p, types))
         return false;
     struct material *m = material_new(material_rows[p->type.kind]);
@@ -85,8 +103,8 @@ static bool make(struct parser *p, int *out)
 
 bool parse_make_material(struct parser *p, struct material_source *out)
 {
-    out->type = p->params.type;
     bool ok = make(p, &out->id) && parse_done(p);
+    out->type = p->params.type;
     out->list = params_keep(&p->params);
     return ok;
 }

@@ -101,18 +101,16 @@ void parse_begin_media(struct parser *p)
     p->media.seen = !is_blind(p->integrator != NULL ? p->integrator : p->scene->integrator);
 }
 
-bool parse_settle_media(struct parser *p)
+void parse_settle_media(struct parser *p)
 {
-    struct source_position used = p->media.used_at, bare = p->media.bare_light_at;
+    struct source_position used = p->media.used_at;
     if (used.file == NULL || !p->media.seen) { /* none is anywhere, or is to be seen */
         p->scene->media.n = 0;
         if (used.file != NULL)
             source_warn(&p->messages, used, "media are left out, as by pbrt-v3's \"path\"");
-        return true;
+    } else {
+        p->scene->camera.medium = parse_medium(p, 1); /* pbrt-v3 makes the camera last */
     }
-    p->scene->camera.medium = parse_medium(p, 1); /* pbrt-v3 makes the camera last */
-    return bare.file == NULL || source_error(&p->messages, bare, "where media are an area light needs a material: give "
-                                             "it one before this shape");
 }
 
 const struct directive MEDIUM_DIRECTIVES[] = {{"MediumInterface", ANYWHERE, medium_interface, NULL},

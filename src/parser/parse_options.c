@@ -34,7 +34,7 @@ static void framing(struct parser *p, void *object)
 }
 
 #define AT(member) offsetof(struct camera, member)
-/* Nothing moves here, so that shutters do not matter. */
+/* Nothing moves here, so that of the shutter its opening alone matters. */
 static const struct field PERSPECTIVE[] = {
     {"fov", FIELD_NUMBER, AT(fov), FIELD_KEPT, NUMBER_MIN, .high = 179.999},
     {.name = "halffov"},
@@ -42,11 +42,11 @@ static const struct field PERSPECTIVE[] = {
     {"lensradius", FIELD_NUMBER, AT(lens_radius), 0, 0, .high = NUMBER_MAX},
     {"focaldistance", FIELD_NUMBER, AT(focal_distance), 1e6, NUMBER_MIN, .high = NUMBER_MAX},
     {.name = "screenwindow"},
-    {"shutteropen", .kind = FIELD_IGNORED}, {"shutterclose", .kind = FIELD_IGNORED}, {.name = NULL}};
+    {.name = "shutteropen"}, {"shutterclose", .kind = FIELD_IGNORED}, {.name = NULL}};
 static const struct field ENVIRONMENT[] = {
     {"frameaspectratio", .kind = FIELD_IGNORED}, {"lensradius", .kind = FIELD_IGNORED},
     {"focaldistance", .kind = FIELD_IGNORED}, {"screenwindow", .kind = FIELD_IGNORED},
-    {"shutteropen", .kind = FIELD_IGNORED}, {"shutterclose", .kind = FIELD_IGNORED}, {.name = NULL}};
+    {.name = "shutteropen"}, {"shutterclose", .kind = FIELD_IGNORED}, {.name = NULL}};
 #undef AT
 
 static const struct object_type CAMERA_TYPES[] = {
@@ -57,13 +57,15 @@ static const struct object_type CAMERA_TYPES[] = {
 static bool camera(struct parser *p)
 {
     struct camera c = camera_default();
+    parse_open_shutter(p, params_number(&p->params, "shutteropen", 0, -NUMBER_MAX, NUMBER_MAX));
     c.world_to_camera = p->place.ctm;
     if (!parse_placed(p) || !parse_object(p, &c))
         return false;
     p->scene->camera = c;
     p->has_camera = true;
     p->moved.position.file = NULL;
-    parse_name_system(p, "camera", transform_inverse(p->place.ctm));
+    const struct transform to_world[2] = {transform_inverse(p->place.at[0]), transform_inverse(p->place.at[1])};
+    parse_name_system(p, "camera", to_world);
     return true;
 }
 

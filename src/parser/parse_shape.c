@@ -128,8 +128,9 @@ static void warn(const struct mesh_task *task, const char *format, ...)
 /* The texture of where there are holes; -1 if there are none: of numbers 0 alone makes a hole. */
 static int alpha(struct parser *p, const char *name)
 {
-    int texture = parse_named_texture(p, name, true);
-    bool hole = texture < 0 && params_number(&p->params, name, 1, -NUMBER_MAX, NUMBER_MAX) == 0;
+    bool unknown;
+    int texture = parse_named_texture(p, name, true, &unknown);
+    bool hole = texture < 0 && !unknown && params_number(&p->params, name, 1, -NUMBER_MAX, NUMBER_MAX) == 0;
     return hole ? parse_constant(p, rgb_black()) : texture;
 }
 
@@ -233,8 +234,6 @@ static bool add_shape(struct parser *p, const struct shape_item *item, struct tr
         return source_error(&p->messages, at, "%s", inner.text);
     if (item->area.on)
         add_lights(s, id, n, &item->area);
-    if (item->area.on && group.material == MATERIAL_NONE)
-        p->media.bare_light_at = at;
     return true;
 }
 

@@ -31,21 +31,58 @@ static bool read_numbers(struct parser *p, double *out, int n)
  * products. */
 static const struct transform SINGULAR = {{{0}}, {{0}}};
 
-static bool set_ctm(struct parser *p, struct transform t)
+/* The transform when the shutter opens, of the two times: that of the first before it, that of the second after it. In
+ * between, as in pbrt-v3, what they move moves evenly; of turns that would be more than a mean of numbers. */
+static void settle(struct parser *p)
 {
-    if (!p->place.start_active)
-        return true;
+    struct transform_state *place = &p->place;
+    double span = p->times[1] - p->times[0], late = (p->shutter - p->times[0]) / span;
+    place->turns = false;
+    place->ctm = place->at[late >= 1];
+    if (!(late > 0 && late < 1))
+        return;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++)
+            place->turns |= place->at[0].m[i][k] != place->at[1].m[i][k];
+        place->ctm.m[i][3] += late * (place->at[1].m[i][3] - place->at[0].m[i][3]);
+    }
+    double columns[16];
+    for (int i = 0; i < 16; i++)
+        columns[i] = place->ctm.m[i % 4][i / 4];
+    transform_from_matrix(columns, &place->ctm);
+}
+
+/* The transforms have changed. Returns true. */
+static bool changed(struct parser *p)
+{
     if (p->has_camera && p->moved.position.file == NULL)
         p->moved = p->directive;
     if (transform_is_usable(&p->place.ctm))
         p->place.made_by = p->directive;
-    p->place.ctm = t;
+    settle(p);
     return true;
+}
+
+static bool set_ctm(struct parser *p, struct transform t)
+{
+    for (int i = 0; i < 2; i++)
+        if (p->place.active[i])
+            p->place.at[i] = t;
+    return changed(p);
+}
+
+void parse_open_shutter(struct parser *p, double time)
+{
+    p->shutter = time;
+    settle(p);
 }
 
 bool parse_placed(struct parser *p)
 {
     const double *last = p->place.ctm.m[3];
+    if (p->place.turns)
+        return directive_error(p, "the shutter opens between two transforms of which one is turned or scaled: nothing "
+                               "moves here, so let \"shutteropen\" be one of the times of TransformTimes");
     if (last[0] != 0 || last[1] != 0 || last[2] != 0)
         return directive_error(p, "the last row of the current transform, numbers 4, 8, 12 and 16 of a matrix, is "
                                "%g %g %g %g; only the last of them may be other than 0", last[0], last[1], last[2],
@@ -53,7 +90,7 @@ bool parse_placed(struct parser *p)
     if (transform_is_usable(&p->place.ctm))
         return true;
     const struct token *by = &p->place.made_by;
-    p->place.ctm = transform_identity();
+    p->place.ctm = p->place.at[0] = p->place.at[1] = transform_identity();
     return source_error(&p->messages, by->position, "after this %s the current transform is infinite or singular, or "
                         "nearly so; %s", by->text, strcmp(by->text, "LookAt") == 0
                         ? "its up vector must not be parallel to the direction from eye to look"
@@ -67,11 +104,18 @@ struct transform parse_to_world(const struct parser *p, struct transform t)
 
 void parse_state_reset(struct parser *p)
 {
-    p->place.ctm = transform_identity();
-    p->place.start_active = true;
+    p->place.ctm = p->place.at[0] = p->place.at[1] = transform_identity();
+    p->place.active[0] = p->place.active[1] = true;
+    p->place.turns = false;
 }
 
-static bool apply(struct parser *p, struct transform t) { return set_ctm(p, transform_compose(p->place.ctm, t)); }
+static bool apply(struct parser *p, struct transform t)
+{
+    for (int i = 0; i < 2; i++)
+        if (p->place.active[i])
+            p->place.at[i] = transform_compose(p->place.at[i], t);
+    return changed(p);
+}
 
 static bool identity(struct parser *p) { return set_ctm(p, transform_identity()); }
 
@@ -134,10 +178,10 @@ static bool concat_transform(struct parser *p)
     return parse_matrix(p, &t) && apply(p, t);
 }
 
-void parse_name_system(struct parser *p, const char *name, struct transform t)
+void parse_name_system(struct parser *p, const char *name, const struct transform at[2])
 {
     p->system = mem_append(p->system, (size_t)p->systems.n, sizeof *p->system);
-    p->system[p->systems.n] = t;
+    memcpy(p->system[p->systems.n], at, sizeof *p->system);
     symbols_add(&p->systems, name, p->systems.n);
 }
 
@@ -146,7 +190,7 @@ static bool coordinate_system(struct parser *p)
     struct token name;
     if (!parse_string(p, &name, "a name"))
         return false;
-    parse_name_system(p, name.text, p->place.ctm);
+    parse_name_system(p, name.text, p->place.at);
     p->moved.position.file = NULL;
     return true;
 }
@@ -155,28 +199,37 @@ static bool coord_sys_transform(struct parser *p)
 {
     struct token name;
     int i = parse_named(p, &name, &p->systems, "coordinate system", "the transform stays as it is");
-    return i >= 0 && set_ctm(p, p->system[i]);
+    if (i >= 0)
+        memcpy(p->place.at, p->system[i], sizeof p->place.at); /* whichever is active, as in pbrt-v3 */
+    return i >= 0 && changed(p);
 }
+
+static const char STILL[] = "nothing moves here: everything is where it is when the shutter opens";
 
 static bool active_transform(struct parser *p)
 {
     struct token t;
     if (!lexer_next(&p->lexer, &t))
         return false;
-    bool end = strcmp(t.text, "EndTime") == 0;
-    if (!end && strcmp(t.text, "StartTime") != 0 && strcmp(t.text, "All") != 0)
+    bool start = strcmp(t.text, "StartTime") == 0, end = strcmp(t.text, "EndTime") == 0;
+    if (!start && !end && strcmp(t.text, "All") != 0)
         return source_error(&p->messages, t.position, "ActiveTransform wants StartTime, EndTime or All");
     if (end)
-        source_warn(&p->messages, t.position, "nothing moves here: transforms of the end time are ignored");
-    p->place.start_active = !end;
+        source_warn(&p->messages, t.position, STILL);
+    p->place.active[0] = !end;
+    p->place.active[1] = !start;
     return true;
 }
 
 static bool transform_times(struct parser *p)
 {
     double x[2];
-    source_warn(&p->messages, p->directive.position, "nothing moves here: transforms of the end time are ignored");
-    return read_numbers(p, x, 2);
+    source_warn(&p->messages, p->directive.position, STILL);
+    if (!read_numbers(p, x, 2))
+        return false;
+    memcpy(p->times, x, sizeof p->times);
+    settle(p);
+    return true;
 }
 
 /* --- blocks ------------------------------------------------------------------------------------------- */

@@ -53,9 +53,15 @@ static void checkerboard(struct parser *p, void *object)
 
 static void noise_texture(struct parser *p, void *object) { ((struct texture *)object)->space = space(p); }
 
+/* A file that is not there is grey, as in pbrt-v3. */
 static int read_image(struct parser *p, const char *path, struct source_position at, struct error *err)
 {
     struct texture_set *set = &p->scene->textures;
+    bool encoded = file_has_extension(path, ".png") || file_has_extension(path, ".tga");
+    if (!file_exists(path)) {
+        source_warn(&p->messages, at, "there is no file %s; as in pbrt-v3, a grey image of 0.5 takes its place", path);
+        return texture_add_grey(set, !encoded);
+    }
     int id = texture_load_image(set, path, p->named.memory, err);
     return id >= 0 && parse_picture(p, at, &set->image[id], 0, err) ? id : -1;
 }

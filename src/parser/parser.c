@@ -23,7 +23,7 @@ static bool world_begin(struct parser *p)
     scene_set_origin(p->scene);
     parse_state_reset(p);
     parse_begin_media(p);
-    parse_name_system(p, "world", transform_identity());
+    parse_name_system(p, "world", p->place.at);
     return true;
 }
 
@@ -31,7 +31,8 @@ static bool world_end(struct parser *p)
 {
     p->phase = AFTER_WORLD;
     parse_close_all(p);
-    return parse_settle_media(p);
+    parse_settle_media(p);
+    return true;
 }
 
 static bool include(struct parser *p);
@@ -173,6 +174,7 @@ static void start(struct parser *p, const char *path, struct scene *s, const str
     symbols_add(&p->named.paths, path, 0);
     p->named.memory = &s->memory;
     p->phase = BEFORE_WORLD;
+    p->times[1] = 1;
     parse_state_reset(p);
     p->current_object = -1;
     p->state.medium[0].text = p->state.medium[1].text = "";

@@ -125,11 +125,16 @@ vec3 envmap_direction(double s, double v)
     return cylindrical(sin_theta, 2 * PI * s, cos_theta);
 }
 
+rgb envmap_picture(const struct envmap *e, double s, double v)
+{
+    return image_bilinear(&e->image, s, 1 - v, WRAP_REPEAT, false);
+}
+
 rgb envmap_lookup(const struct envmap *e, vec3 w)
 {
     double s, v;
     direction_to_map(w, &s, &v);
-    return image_bilinear(&e->image, s, 1 - v, WRAP_REPEAT, false);
+    return envmap_picture(e, s, v);
 }
 
 /* Uniform density over a texel's square of (s,v), carried to the sphere: dw = 2 pi^2 sin(theta) ds dv.

@@ -38,6 +38,9 @@ struct envmap *envmap_of(const double *luminance, int width, int height);
 vec3 envmap_direction(double s, double v);
 rgb envmap_lookup(const struct envmap *e, vec3 w);
 
+/* envmap_picture: the value at (s,v), bilinear. */
+rgb envmap_picture(const struct envmap *e, double s, double v);
+
 /* envmap_bytes: what its tables take, 44 for a texel. */
 enum { ENVMAP_BYTES_PER_TEXEL = 44 };
 static inline size_t envmap_bytes(const struct envmap *e)

@@ -100,17 +100,33 @@ static double spot_falloff(const struct light *l, vec3 w)
     return sqr(sqr(delta));
 }
 
+/* The share of its intensity that a point or spot sends in direction w. [PBRT3 12.3.2] [PBRT3 12.3.3] */
+static rgb share_along(const struct light *l, vec3 w)
+{
+    const struct light_frame *f = l->frame;
+    if (l->kind == LIGHT_POINT)
+        return f->env == NULL ? rgb_grey(1) : envmap_lookup(f->env, to_light_space(l, w));
+    if (f->screen[0] == 0)
+        return rgb_grey(spot_falloff(l, w));
+    vec3 v = transform_vector_back(&f->to_world, w);
+    double x = v.x / (v.z * f->screen[0]), y = v.y / (v.z * f->screen[1]);
+    if (!(v.z > 0 && fabs(x) <= 1 && fabs(y) <= 1))
+        return rgb_black();
+    return f->env == NULL ? rgb_grey(1) : envmap_picture(f->env, (x + 1) / 2, (y + 1) / 2);
+}
+
 /* Powers are those of [PBRT3 12.1-12.6]; of lights at infinity, what meets the disk of the scene's sphere. */
 static double light_power(const struct light *l, const struct geometry *geo, double scene_radius)
 {
     double disk = PI * sqr(scene_radius);
-    double lum = rgb_luminance(l->L);
+    const struct envmap *map = l->frame != NULL ? l->frame->env : NULL;
+    double lum = rgb_luminance(map != NULL ? rgb_mul(l->L, map->mean) : l->L);
     switch (l->kind) {
     case LIGHT_AREA: return lum * PI * shape_area(geo, l->prim) * (l->two_sided ? 2 : 1);
     case LIGHT_POINT: return lum * 4 * PI;
     case LIGHT_SPOT: return lum * 2 * PI * (1 - 0.5 * (l->frame->cos_falloff + l->frame->cos_total));
     case LIGHT_DISTANT: return lum * disk;
-    case LIGHT_INFINITE: return disk * PI * rgb_luminance(l->frame->env ? rgb_mul(l->L, l->frame->env->mean) : l->L);
+    case LIGHT_INFINITE: return disk * PI * lum;
     }
     return 0;
 }
@@ -392,8 +408,8 @@ rgb light_Le(const struct light_set *set, const struct light_point *y0, vec3 w)
     const struct light *l = &set->light[y0->light];
     switch (l->kind) {
     case LIGHT_AREA: return area_Le(l, y0->n, w);
-    case LIGHT_POINT: return l->L;
-    case LIGHT_SPOT: return rgb_scale(l->L, spot_falloff(l, w));
+    case LIGHT_POINT:
+    case LIGHT_SPOT: return rgb_mul(l->L, share_along(l, w));
     case LIGHT_DISTANT: return l->L;
     case LIGHT_INFINITE: return light_Le_sky(set, neg(w), false);
     }

@@ -41,10 +41,14 @@ enum light_kind {
  *   cos_total  -                   -                  dark beyond it        -                      -
  *   cos_falloff  -                 -                  full within it        -                      -
  *   direction  -                   -                  -                     unit, towards it       -
- *   env        -                   -                  -                     -                      map, NULL: constant
+ *   env        -                   map, see below     picture, see below    -                      map, NULL: constant
+ *   screen     -                   -                  see below             -                      -
  *
  * The beam of a spot runs along z in light space, and what a direction gets is asked there, as in pbrt-v3, so that an
- * uneven scale makes the beam elliptic.
+ * uneven scale makes the beam elliptic. Two kinds of pbrt-v3 are these with a picture: a "goniometric" light is a point
+ * with a map around it, whose intensity is a factor; to_world leads from the map's space. A "projection" light is a spot
+ * that shines through a screen at distance 1, which reaches from -screen to screen on each axis and holds a picture, or
+ * nothing; screen[0] is 0 of other spots. cos_total then is of the cone through the screen's corners.
  *
  * A light point (struct light_point) is a position (area, point, spot) or a direction (distant, infinite), and its
  * densities are per measure of that, which is why their names carry none:
@@ -65,6 +69,7 @@ struct light_frame {
     double cos_total, cos_falloff;
     vec3 position, direction;
     const struct envmap *env;      /* the set's */
+    double screen[2];
 };
 
 struct light {

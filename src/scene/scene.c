@@ -158,27 +158,36 @@ bool scene_intersect(const struct scene *s, const struct ray *ray, struct surfac
     return true;
 }
 
-bool scene_lamp(const struct scene *s, const struct ray *ray, const struct surface *end, struct surface *out)
+bool scene_lamp(const struct scene *s, const struct ray *ray, bool from_lens, const struct surface *end,
+                struct surface *out)
 {
     struct hit hit;
     if (s->kd_lamps.n_nodes == 0)
         return false;
     struct ray before = *ray;
     if (end != NULL)
-        before.tmax = length(sub(end->p, ray->o)) + ray_margin(end->p);
-    if (!kd_closest(&s->kd_lamps, &s->geo, &before, &hit))
-        return false;
-    shape_surface(&s->geo, &hit, ray, out);
-    return true;
+        before.tmax = length(sub(end->p, ray->o)) +
+                      end_margin(end->p, end->prim_id) / fmax(abs_dot(end->ng, ray->d), 1.0 / GRAZING);
+    while (kd_closest(&s->kd_lamps, &s->geo, &before, &hit)) {
+        shape_surface(&s->geo, &hit, &before, out);
+        if (!from_lens || !s->lights.light[out->light].hidden)
+            return true;
+        before = (struct ray){out->p, ray->d, ray_margin(out->p), before.tmax - hit.t, out->prim_id, 0};
+    }
+    return false;
 }
 
 bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end)
 {
-    double distance = length(sub(end->p, ray->o));
-    if (s->kd_lamps.n_nodes == 0 || distance <= -ray->tmin)
-        return distance <= -ray->tmin;
+    double distance = length(sub(end->p, ray->o)), margin = start_margin(ray);
+    if (ray->tmin < 0 && distance < GRAZING * margin &&
+        (distance <= margin || distance * abs_dot(end->ng, ray->d) <= margin))
+        return true;
+    if (s->kd_lamps.n_nodes == 0)
+        return false;
     struct ray before = *ray;
-    before.tmax = distance - ray_margin(end->p);
+    before.tmax = distance - end_margin(end->p, end->prim_id);
+    before.to = end->prim_id;
     return kd_occluded(&s->kd_lamps, &s->geo, &before, INFINITY);
 }
 
@@ -206,8 +215,8 @@ static bool passes(const struct scene *s, const struct ray *ray, double light)
 bool scene_lit(const struct scene *s, vec3 a, uint64_t from, vec3 b, uint64_t to)
 {
     double margin = ray_margin(b);
-    struct ray ray = between(a, from, b, to, to != 0 ? margin : -margin);
-    double light = to != 0 ? ray.tmax - 2 * margin : ray.tmax;
+    struct ray ray = between(a, from, b, to, to != 0 ? GRAZING * margin : -margin);
+    double light = to != 0 ? ray.tmax - (GRAZING + 1) * margin : ray.tmax;
     return !(ray.tmin < light) || passes(s, &ray, light);
 }
 

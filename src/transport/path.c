@@ -86,17 +86,27 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     return true;
 }
 
-/* The first see-through light on the ray before the surface *end (NULL: no surface), as a vertex; NULL if there is
- * none. */
+/* The first see-through light on the ray before the surface or scattering point *end (NULL: none), as a vertex; NULL if
+ * there is none. The edge ends there, so media count as far as that alone.
+ *   beta  the walk's throughput before it flew to *end */
 static const struct vertex *meet_lamp(const struct walk *w, const struct vertex *prev, const struct departure *from,
-                                      const struct surface *end)
+                                      rgb beta, const struct surface *end)
 {
     struct surface at;
-    if (!scene_lamp(w->scene, &from->ray, end, &at))
+    struct passage way;
+    if (!scene_lamp(w->scene, &from->ray, prev->kind == VERTEX_LENS, end, &at))
         return NULL;
+    struct departure to = *from;
+    if (w->scene->media.n > 0) {
+        to.ray.tmax = length(sub(at.p, to.ray.o));
+        to.ray.to = at.prim_id;
+        way = medium_pass(&w->scene->media, &to.ray, prev->ng, prev->medium);
+        to.way = &way;
+        to.beta = rgb_mul(beta, rgb_scale(way.left, 1 / way.density[1]));
+    }
     struct vertex *v = arena_alloc(w->arena, sizeof *v);
     memset(v, 0, sizeof *v);
-    return meet(w, v, prev, from, &at, RADIANCE) ? v : NULL;
+    return meet(w, v, prev, &to, &at, RADIANCE) ? v : NULL;
 }
 
 /* Make the whole vertex where the ray met a surface. False if the surface is edge-on. */
@@ -164,11 +174,12 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
     while (n < max_vertices) {
         struct surface at;
         const struct vertex *lamp = NULL;
+        const rgb beta = from.beta;
         bool met = scene_intersect(w->scene, &from.ray, &at);
         if (w->scene->media.n > 0)
             met = fly(w, &path[n - 1], &from, met, &at);
         if (mode == RADIANCE)
-            lamp = meet_lamp(w, &path[n - 1], &from, met ? &at : NULL);
+            lamp = meet_lamp(w, &path[n - 1], &from, beta, met ? &at : NULL);
         else if (n == 1 && met && scene_lamp_stops(w->scene, &from.ray, &at))
             break; /* emitted light does not pass see-through lights, or is not there at all */
         if (!met) {
@@ -233,7 +244,7 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
     vertex_light_end(w->scene, w->counts, &at, &path[0]);
     path[0].beta = light_Le(&w->scene->lights, &at, from.ray.d);
     from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf)); /* alpha_2 of [V97 eq. 10.6] */
-    from.ray.tmin = ray_margin(from.ray.o) * (at.prim_id != 0 ? -1 : 1);
+    from.ray.tmin = ray_margin(from.ray.o) * (at.prim_id != 0 ? -GRAZING : 1);
     return walk_on(w, from, path, 1, max_vertices, IMPORTANCE);
 }
 

@@ -41,7 +41,7 @@ enum vertex_kind {
  * A see-through light is an area light without a material (scene.h). Walks may start on it, and pass it without a
  * vertex. The first such light that an eye walk passes on an edge is the `lamp` of the vertex at the edge's end. It is
  * the last vertex of a path of its own, and no vertex of the sub-path. Its kind is SURFACE. It has only the fields that
- * connect_hit needs. The parser refuses such lights in scenes with media, so its density has no factor of a medium.
+ * connect_hit needs. The path's last edge ends at the light: densities and throughput have the media as far as that.
  */
 struct vertex {
     enum vertex_kind kind;

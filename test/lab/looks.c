@@ -244,6 +244,7 @@ static bool write_one(const struct looks *l, struct look_file *f, float *const p
     if (f->aov < N_AOVS)
         raster.pixels = picture[f->aov];
     if (f->light < 0 && f->aov == N_AOVS) {
+        outputs_develop(&r->pictures, pixels);
         alpha = l->options->alpha ? image_of(planes_alpha(&l->planes), 1) : NULL;
         raster.more = channel;
         raster.n_more = channels_of(l, alpha, picture, channel);

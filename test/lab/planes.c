@@ -99,10 +99,8 @@ static bool sky_seen(const struct light_set *set)
 /* Does the lens see anything there, be it light? */
 static bool covered(const struct scene *scene, const struct vertex *eye, int n)
 {
-    const struct light_set *lights = &scene->lights;
     const struct vertex *z = n > 1 ? &eye[1] : NULL;
-    return z != NULL && (z->kind != VERTEX_ESCAPED || (z->lamp != NULL && !lights->light[z->lamp->light].hidden) ||
-                         (z->lamp == NULL && sky_seen(lights)));
+    return z != NULL && (z->kind != VERTEX_ESCAPED || z->lamp != NULL || sky_seen(&scene->lights));
 }
 
 static void add_alpha(void *context, const struct sample *sample, enum transport mode, const struct vertex *path,

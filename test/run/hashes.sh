@@ -1,7 +1,7 @@
 #!/bin/sh
 # hashes.sh PROGRAM [renew]: does PROGRAM render the pictures of test/run/hashes.txt, byte for byte? PROGRAM may have
 # several words, such as an emulator's; it is called from the top of the tree. Every line of the list is a checksum
-# (POSIX cksum of the PFM), a scene and options of `render`. Exit status 0 if all agree, or if PROGRAM says that its
+# (POSIX cksum of the unclamped PFM), a scene and options of `render`. Exit status 0 if all agree, or if PROGRAM says that its
 # arithmetic differs.
 # The integrators that only the laboratory has are in a list of their own: LIST=test/lab/hashes.txt, with asbdpt-lab.
 # With `renew` the checksums are written anew instead: for changes that are meant to change pictures. Films of programs
@@ -32,7 +32,7 @@ heading "$list" | sed "s/estimator $estimator,/estimator $listed,/" | grep -qxF 
 while read -r sum scene options; do
     case $sum in '#'*) echo "$sum $scene $options"; continue ;; esac
     # shellcheck disable=SC2086
-    if $program render $scene --res 20x15 --spp 2 -j 2 --quiet $options -o - </dev/null >"$dir/x.pfm" 2>"$dir/log"; then
+    if $program render $scene --res 20x15 --spp 2 -j 2 --quiet --unclamped $options -o - </dev/null >"$dir/x.pfm" 2>"$dir/log"; then
         set -- $(cksum <"$dir/x.pfm")
     else
         echo "# FAIL: status $?, $scene $options: $(cat "$dir/log")" >&2

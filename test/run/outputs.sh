@@ -61,6 +61,30 @@ refused 2 'needs an image' "$program" merge b.part c.part
 # An empty name is a variable that is not set.
 refused 2 'checkpoint.*: its value is empty' render --checkpoint ''
 
+# ---- values below 0 ----
+# A light of one wavelength has some, and so has a filter with negative parts. Files have 0 instead, unless asked, and so
+# have those that are merged or shown before the end; but all that is added up or goes on has them.
+cat >red.pbrt <<END
+Film "image" "integer xresolution" 12 "integer yresolution" 12 PixelFilter "mitchell" LookAt 0 0 -3 0 0 0 0 1 0
+Camera "perspective" "float fov" 20 WorldBegin LightSource "infinite" "spectrum L" [ 625 0 633 9 641 0 ] WorldEnd
+END
+least() { "$lab" info "$1" | awk '$3 == "to" && (n++ == 0 || $2 < least) { least = $2 } END { exit !(least '"$2"' 0) }'; }
+red() { check "$program" render red.pbrt --spp 4 --quiet "$@"; }
+red -o cut.pfm -o cut.exr --checkpoint red.state
+red --unclamped -o kept.pfm -o kept.exr -o kept.part
+for name in cut.pfm cut.exr; do check least $name ==; done
+for name in kept.pfm kept.exr; do check least $name '<'; done
+for half in 0:2 2:4; do red --samples $half -o "${half%:*}.part"; done
+for from in '0.part 2.part' red.state kept.part; do
+    makes cut.pfm "$program" merge $from --quiet -o x.pfm
+    makes kept.pfm "$program" merge $from --quiet --unclamped -o x.pfm
+done
+makes kept.pfm "$program" render red.pbrt --spp 4 --quiet --resume red.state --unclamped -o x.pfm
+check "$lab" render red.pbrt --spp 4 --quiet --alpha -o shown.exr
+check least shown.exr ==
+check "$program" convert kept.pfm --quiet -o x.float.exr # which changes nothing
+check least x.float.exr '<'
+
 # ---- standard streams ----
 # One stream carries one thing: what a command prints is not mixed with what it writes.
 refused 2 "$same" "$lab" compare a.pfm b.pfm --heatmap -

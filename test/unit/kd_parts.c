@@ -205,6 +205,8 @@ static bool is_of(const struct geometry *geo, const struct shape_group *g, int i
            (o == NULL || (number >= o->first_group && number < o->end_group));
 }
 
+static bool begins_there(const struct geometry *geo, const struct ray *ray, const struct hit *h);
+
 /* All first hits of all primitives, one by one, are handed to `note`. see_through: of the primitives without material,
  * else of those with one. */
 static void each_hit(const struct geometry *geo, bool see_through, const struct ray *ray,
@@ -219,6 +221,8 @@ static void each_hit(const struct geometry *geo, bool see_through, const struct 
                 if (!shape_intersect(geo, g->first_prim + i, &r, &h))
                     continue;
                 h.instance = instance;
+                if (begins_there(geo, ray, &h))
+                    continue;
                 if (geo->opaque == NULL || geo->opaque(geo->opaque_context, geo, &h))
                     note(geo, ray, &h, best);
             }
@@ -234,17 +238,35 @@ static void nearest(const struct geometry *geo, const struct ray *ray, const str
         *n = *h;
 }
 
-/* Of the nearest, *best, and those in its place: a light for lights up to a margin, else the lower number. */
+static double cosine_of(const struct geometry *geo, const struct ray *ray, const struct hit *h)
+{
+    struct surface at;
+    shape_surface(geo, h, ray, &at);
+    return abs_dot(at.ng, ray->d);
+}
+
+/* Of the nearest, *best, and those in its place: a light for lights, else the lower number. Both surfaces are no farther
+ * from the other than a margin, straight from one to the other. */
 static void in_place(const struct geometry *geo, const struct ray *ray, const struct hit *h, void *best)
 {
     struct hit *n = best;
     vec3 p = add(ray->o, mul(ray->d, n->t));
     bool shines[2] = {shape_group_of(geo, h->prim)->first_light >= 0, shape_group_of(geo, n->prim)->first_light >= 0};
-    double margin = ray_margin(p) + (shines[0] || shines[1] ? 0 : ray_margin(ray->o));
-    if (fabs(h->t - n->t) > margin * (shines[0] || shines[1] ? 1 : 1e-6))
+    double margin = ray_margin(p) + 1e-6 * ray_margin(ray->o), apart = fabs(h->t - n->t);
+    double slant = fmax(cosine_of(geo, ray, h), cosine_of(geo, ray, n));
+    if (apart > margin && (apart >= GRAZING * margin || apart * slant > margin))
         return;
     if (shines[0] == shines[1] ? shape_prim_id(h->prim, h->instance) < shape_prim_id(n->prim, n->instance) : shines[0])
         *n = *h;
+}
+
+/* Where the ray begins on a primitive, does this hit lie in one place with that? */
+static bool begins_there(const struct geometry *geo, const struct ray *ray, const struct hit *h)
+{
+    struct hit own = {.b1 = 0.25, .b2 = 0.25, .prim = shape_prim(ray->from), .instance = (int)(ray->from >> 32)};
+    if (ray->from == 0 || h->t >= GRAZING * ray->tmin)
+        return false;
+    return h->t * fmax(cosine_of(geo, ray, h), cosine_of(geo, ray, &own)) <= ray->tmin;
 }
 
 bool brute_closest(const struct geometry *geo, bool see_through, const struct ray *ray, struct hit *hit)

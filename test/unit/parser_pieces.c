@@ -36,6 +36,25 @@ static void check_symbols(struct test *t)
     CHECK(t, wrong == 0 && symbols_find(&table, "0") == -1, "%d names are wrong", wrong);
 }
 
+/* Any character ends a number of an .spd file that is no part of one, and a heading is passed over. */
+static void check_spectrum_files(struct test *t)
+{
+    for (int c = 1; c < 256; c++) {
+        char path[256], text[64];
+        struct scene scene;
+        if (strchr("0123456789.+-eE#", c) != NULL)
+            continue;
+        snprintf(path, sizeof path, "%s/any.spd", test_tmp(t));
+        snprintf(text, sizeof text, "Wave Value%c\n# 1 2\n400%c1\r\n%c7e+2%c%c1.0", c, c, c, c, c);
+        write_bytes(path, text, strlen(text));
+        if (!scene_from_text(t, "WorldBegin LightSource \"point\" \"spectrum I\" \"any.spd\" WorldEnd", &scene))
+            return;
+        rgb L = scene.lights.light[0].L;
+        CHECK(t, fabs(L.r - 1.20028) < 1e-5 && fabs(L.g - 0.949689) < 1e-6, "with character %d it is %g %g", c, L.r, L.g);
+        scene_free(&scene);
+    }
+}
+
 /* One number through the lexer. */
 static bool lex_number(const char *text, double *out)
 {
@@ -134,6 +153,7 @@ void check_parser_pieces(struct test *t)
 {
     check_symbols(t);
     check_numbers(t);
+    check_spectrum_files(t);
     check_spectra(t);
     check_cleaning(t);
     check_odd_bytes(t);

@@ -249,7 +249,7 @@ void put_material(struct writer *w, bool lamp)
         colour(w, "amount", 1);
     } else {
         put(w, "Material ");
-        if (lamp && !w->media && chance(w, 0.25))
+        if (lamp && chance(w, 0.25))
             put(w, "\"none\" ");
         else
             one_material(w);
@@ -301,6 +301,15 @@ void put_boxes(struct writer *w)
     }
 }
 
+/* What comes next shines. */
+static void shine(struct writer *w)
+{
+    double strength = across(w, 2, 8);
+    put(w, "AreaLightSource \"diffuse\" ");
+    put_point(w, "rgb", "L", mul(within(w, vec(0.3, 0.3, 1), vec(1, 1, 1)), strength));
+    put(w, "\"bool twosided\" \"%s\"\n", chance(w, 0.6) ? "true" : "false");
+}
+
 void put_milk(struct writer *w)
 {
     vec3 way = direction(w);
@@ -308,6 +317,8 @@ void put_milk(struct writer *w)
     put_vec(w, mul(way, between(w, 0, 0.2)));
     if (chance(w, 0.4)) {
         put(w, "Material \"none\" ");
+        if (chance(w, 0.4))
+            shine(w);
     } else if (chance(w, 0.3)) {
         put(w, "Material ");
         specular(w, 1);
@@ -426,20 +437,23 @@ void put_shape(struct writer *w, bool lamp)
 
 void put_area_light(struct writer *w)
 {
-    double strength = across(w, 2, 8);
-    put(w, "AreaLightSource \"diffuse\" ");
-    put_point(w, "rgb", "L", mul(within(w, vec(0.3, 0.3, 1), vec(1, 1, 1)), strength));
-    put(w, "\"bool twosided\" \"%s\"\n", chance(w, 0.6) ? "true" : "false");
+    shine(w);
     put_material(w, true);
     put_shape(w, true);
 }
 
 static void delta_light(struct writer *w, double unit)
 {
-    bool spot = chance(w, 0.5);
+    static const char *const KINDS[] = {"point", "spot", "goniometric", "projection"};
+    int kind = pick(w, 4);
+    bool spot = kind == 1;
     double strength = across(w, 10, 30) * unit * unit;
     w->delta_light = true;
-    put(w, "LightSource \"%s\" ", spot ? "spot" : "point");
+    put(w, "LightSource \"%s\" ", KINDS[kind]);
+    if (kind >= 2 && chance(w, 0.8))
+        put(w, "\"string mapname\" \"%s%s\" ", w->top, "scenes/test/colours.tga");
+    if (kind == 3)
+        put_float(w, "fov", between(w, 20, 120));
     put_point(w, "rgb", "I", mul(within(w, vec(1, 0.3, 0.3), vec(1, 1, 1)), strength));
     if (spot) {
         put_float(w, "coneangle", between(w, 2, 80));

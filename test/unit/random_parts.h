@@ -10,8 +10,8 @@ void put_material(struct writer *w, bool lamp);
 
 /* put_media: definitions of two, "fog" and "milk", and what the camera is in, if the scene has any. put_bound: an
  * interface around all things, with nothing outside; or none, so that the medium has no bound. put_milk: a closed shape
- * about the origin with the other medium in it, of any material or none; no lamp is in it. put_boxes: on the ground,
- * z = -1.6, one or two boxes of media that share a face.
+ * about the origin with the other medium in it, of any material or none, which may shine; no lamp is in it. put_boxes:
+ * on the ground, z = -1.6, one or two boxes of media that share a face.
  *   unit  how long a unit is in the world */
 void put_media(struct writer *w, double unit);
 void put_bound(struct writer *w);

@@ -138,7 +138,7 @@ static void test_fixtures(struct test *t)
     } CASES[] = {
         {"none.exr", ALL},      {"zips.exr", ALL},       {"zip.exr", ALL},
         {"piz.exr", ALL},       {"piz-float.exr", ALL}, {"zip-float.exr", ALL},  {"window.exr", ALL},
-        {"plain-and-layer.exr", ALL},
+        {"plain-and-layer.exr", ALL}, {"tiles.exr", ALL},
         {"red.exr", ONLY_RED},  {"grey.exr", ONLY_GREEN_AS_GREY},
         {"uint.exr", THOUSANDFOLD}, {"ramp-piz.exr", HALFS}, {"ramp-float.exr", FLOATS},
     };
@@ -171,7 +171,13 @@ static void test_refused(struct test *t)
         {"deep.exr", NULL, 0, 0, "", "deep ones"},
         {"chroma.exr", NULL, 0, 0, "", "\"BY\" is subsampled"},
         {"layers.exr", NULL, 0, 0, "", "no channels R, G, B or Y, but e.g. \"left.G\""},
-        {"tiles.exr", NULL, 0, 0, "", "in tiles"},
+        {"tiles.exr", "tiles", 0, 4, "\0\0\0\0", DAMAGED}, /* no tile so wide, or so high */
+        {"tiles.exr", "tiles", 4, 4, "\0\0\0\0", DAMAGED},
+        {"tiles.exr", "tiles", 0, 1, "\7", BLOCK},
+        {"tiles.exr", "", 469, 1, "\1", BLOCK}, /* the column, row and level of the first tile */
+        {"tiles.exr", "", 473, 1, "\1", BLOCK},
+        {"tiles.exr", "", 477, 1, "\1", BLOCK},
+        {"tiles.exr", "tiles", 0, 8, "\xff\xff\xff\xff\xff\xff\xff\xff", BLOCK},
         {"none.exr", "", 0, 1, "w", DAMAGED},
         {"none.exr", "", 4, 1, "\3", "other versions than 2"},
         {"none.exr", "", 6, 1, "\1", "kind 10002"},

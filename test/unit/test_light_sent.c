@@ -63,10 +63,12 @@ static void check_sky(struct test *t, const struct scene *s, struct rng *r)
 /* Lights of which light space matters, under random transforms: a direction of it gets what it got without them. */
 static void test_transformed(struct test *t)
 {
-    enum { W = 16, H = 8, N = 2 };
+    enum { W = 16, H = 8, N = 4 };
     static const char *const lights[N] = {
         "LightSource \"spot\" \"float coneangle\" 40 \"float conedeltaangle\" 25 \"point to\" [1 2 -1] # %s\n",
-        "LightSource \"infinite\" \"string mapname\" \"%s\""};
+        "LightSource \"infinite\" \"string mapname\" \"%s\"",
+        "LightSource \"goniometric\" \"string mapname\" \"%s\"",
+        "LightSource \"projection\" \"float fov\" 80 \"string mapname\" \"%s\""};
     static float pixels[W * H * 3];
     char path[256];
     struct error err = {.text = ""};
@@ -148,6 +150,69 @@ static void test_spot(struct test *t)
             double got = light_along(&s, &at, vec(sin(angle), 0, c));
             CHECK(t, fabs(got - pow(ramp, 4)) < 1e-6, "spot %d: step %d has %g, not %g", i, k, got, pow(ramp, 4));
         }
+        scene_free(&s);
+    }
+}
+
+/* What lights with a picture send, by pbrt-v3's formulas [pbrt-v3 lights/goniometric.h, lights/projection.cpp], and that
+ * their powers are what they send in all. Texels are so many that rows and columns are told apart. */
+static double by_formula(const float *pixel, int w, int h, bool goniometric, double fov, vec3 d)
+{
+    double s, v;
+    if (goniometric) { /* y is up */
+        double phi = atan2(d.z, d.x);
+        s = (phi < 0 ? phi + 2 * PI : phi) / (2 * PI);
+        v = acos(d.y) / PI;
+    } else {
+        double aspect = (double)w / h, half = tan(fov * PI / 360), wide = aspect > 1 ? aspect : 1;
+        s = 0.5 + 0.5 * d.x / (d.z * half * wide);
+        v = 0.5 + 0.5 * d.y / (d.z * half * wide / aspect);
+        if (!(d.z > 0 && s > 0 && s < 1 && v > 0 && v < 1))
+            return 0;
+    }
+    double x = s * w - 0.5, y = v * h - 0.5, sum = 0;
+    for (int k = 0; k < 4; k++) {
+        double column = floor(x) + k % 2, row = floor(y) + k / 2;
+        int i = ((int)column + w) % w, j = ((int)row + h) % h;
+        sum += (1 - fabs(x - column)) * (1 - fabs(y - row)) * (double)pixel[3 * (j * w + i)];
+    }
+    return sum;
+}
+
+static void test_pictures_sent(struct test *t)
+{
+    enum { N = 400 };
+    static const int SIZE[3][2] = {{24, 12}, {8, 20}, {9, 9}};
+    static float pixels[24 * 20 * 3];
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 12, 0);
+    for (int i = 0; i < 12; i++) {
+        char path[256];
+        struct error err = {.text = ""};
+        struct scene s;
+        bool goniometric = i % 2 == 0;
+        int w = SIZE[i / 2 % 3][0], h = SIZE[i / 2 % 3][1];
+        double fov = i == 11 ? 150 : 20 + 10 * i, worst = 0, all = 0;
+        for (int k = 0; k < 3 * w * h; k++)
+            pixels[k] = k % 3 == 0 ? (float)(1 + rng_uniform(&r)) : pixels[k - k % 3];
+        snprintf(path, sizeof path, "%s/sent.pfm", test_tmp(t));
+        CHECK(t, image_write(path, w, h, pixels, &err), "%s", err.text);
+        if (!(goniometric ? scene_from_format(t, &s, "WorldBegin LightSource \"goniometric\" \"rgb I\" [2 2 2] "
+                                              "\"string mapname\" \"sent.pfm\" WorldEnd")
+                          : scene_from_format(t, &s, "WorldBegin LightSource \"projection\" \"rgb I\" [2 2 2] "
+                                              "\"string mapname\" \"sent.pfm\" \"float fov\" %g WorldEnd", fov)))
+            return;
+        struct light_point at = {.light = 0};
+        double cosine = s.lights.light[0].frame->cos_total;
+        for (int k = 0; k < N * N; k++) {
+            vec3 d = warp_sphere((k / N + rng_uniform(&r)) / N, (k % N + rng_uniform(&r)) / N);
+            double got = light_Le(&s.lights, &at, d).g;
+            worst = fmax(worst, fabs(got - 2 * by_formula(pixels, w, h, goniometric, fov, d)));
+            all += got * 4 * PI / (N * N);
+            CHECK(t, got == 0 || goniometric || d.z >= cosine * (1 - 1e-12), "light beyond the cone that is drawn");
+        }
+        CHECK(t, worst < 1e-9, "light %d of a picture of %dx%d is off by %g", i, w, h, worst);
+        double power = s.lights.light[0].power / all; /* of a screen that of the cone around it */
+        CHECK(t, fabs(power - 1) < (goniometric ? 0.02 : 1.2) && power > 0.98, "its power is %g of what it sends", power);
         scene_free(&s);
     }
 }
@@ -240,7 +305,8 @@ static void test_densities(struct test *t)
         "WorldBegin Rotate 50 1 2 3 AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] Shape \"trianglemesh\"\n"
         "\"integer indices\" [0 1 2] \"point P\" [0 0 1  2 0 1  0 3 1] Shape \"sphere\" AreaLightSource \"diffuse\"\n"
         "\"bool twosided\" \"true\" Shape \"disk\" LightSource \"point\" LightSource \"spot\" LightSource \"distant\"\n"
-        "Scale 1 2 3 Rotate 40 3 1 2 LightSource \"spot\" %s WorldEnd\n";
+        "Scale 1 2 3 Rotate 40 3 1 2 LightSource \"spot\" LightSource \"projection\"\n"
+        "LightSource \"goniometric\" \"string mapname\" \"densities.pfm\" %s WorldEnd\n";
     static const char *const SKIES[] = {"LightSource \"infinite\"",
                                         "LightSource \"infinite\" \"string mapname\" \"densities.pfm\"",
                                         "LightSource \"infinite\" \"string mapname\" \"densities.pfm\"\n"
@@ -259,7 +325,7 @@ static void test_densities(struct test *t)
     for (int sky = 0; sky < 3; sky++) {
         if (!scene_from_format(t, &s, WORLD, SKIES[sky]))
             return;
-        CHECK(t, s.lights.n == 8 && s.lights.n_layers == 1 + sky / 2, "%d lights, %d layers", s.lights.n,
+        CHECK(t, s.lights.n == 10 && s.lights.n_layers == 1 + sky / 2, "%d lights, %d layers", s.lights.n,
               s.lights.n_layers);
         for (int i = 0; i < s.lights.n; i++)
             check_light(t, &s, &r, i, sky > 0);
@@ -273,4 +339,5 @@ void test_light_sent(struct test *t)
     test_transformed(t);
     test_damaged_map(t);
     test_spot(t);
+    test_pictures_sent(t);
 }

@@ -49,6 +49,14 @@ static void fresnel_values(struct test *t)
     CHECK(t, near(copper.r, 0.952, 1e-3) && near(copper.g, 0.620, 1e-3) && near(copper.b, 0.511, 1e-3),
           "copper: %.6f %.6f %.6f", copper.r, copper.g, copper.b);
     CHECK(t, near(fresnel_conductor(0, n, k).r, 1, 1e-12), "copper, grazing");
+    /* From 0 to 1 for any index, even one that is no boundary, at any angle. */
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 31, 0);
+    for (int i = 0; i < 100000; i++) {
+        double c = i % 5 == 0 ? 0 : pow(rng_uniform(&r), 1 + i % 9);
+        double eta = i % 3 == 0 ? 1 : exp(8 * rng_uniform(&r) - 4), absorbed = i % 2 == 0 ? 0 : exp(8 * rng_uniform(&r) - 6);
+        double F = fresnel_conductor(c, rgb_grey(eta), rgb_grey(absorbed)).r;
+        CHECK(t, F >= 0 && F <= 1 + 1e-12, "eta %g, k %g reflect %g at cosine %g", eta, absorbed, F, c);
+    }
 }
 
 /* --- sampling maps: density = 1 / |Jacobian| --------------------------------------------------------- */

@@ -29,16 +29,22 @@ static void expect(struct test *t, const char *text, double wanted, int ways, in
     scene_free(&scene);
 }
 
-/* In a closed room whose walls shine with 1 nothing can be seen of fog that scatters all it takes. */
+#define BLACK "Material \"matte\" \"rgb Kd\" [0 0 0]\n"
+
+/* In a closed room whose walls shine with 1 nothing can be seen of fog that scatters all it takes. The walls are black,
+ * or see-through; these bound the fog, or stand in it just before black ones. */
 static void test_furnace(struct test *t)
 {
-    for (int i = 0; i < 2; i++) {
+    static const char *const WALLS[] = {BLACK,
+                                        "Material \"none\" MediumInterface \"fog\" \"\"",
+                                        BLACK "Shape \"sphere\" \"float radius\" 1.0001 Material \"none\""};
+    for (int i = 0; i < 6; i++) {
         char text[1024];
         snprintf(text, sizeof text, VIEW "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" "
                  "\"rgb sigma_a\" [0 0 0] \"rgb sigma_s\" [.1 .2 .3] \"float g\" %g MediumInterface \"fog\" \"fog\"\n"
                  "LookAt 0 0 0 0 0 1 0 1 0 Camera \"perspective\" \"float fov\" 60 WorldBegin\n"
-                 "Material \"matte\" \"rgb Kd\" [0 0 0] AreaLightSource \"diffuse\" \"bool twosided\" \"true\"\n"
-                 "Shape \"sphere\" WorldEnd", 0.8 * i - 0.4);
+                 "AttributeBegin %s AreaLightSource \"diffuse\" \"bool twosided\" \"true\"\n"
+                 "Shape \"sphere\" AttributeEnd WorldEnd", 0.8 * (i % 2) - 0.4, WALLS[i / 2]);
         expect(t, text, 1, 3, 10, 16);
     }
 }

@@ -50,15 +50,21 @@ static void test_analytic(struct test *t)
     }
 }
 
-/* What all methods see in the first pixel, to the last digit. */
-static void check_shown(struct test *t, const struct scene *scene, uint64_t seed, double expected, const char *what)
+/* What all methods see in the first pixel, to the last digit; lt if the eye sees it directly. */
+static void check_shown_by(struct test *t, const struct scene *scene, uint64_t seed, double expected, bool directly,
+                           const char *what)
 {
-    static const char *const methods[] = {"pt", "lt", "bdpt", "asbdpt"};
-    for (int m = 0; m < 4; m++) {
-        struct batches b = render_batches(t, scene, methods[m], 2, 4, 2, 4, seed);
+    static const char *const methods[] = {"pt", "bdpt", "asbdpt", "lt"};
+    for (int m = 0; m < (directly ? 4 : 3); m++) {
+        struct batches b = render_batches(t, scene, methods[m], directly ? 2 : 6, 4, 2, 4, seed);
         CHECK(t, fabs(b.value[0] - expected) < 1e-9, "%s: %s: %g, not %g", methods[m], what, b.value[0], expected);
         batches_free(&b);
     }
+}
+
+static void check_shown(struct test *t, const struct scene *scene, uint64_t seed, double expected, const char *what)
+{
+    check_shown_by(t, scene, seed, expected, true, what);
 }
 
 /* Two centimetres above a ground of 2000 km, flat or round, and twenty metres from the origin, something casts its
@@ -117,6 +123,60 @@ static void test_lamps(struct test *t)
         check_shown(t, &scene, 830, cases[i].expected, filled);
         scene_free(&scene);
     }
+}
+
+/* Lights one behind the other, drawn at random: see-through or black behind, hidden or not, of one side or two, and panes
+ * that bend nothing. Of each piece of the eye's way that panes cut, the first see-through light counts, else what is at
+ * its end; before the first pane those that are hidden do not. */
+static void test_stack(struct test *t, struct rng *r, int number)
+{
+    static const char *const KIND[] = {"Material \"none\"", "Material \"none\"", "Material \"matte\" \"rgb Kd\" [0 0 0]",
+                                       "Material \"glass\" \"float eta\" 1"};
+    enum { PANE = 3, LAYERS = 5 };
+    char text[4096];
+    double expected = 0, shown = 0;
+    bool pane = false, lamp = false, open = true;
+    bool sky = rng_uniform(r) < 0.6, sky_hidden = rng_uniform(r) < 0.4;
+    int used = snprintf(text, sizeof text, "LookAt 0 0 9  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10\n"
+                        "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin %s%s\n",
+                        !sky ? "" : "LightSource \"infinite\" \"rgb L\" [.25 .25 .25]",
+                        sky && sky_hidden ? " \"bool visible\" \"false\"" : "");
+    for (int i = 0; i < LAYERS; i++) {
+        int kind = (int)(4 * rng_uniform(r));
+        bool two_sided = rng_uniform(r) < 0.5, back = rng_uniform(r) < 0.5, hidden = rng_uniform(r) < 0.5;
+        double L = (back && !two_sided) || (hidden && !pane) ? 0 : i + 1;
+        used += snprintf(text + used, sizeof text - (size_t)used, "AttributeBegin %s Translate 0 0 %d ", KIND[kind], -i);
+        if (kind != PANE)
+            used += snprintf(text + used, sizeof text - (size_t)used, "Rotate %d 1 0 0 AreaLightSource \"diffuse\" "
+                             "\"rgb L\" [%d %d %d] \"bool twosided\" \"%s\" \"bool visible\" \"%s\" ", back ? 180 : 0, i + 1,
+                             i + 1, i + 1, two_sided ? "true" : "false", hidden ? "false" : "true");
+        used += snprintf(text + used, sizeof text - (size_t)used, "Shape \"disk\" \"float radius\" 9 AttributeEnd\n");
+        if (!open || (kind < 2 && (lamp || (hidden && !pane))))
+            continue;
+        shown = kind == PANE || lamp ? shown : L;
+        lamp = kind < 2;
+        if (kind >= 2) {
+            expected += shown;
+            shown = 0;
+            lamp = false;
+            pane |= kind == PANE;
+            open = kind == PANE;
+        }
+    }
+    expected += !open ? 0 : lamp ? shown : sky && (pane || !sky_hidden) ? 0.25 : 0;
+    struct scene scene;
+    snprintf(text + used, sizeof text - (size_t)used, "WorldEnd\n");
+    if (!scene_from_text(t, text, &scene))
+        return;
+    check_shown_by(t, &scene, 840 + (uint64_t)number, expected, !pane, text);
+    scene_free(&scene);
+}
+
+static void test_stacks(struct test *t)
+{
+    struct rng r = rng_stream(test_seed(t), RNG_TEST, 5, 0);
+    for (int i = 0; i < 100; i++)
+        test_stack(t, &r, i);
 }
 
 /* Alpha 0 is a hole, to the eye and to light, and so is shadowalpha 0; any other alpha is solid, as in pbrt. */
@@ -252,6 +312,7 @@ void test_scenes(struct test *t)
     test_analytic(t);
     test_contact(t);
     test_lamps(t);
+    test_stacks(t);
     test_holes(t);
     test_partials(t);
     test_filter_spot(t);

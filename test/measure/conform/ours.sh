@@ -5,6 +5,6 @@
 picture() {
     parameters=${method#"${method%%:*}"}
     "${PROGRAM:-./asbdpt-lab}" render "scenes/conform/$1.pbrt" --integrator "${method%%:*}" \
-        ${parameters:+-P "${parameters#:}"} --spp "$spp" --seed $((${SEED:-0} + $2)) -j 1 --quiet -o "$3"
+        ${parameters:+-P "${parameters#:}"} --spp "$spp" --seed $((${SEED:-0} + $2)) -j 1 --quiet --unclamped -o "$3"
 }
 kit
