@@ -62,7 +62,7 @@ static void put_parameters(FILE *f, const struct job *job)
     fprintf(f, ",\n\"parameters\": {\n\"maxdepth\": %d", job->state.max_depth);
     put_text(f, "heuristic", job->state.power_heuristic ? "power" : "balance");
     put_number(f, "rrthreshold", job->state.rr_threshold);
-    put_text(f, "lightsamplestrategy", job->state.spatial_lights ? "spatial" : "power");
+    put_text(f, "lightsamplestrategy", LIGHT_STRATEGIES[job->state.strategy]);
     if (m->select != NULL)
         put_text(f, "select", m->select);
     put_table(f, m->parameters, &job->prepared.parameters);

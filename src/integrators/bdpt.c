@@ -8,14 +8,16 @@
  */
 #include "integrators/loop.h"
 
+static const struct field PARAMETERS[] = {PARAMETER_GUIDE(true), {.name = NULL}};
+
 const struct method method_pt = {
-    .name = "pt", .help = "path tracing: light found by chance (s = 0) or sampled (s = 1)", .numbers = NUMBERS_OF_PT,
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = loop_render};
+    .name = "pt", .help = "path tracing: light found by chance (s = 0) or sampled (s = 1)", .parameters = PARAMETERS,
+    .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = loop_render};
 
 const struct method method_lt = {
     .name = "lt", .help = "light tracing: light sub-paths connected to the lens (t = 1); cannot see mirrors",
     .numbers = {.path_pixels = 1}, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = loop_render};
 
 const struct method method_bdpt = {
-    .name = "bdpt", .help = "bidirectional path tracing [Veach 1997]: all strategies", .numbers = NUMBERS_OF_BDPT,
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = loop_render, .draw = loop_own};
+    .name = "bdpt", .help = "bidirectional path tracing [Veach 1997]: all strategies", .parameters = PARAMETERS,
+    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = loop_render, .draw = loop_own};

@@ -79,6 +79,7 @@ struct prepared {
     struct numbers numbers;   /* those of the parameters, or of the winner of a race */
     struct counts counts;     /* in the weights */
     struct tables *tables;    /* owned */
+    struct scene *uniform;    /* the job's scene if it chooses lights uniformly, else NULL; owned */
     struct pass_size size;    /* any block, tiles of DEFAULT_TILE_SIZE, unless parameters or `prepare` change it */
     struct runner runner[MAX_RUNNERS];
     int n_runners, winner;    /* 0 runners: there was no race */

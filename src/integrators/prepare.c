@@ -45,7 +45,7 @@ static void learn_tables(const struct render_job *job, struct prepared *p)
     const struct parameters *q = &p->parameters;
     const struct learn_options options = {
         .use = p->method->learns_use || q->emission < 1, .pairs = p->method->learns_pairs,
-        .direct = q->guide && job->spatial_lights && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
+        .direct = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
         .emission = q->emission, .delta = q->delta, .count = p->method->single};
     if (options.use || options.pairs || options.direct || options.count)
         learn(job, &options, p->tables);
@@ -94,5 +94,6 @@ void method_release(struct prepared *p)
     if (p->tables != NULL)
         tables_free(p->tables);
     free(p->tables);
+    scene_uniform_free(p->uniform);
     free(p->own);
 }

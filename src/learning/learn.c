@@ -283,7 +283,10 @@ void learn(const struct render_job *job, const struct learn_options *options, st
 {
     struct learning l = {.job = job, .options = options, .tables = out,
                          .work = workspaces_new(job->n_threads, job->max_depth), .patience = patience_begin(job)};
-    long n = int_within(LEARN_PER_PIXEL * (double)rect_pixels(job->film_rect), LEARN_LEAST, LEARN_MOST);
+    bool alone = options->direct && !options->use && !options->pairs;
+    double pixels = (double)rect_pixels(job->film_rect);
+    double each = alone ? (double)LEARN_PER_PIXEL / DIRECT_FEWER : LEARN_PER_PIXEL;
+    long n = int_within(each * pixels, alone ? DIRECT_LEAST : LEARN_LEAST, LEARN_MOST);
     long n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT, half = n / 2 / CHUNK * CHUNK;
     long n_emission = options->use && options->emission < 1 ? n_light / 2 : 0;
     bool regions = options->use || options->direct || options->pairs;

@@ -14,6 +14,7 @@
 #include "transport/tile_pass.h"
 
 enum { LEARN_PER_PIXEL = 4, LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LEARN_LIGHT = 16 * 1024 };
+enum { DIRECT_FEWER = 16, DIRECT_LEAST = 512 }; /* if only `direct` is learnt: so many times fewer for each pixel */
 enum { REGIONS = 1536, REGION_CELLS = 8 }; /* at most so many; along the diagonal of the box of eye vertices */
 
 /* What to learn. */

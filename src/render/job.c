@@ -71,7 +71,7 @@ struct common {
 };
 enum { DEFAULT_MAX_DEPTH = 5 }; /* pbrt-v3's */
 static const char *const HEURISTICS[] = {"balance", "power", NULL};
-static const char *const STRATEGIES[] = {"spatial", "power", "uniform", NULL};
+const char *const LIGHT_STRATEGIES[] = {"spatial", "power", "uniform", NULL};
 
 #define AT(member) offsetof(struct common, member)
 static const struct field COMMON[] = {
@@ -81,7 +81,7 @@ static const struct field COMMON[] = {
     {"rrthreshold", FIELD_NUMBER, AT(rr_threshold), DEFAULT_RR_THRESHOLD, 0, 1e6,
      "relative throughput below which Russian roulette begins, 0: never; for bins 0", NULL},
     {"lightsamplestrategy", FIELD_WORD, AT(strategy), 0, 0, 0,
-     "asbdpt chooses the light of s = 1 by what is seen, or by power", STRATEGIES},
+     "how lights are chosen: by power or uniformly; spatial: s = 1 by what a region sees, if guide is on", LIGHT_STRATEGIES},
     {.name = NULL}};
 
 const struct field *job_common(void) { return COMMON; }
@@ -105,8 +105,7 @@ static bool warn(const struct message_sink *sink, const struct setting *item, co
     return true;
 }
 
-/* Lights chosen uniformly give the same image with more noise, so "uniform" becomes "power". pbrt-v3 has no longest
- * path. */
+/* pbrt-v3 has no longest path. */
 static void adapt(struct settings *s, const struct setting *item, const struct message_sink *sink)
 {
     char text[96], most[32];
@@ -114,12 +113,8 @@ static void adapt(struct settings *s, const struct setting *item, const struct m
     snprintf(text, sizeof text, "is %.20s, which counts as %s", item->value, most);
     bool deep = strcmp(item->name, "maxdepth") == 0 && setting_is_of_file(item) &&
                 strtod(item->value, NULL) > PATH_MAX_DEPTH;
-    if (strcmp(item->name, "lightsamplestrategy") == 0 && strcmp(item->value, "uniform") == 0) {
-        warn(sink, item, "is \"power\" instead of \"uniform\", which only has more noise");
-        settings_set(s, item->name, "power", item->origin);
-    } else if (deep && warn(sink, item, text)) {
+    if (deep && warn(sink, item, text))
         settings_set(s, item->name, most, item->origin);
-    }
 }
 
 /* Is it one of the integrator that the file names? There it is right: --integrator may have replaced that, or -P its
@@ -220,12 +215,17 @@ bool job_settle(const struct scene *scene, const struct render_options *options,
     out->state = (struct render_job){
         .scene = scene, .film_rect = render_crop(scene), .seed = o->seed, .eye_seed = o->seed,
         .n_threads = o->n_threads, .max_depth = o->max_depth, .power_heuristic = c.heuristic == 1,
-        .spatial_lights = c.strategy == 0,
+        .strategy = (enum light_strategy)c.strategy,
         .rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold};
     return true;
 }
 
-void job_prepare(struct job *job) { method_prepare(&job->state, &job->prepared); }
+void job_prepare(struct job *job)
+{
+    if (job->state.strategy == LIGHTS_UNIFORM)
+        job->state.scene = job->prepared.uniform = scene_uniform(job->state.scene);
+    method_prepare(&job->state, &job->prepared);
+}
 
 void job_free(struct job *job) { method_release(&job->prepared); }
 

@@ -32,6 +32,7 @@ const struct method *method_find(const char *name, const struct settings *s, str
 
 /* job_common: the parameters that all integrators have, ended by a NULL name. */
 const struct field *job_common(void);
+extern const char *const LIGHT_STRATEGIES[]; /* by enum light_strategy */
 
 /* job_adapt: take out and replace what pbrt-v3 knows and this program does not, or pbrt-v3 would pass over. Returns
  * false with a message if -P sets what none of the readers has.

@@ -173,9 +173,16 @@ static struct envmap *sum_of_layers(const struct light_set *set)
     return sum;
 }
 
+/* What a light is chosen in proportion to. The sky is as many lights as it has layers; what emits nothing is none. */
+static double weight_of(const struct light_set *set, int light)
+{
+    const struct light *l = &set->light[light];
+    return !set->uniform ? l->power : l->power > 0 ? (l->kind == LIGHT_INFINITE ? set->n_layers : 1) : 0;
+}
+
 /* Make the cells: all lights except the sky are divided into cells of equal numbers. The sky's own cells follow.
- *   power  out, [LAMP_CELLS + SKY_CELLS] */
-static void make_cells(struct light_set *set, double *power)
+ *   weight  out, [LAMP_CELLS + SKY_CELLS] */
+static void make_cells(struct light_set *set, double *weight)
 {
     int lamps = set->n - (set->n_layers > 0), each = (lamps + LAMP_CELLS - 1) / LAMP_CELLS, sky = sky_cells(set);
     set->cell = mem_alloc(LAMP_CELLS + SKY_CELLS, sizeof *set->cell);
@@ -190,8 +197,8 @@ static void make_cells(struct light_set *set, double *power)
             set->cell[c = set->n_cells++] = (struct light_cell){i, 0};
         l->cell = c;
         set->cell[l->cell].n++;
-        set->before[i] = power[l->cell];
-        power[l->cell] += l->power;
+        set->before[i] = weight[l->cell];
+        weight[l->cell] += weight_of(set, i);
     }
     if (sky > 0)
         set->light[set->sky].cell = set->n_cells;
@@ -200,9 +207,17 @@ static void make_cells(struct light_set *set, double *power)
         all += sky_map(set)->block[c].total;
     for (int c = 0; c < sky; c++) {
         double share = sky_map(set) == NULL ? 1.0 / sky : all > 0 ? sky_map(set)->block[c].total / all : 0;
-        power[set->n_cells] = set->light[set->sky].power * share;
+        weight[set->n_cells] = weight_of(set, set->sky) * share;
         set->cell[set->n_cells++] = (struct light_cell){set->sky, 1};
     }
+}
+
+static void build_choice(struct light_set *set)
+{
+    double *weight = mem_alloc(LAMP_CELLS + SKY_CELLS, sizeof *weight);
+    make_cells(set, weight);
+    alias_build(&set->choice, weight, set->n_cells);
+    free(weight);
 }
 
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius)
@@ -215,10 +230,21 @@ void light_prepare(struct light_set *set, const struct geometry *geo, vec3 cente
         set->light[i].power = set->light[i].kind == LIGHT_INFINITE ? 0 : light_power(&set->light[i], geo, radius);
     for (int i = 0; i < set->n_layers; i++)
         set->light[set->sky].power += light_power(&set->layer[i], geo, radius);
-    double *power = mem_alloc(LAMP_CELLS + SKY_CELLS, sizeof *power);
-    make_cells(set, power);
-    alias_build(&set->choice, power, set->n_cells);
-    free(power);
+    build_choice(set);
+}
+
+void light_uniform(const struct light_set *set, struct light_set *out)
+{
+    *out = *set;
+    out->uniform = true;
+    build_choice(out);
+}
+
+void light_uniform_free(struct light_set *set)
+{
+    free(set->cell);
+    free(set->before);
+    alias_free(&set->choice);
 }
 
 /* --- the end point y0 -------------------------------------------------------------------------------- */
@@ -228,8 +254,8 @@ static double share_of(const struct light_set *set, int light)
 {
     const struct light_cell *c = &set->cell[set->light[light].cell];
     int last = c->light + c->n - 1;
-    double all = set->before[last] + set->light[last].power;
-    return c->n == 1 ? 1 : all > 0 ? set->light[light].power / all : 0;
+    double all = set->before[last] + weight_of(set, last);
+    return c->n == 1 ? 1 : all > 0 ? weight_of(set, light) / all : 0;
 }
 
 /* Draw a light of a cell with the uniform number u. */
@@ -237,7 +263,7 @@ static int light_of(const struct light_set *set, int cell, double u)
 {
     const struct light_cell *c = &set->cell[cell];
     int last = c->light + c->n - 1;
-    double all = set->before[last] + set->light[last].power;
+    double all = set->before[last] + weight_of(set, last);
     int i = c->n == 1 ? last : c->light + cumulative_find(&set->before[c->light], c->n, u * all);
     while (i > c->light && set->light[i].power == 0)
         i--;

@@ -3,7 +3,7 @@
  * Five kinds. Area lights are one per primitive. A light's end point y0 is a point in space (area, point, spot) or a
  * direction (distant, infinite): then y0 lies "at infinity" and its density is per steradian.
  *
- * Lights are chosen in proportion to their power by an alias table; s = 1 and emission use the same choice and the
+ * Lights are chosen in proportion to their power, or uniformly, by an alias table; s = 1 and emission use the same choice and the
  * same density of y0, so one number serves both in the MIS weights.
  *
  * A ray that leaves the scene meets all infinite lights at once. So they are one light, the sky, which is the sum of
@@ -99,8 +99,8 @@ struct light_cell {
 };
 enum { LAMP_CELLS = 256, SKY_CELLS = 512 };
 
-/* All lights of a scene and what sampling them needs. A cell is chosen first, then a light in it by power, then a point
- * on the light. */
+/* All lights of a scene and what sampling them needs. A cell is chosen first, then a light in it, then a point on the
+ * light. */
 struct light_set {
     struct light *light; /* [n], owned */
     int n;
@@ -114,8 +114,9 @@ struct light_set {
     int n_groups;
     struct light_cell *cell;   /* [n_cells], owned */
     int n_cells;
-    double *before;            /* [n] power of the lights before this one in its cell; owned */
-    struct alias_table choice; /* of a cell, by power */
+    double *before;            /* [n] weight (weight_of) of the lights before this one in its cell; owned */
+    bool uniform;              /* lights are chosen uniformly; else by power */
+    struct alias_table choice; /* of a cell, by that */
     vec3 center;               /* bounding sphere of the scene */
     double radius;             /* > 0 */
 };
@@ -142,6 +143,12 @@ static inline double light_watts(const struct light *l) { return l->power * (l->
 /* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);
 void light_set_free(struct light_set *set);
+
+/* light_uniform: *out becomes a set of the same lights that chooses all that emit with the same probability, as pbrt-v3
+ * does by "uniform". A layer of the sky counts as a light; a light's own cells are chosen by power. *out shares all else
+ * with the prepared *set, which must outlive it; light_uniform_free releases it. */
+void light_uniform(const struct light_set *set, struct light_set *out);
+void light_uniform_free(struct light_set *set);
 
 /* Delta lights cannot be hit (s = 0 is impossible). */
 static inline bool light_is_delta(const struct light *l)

@@ -149,6 +149,21 @@ void scene_prepare(struct scene *s)
     filter_prepare(&s->filter);
 }
 
+struct scene *scene_uniform(const struct scene *s)
+{
+    struct scene *copy = mem_alloc(1, sizeof *copy);
+    *copy = *s;
+    light_uniform(&s->lights, &copy->lights);
+    return copy;
+}
+
+void scene_uniform_free(struct scene *s)
+{
+    if (s != NULL)
+        light_uniform_free(&s->lights);
+    free(s);
+}
+
 bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out)
 {
     struct hit hit;

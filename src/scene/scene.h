@@ -79,6 +79,11 @@ void scene_resize(struct scene *s, int width, int height);
  * the scene stays where it is in memory. */
 void scene_prepare(struct scene *s);
 
+/* scene_uniform: a copy of a prepared scene whose lights are chosen uniformly (light_uniform). It shares all else with
+ * *s, which must outlive it; scene_uniform_free releases it. */
+struct scene *scene_uniform(const struct scene *s);
+void scene_uniform_free(struct scene *s);
+
 /* scene_bounds: the box of all surfaces of a prepared scene, see-through lights among them; the origin if there are
  * none. */
 void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi);

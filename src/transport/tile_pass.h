@@ -10,6 +10,10 @@
 
 struct observer;
 
+/* pbrt-v3's lightsamplestrategy: how s = 1 chooses lights. SPATIAL: by region, if the method learns that; else, and where
+ * light sub-paths start, by power. UNIFORM is of the scene (scene_uniform). */
+enum light_strategy { LIGHTS_SPATIAL, LIGHTS_POWER, LIGHTS_UNIFORM };
+
 /* The parameters of a render, which do not change while it runs. */
 struct render_job {
     const struct scene *scene;
@@ -20,7 +24,7 @@ struct render_job {
     int n_threads;
     bool power_heuristic;
     double rr_threshold; /* of Russian roulette, see path.h */
-    bool spatial_lights; /* pbrt's lightsamplestrategy "spatial": lights are chosen by region; else by power */
+    enum light_strategy strategy;
     /* A method calls this from time to time while it prepares, one call at a time, with the number of sub-paths that it
      * has traced. If it returns false, the method stops preparing and uses the result so far. May be NULL. */
     bool (*watch)(void *context, double traced);

@@ -38,7 +38,7 @@ static bool watch(void *context, double traced)
 static struct render_job job_of(const struct scene *scene, struct watcher *w, int n_threads)
 {
     struct render_job job = {.scene = scene, .film_rect = render_crop(scene), .seed = 3, .eye_seed = 3, .max_depth = 4,
-                             .n_threads = n_threads, .rr_threshold = 0.5, .spatial_lights = true,
+                             .n_threads = n_threads, .rr_threshold = 0.5, .strategy = LIGHTS_SPATIAL,
                              .watch = w != NULL ? watch : NULL, .watch_context = w};
     return job;
 }
