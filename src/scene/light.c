@@ -237,6 +237,7 @@ void light_uniform(const struct light_set *set, struct light_set *out)
 {
     *out = *set;
     out->uniform = true;
+    out->choice = (struct alias_table){.n = 0};
     build_choice(out);
 }
 

@@ -30,7 +30,7 @@ struct methods {
 };
 
 /* What is measured unless somebody says otherwise; the others are compared with the first. */
-#define METHODS_EXPERIMENT "bdpt,asbdpt:select=bins/pool/vertices/subspaces"
+#define METHODS_EXPERIMENT METHOD_PRINTED_BDPT ",asbdpt:select=bins/pool/vertices/subspaces"
 #define METHODS_EQUAL_TIME "bdpt,asbdpt:select=vertices/subspaces,lvc,cbdpt"
 #define METHODS_OWN_SCENE "bdpt,asbdpt"
 #define METHODS_BENCH "pt", "bdpt", "asbdpt"
@@ -42,7 +42,8 @@ struct methods {
 #define METHOD_REFERENCE "bdpt"         /* renders references */
 #define METHOD_CAUSTICS "caustics"      /* the same, where reference_method says so */
 #define METHOD_PARTNER "asbdpt"         /* of METHOD_REFERENCE in verify, if the scene names no other */
-#define METHOD_PRINTED "asbdpt:select=bins" /* the dissertation's asbdpt; its bdpt is METHOD_REFERENCE */
+#define METHOD_PRINTED "asbdpt:select=bins" /* the dissertation's asbdpt, and its bdpt: lights by power */
+#define METHOD_PRINTED_BDPT "bdpt:lightsamplestrategy=power"
 
 #define METHODS_HELP "what is compared, as NAME:PARAMETER=VALUE:..., values like 4/8"
 

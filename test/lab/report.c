@@ -24,10 +24,10 @@ static const struct published {
     {"living-room", {8.2173, 5.8870, 4.3207, 3.2946, 2.6155}, {8.2646, 5.9254, 4.2720, 3.0800, 2.2604}},
 };
 
-/* What was printed of this method after so many samples: the dissertation's BDPT is METHOD_REFERENCE; NaN: nothing. */
+/* What was printed of this method after so many samples: the dissertation's BDPT is METHOD_PRINTED_BDPT; NaN: nothing. */
 static double printed(const char *scene, const char *method, long spp)
 {
-    bool bdpt = strcmp(method, METHOD_REFERENCE) == 0, bins = strcmp(method, METHOD_PRINTED) == 0;
+    bool bdpt = strcmp(method, METHOD_PRINTED_BDPT) == 0, bins = strcmp(method, METHOD_PRINTED) == 0;
     for (size_t i = 0; (bdpt || bins) && i < sizeof PRINTED / sizeof PRINTED[0]; i++)
         for (int k = 0; strcmp(PRINTED[i].scene, scene) == 0 && k < PUBLISHED_STEPS; k++)
             if (spp == PUBLISHED_FIRST << k)
@@ -68,7 +68,7 @@ static void add_number(struct md_table *t, double x, const char *format)
 static void add_ratios(struct md_table *t, const struct scene_results *s, long spp, int step)
 {
     int bins = methods_find(&s->plan->methods, METHOD_PRINTED);
-    add_number(t, printed(s->name, METHOD_PRINTED, spp) / printed(s->name, METHOD_REFERENCE, spp), "%.3f");
+    add_number(t, printed(s->name, METHOD_PRINTED, spp) / printed(s->name, METHOD_PRINTED_BDPT, spp), "%.3f");
     if (step >= 0)
         md_add_interval(t, results_over_first(s, bins, step, false), "");
     else
@@ -78,16 +78,16 @@ static void add_ratios(struct md_table *t, const struct scene_results *s, long s
 /* Can a page show both methods next to what was printed? Others are compared with the first, which must be bdpt. */
 static bool has_printed(const struct plan *p)
 {
-    return methods_find(&p->methods, METHOD_REFERENCE) == 0 && methods_find(&p->methods, METHOD_PRINTED) > 0;
+    return methods_find(&p->methods, METHOD_PRINTED_BDPT) == 0 && methods_find(&p->methods, METHOD_PRINTED) > 0;
 }
 
 /* The last step of which something was printed, or the last one. */
 static int printed_step(const struct scene_results *s)
 {
     int step = plan_last_step(s->plan);
-    while (step > 0 && isnan(printed(s->name, METHOD_REFERENCE, s->plan->spp[step])))
+    while (step > 0 && isnan(printed(s->name, METHOD_PRINTED_BDPT, s->plan->spp[step])))
         step--;
-    return isnan(printed(s->name, METHOD_REFERENCE, s->plan->spp[step])) ? plan_last_step(s->plan) : step;
+    return isnan(printed(s->name, METHOD_PRINTED_BDPT, s->plan->spp[step])) ? plan_last_step(s->plan) : step;
 }
 
 static void findings_table(FILE *f, const struct results *r)
@@ -114,7 +114,7 @@ static void chapter_table(FILE *f, const struct scene_results *s)
     static const char *const heads[] = {"spp", "bdpt, printed", "bdpt", "bins, printed", "bins",
                                         "bins over bdpt, printed", "bins over bdpt [95 %]"};
     const struct plan *p = s->plan;
-    const char *const names[2] = {METHOD_REFERENCE, METHOD_PRINTED};
+    const char *const names[2] = {METHOD_PRINTED_BDPT, METHOD_PRINTED};
     struct md_table t = md_begin(f, "RMSE on the 8-bit scale, printed in the dissertation and measured here");
     add_columns(&t, heads, 7);
     long spp = 0;
@@ -235,7 +235,7 @@ static const char NOTES[] =
 static void write_scene(FILE *f, const struct results *r, const struct scene_results *s)
 {
     fprintf(f, "## %s\n\n", s->name);
-    if (has_printed(r->plan) && isfinite(printed(s->name, METHOD_REFERENCE, PUBLISHED_FIRST)))
+    if (has_printed(r->plan) && isfinite(printed(s->name, METHOD_PRINTED_BDPT, PUBLISHED_FIRST)))
         chapter_table(f, s);
     scene_table(f, r, s);
 }

@@ -14,7 +14,7 @@ measure() { # NAME SAMPLES OPTIONS
 dir=$1
 bins="--integrator asbdpt -P select=bins"
 for spp in 32 64 128 256 512; do
-    measure bdpt $spp --integrator bdpt
+    measure bdpt $spp --integrator bdpt -P lightsamplestrategy=power
     measure bins $spp $bins
 done
 for parameter in restart=8 restart=16 restart=64 restart=0 binpaths=2 binpaths=4 binpaths=16 binpaths=32 \

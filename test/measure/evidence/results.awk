@@ -10,7 +10,7 @@ function cell(i) { return part[i + 1] }
 }
 !on { next }
 {
-    gsub(/asbdpt:select=/, "")
+    gsub(/asbdpt:select=|:lightsamplestrategy=power/, "")
     split($0, part, / *\| */)
 }
 /^\| [0-9]+ \| [a-z]/ { row[++rows] = "| " scene " " $0 }
