@@ -1,8 +1,9 @@
 /* learn.h: learn tables about a scene before it is rendered (tables.h).
  *
  * Learning traces a fixed number of eye sub-paths: LEARN_PER_PIXEL for each pixel of the image, but at least
- * LEARN_LEAST and at most LEARN_MOST. It traces as many light sub-paths, but at most LEARN_LIGHT, and more for trial
- * connections. The number does not depend on the number of samples, so an image that is continued or rendered in parts
+ * LEARN_LEAST and at most LEARN_MOST. If only `direct` is learnt, it traces one for DIRECT_PIXELS pixels, but at least
+ * DIRECT_LEAST: the cost of a path tracer's guide is then a few per cent of 32 samples. It traces as many light
+ * sub-paths, but at most LEARN_LIGHT, and more for trial connections. The number does not depend on the number of samples, so an image that is continued or rendered in parts
  * has one estimator. Memory is bounded by REGIONS. job->watch may end learning early. Then the tables have fewer
  * sub-paths, which is valid but noisier. Tables are not stored: every render learns them again.
  *
@@ -14,7 +15,7 @@
 #include "transport/tile_pass.h"
 
 enum { LEARN_PER_PIXEL = 4, LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LEARN_LIGHT = 16 * 1024 };
-enum { DIRECT_FEWER = 16, DIRECT_LEAST = 512 }; /* if only `direct` is learnt: so many times fewer for each pixel */
+enum { DIRECT_PIXELS = 4, DIRECT_LEAST = 1024 };
 enum { REGIONS = 1536, REGION_CELLS = 8 }; /* at most so many; along the diagonal of the box of eye vertices */
 
 /* What to learn. */
