@@ -25,11 +25,14 @@
  *   emission      light sub-paths start in directions that the camera can use (emission.h)
  *   race          fewer light sub-paths, or none, if a race before the render finds them enough (race.h)
  *   lightpoints   points on lights that a first hit is joined to
+ *   later         fewer draws for a later eye vertex than for a first hit
+ *   credits       direct light at a first hit and draws count as more samples in the weights (counts.h)
+ *   bound         draws count as less than a quarter of the pool's light sub-paths (counts.h)
  *   tile, spread  number of pixels that share light sub-paths, and how far apart they are (tile_pass.h)
  */
 struct parameters {
-    struct numbers numbers; /* those of the row, unless parameters change them */
-    int guide, race;        /* off or on */
+    struct numbers numbers; /* those of the row, unless parameters change them; later draws -1: as many as others */
+    int guide, race, credits, bound; /* off or on */
     double emission;        /* share of light sub-paths that start by power alone; 1: all */
     double delta;           /* share of choices that ignore what was learnt */
     int metric;             /* enum metric */
@@ -53,6 +56,14 @@ struct parameters {
 #define PARAMETER_POINTS(DEFAULT) \
     PARAMETER("lightpoints", FIELD_INTEGER, numbers.light_points, DEFAULT, 1, 64, \
               "points on lights that an eye vertex that the camera sees is joined to", NULL)
+#define PARAMETER_LATER(DEFAULT) \
+    PARAMETER("later", FIELD_INTEGER, numbers.draws[LATER_HIT], DEFAULT, -1, 1024, \
+              "draws of an eye vertex that the camera does not see; -1: as many as of one that it sees", NULL)
+#define PARAMETER_COUNTS(CREDITS, BOUND) \
+    PARAMETER("credits", FIELD_WORD, credits, CREDITS, 0, 0, \
+              "count direct light where the camera sees, and draws, as more samples, for they are stratified", OFF_ON), \
+    PARAMETER("bound", FIELD_WORD, bound, BOUND, 0, 0, \
+              "count draws as less than a quarter of the light sub-paths of a tile", OFF_ON)
 #define PARAMETER_TILES(TILE, SPREAD) \
     PARAMETER("tile", FIELD_INTEGER, tile, TILE, 1, MAX_TILE_SIZE, \
               "pixels along a side of those that share light sub-paths", NULL), \
@@ -77,6 +88,7 @@ struct prepared {
     struct parameters parameters;
     void *own;                /* see struct method; owned */
     struct numbers numbers;   /* those of the parameters, or of the winner of a race */
+    double draw[EYE_ENDS];    /* samples of BDPT that a draw counts as, without a credit; `prepare` may change it */
     struct counts counts;     /* in the weights */
     struct tables *tables;    /* owned */
     struct scene *uniform;    /* the job's scene if it chooses lights uniformly, else NULL; owned */
@@ -98,8 +110,6 @@ struct method {
     const struct field *own;        /* parameters that this method alone has; NULL: none */
     size_t own_size;
     double rr_threshold;            /* of Russian roulette (path.h), unless the user gives another */
-    double direct_credit, pair_credit; /* see counts.h; 0: 1 */
-    double pool_credit; /* M of counts.h for each light sub-path of a full tile; 0: no bound */
     bool single;                    /* `draw` chooses single vertices, not sub-paths */
     bool learns_use, learns_pairs;  /* see tables.h */
 

@@ -7,20 +7,20 @@
 #include "integrators/race.h"
 #include "learning/learn.h"
 
+static const double BOUND = 0.25; /* M of counts.h for each light sub-path of a full tile */
 enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
 
 void method_counts(const struct render_job *job, struct prepared *p, bool credits)
 {
-    const struct method *m = p->method;
-    double direct = credits && m->direct_credit > 0 ? m->direct_credit : 1;
-    double pair = m->pair_credit > 0 ? m->pair_credit : 1;
-    if (m->single && p->tables->light_vertices > 0) /* a draw is one of so many vertices of a light sub-path */
-        pair /= p->tables->light_vertices;
-    p->counts = counts_of(p->numbers, direct, pair, (double)rect_pixels(job->film_rect), p->tables);
+    const struct parameters *q = &p->parameters;
+    double M = BOUND * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
+    p->counts = counts_of(p->numbers, credits && q->credits ? DIRECT_CREDIT : 1, q->credits ? PAIR_CREDIT : 1,
+                          (double)rect_pixels(job->film_rect), p->tables);
     p->counts.power = job->power_heuristic;
-    double M = m->pool_credit * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
-    for (int end = 0; end < EYE_ENDS && M > 0; end++)
-        p->counts.again[end] = p->counts.pair[end] / M;
+    for (int end = 0; end < EYE_ENDS; end++) {
+        p->counts.pair[end] *= p->draw[end];
+        p->counts.again[end] = q->bound ? p->counts.pair[end] / M : 0;
+    }
 }
 
 /* A path tracer needs no table but that of direct light, and a plain one not even this. */
@@ -59,6 +59,10 @@ void method_prepare(const struct render_job *job, struct prepared *p)
     p->size = (struct pass_size){0, p->parameters.tile, p->parameters.spread};
     p->tables = mem_alloc(1, sizeof *p->tables);
     learn_tables(job, p);
+    if (p->numbers.draws[LATER_HIT] < 0)
+        p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
+    for (int end = 0; end < EYE_ENDS; end++) /* of single vertices, a draw is one of so many of a light sub-path */
+        p->draw[end] = m->single && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
     if (m->prepare != NULL)
         m->prepare(job, p);
     method_counts(job, p, true);

@@ -190,7 +190,7 @@ static void predict(const struct race *r, struct runner *k)
 {
     const struct prepared *p = &r->by[FIRST];
     const struct numbers *most = &p->numbers, *n = &k->numbers;
-    const double *count = r->tally.count, credit = p->method->pair_credit > 0 ? p->method->pair_credit : 1;
+    const double *count = r->tally.count, credit = p->parameters.credits ? PAIR_CREDIT : 1;
     double times[ITEMS] = {1, 1, (double)n->light_points / most->light_points, 1}; /* as many as of the first */
     double direct = variance(r, r->tally.direct[OTHER], r->tally.direct[FIRST]), square = 0, more[2] = {0, 0};
     for (int end = 0; end < EYE_ENDS && n->path_pixels > 0; end++) {

@@ -12,14 +12,7 @@
  * The MIS weights take this into account: the strategies count as
  *     n = x / (1 + x / M),      x = 2 C ratio(e(z), l(y)) / N,      M = K / 4
  * samples, where N is the mean number of connectible vertices of a light sub-path, and K that of a full tile. 2 is the
- * credit of a draw, since stratified draws have less variance than independent ones. M is a bound, since few useful
- * light vertices are drawn again and again (counts.h).
- *
- * The credit of direct light, 4, has the same reason. The first numbers of an eye sub-path are spread evenly over the
- * iterations of a pixel (sampler.h), so the mean of N samples of direct light has less than 1/N of the variance of one.
- * Such a sample should count as E[X^2] / (N V_N) samples, X its contribution and V_N the variance of the mean
- * [Grittmann 2019]. For N = 16 that ratio is between 1 and 64 in most scenes. One constant costs 3 % more squared error
- * than to measure it before each render.
+ * credit of a draw, and M a bound; direct light at a first hit has the credit 4 (counts.h).
  *
  * [Su 2022] has subspaces of eye and light sub-paths and a matrix of probabilities between them. Here the regions are
  * cells of grids, and the table is learnt from trial connections.
@@ -129,16 +122,14 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
 static const struct field PARAMETERS[] = {
     PARAMETER("connections", FIELD_INTEGER, numbers.draws[FIRST_HIT], 3, 0, 1024,
               "light vertices drawn for each eye vertex that the camera sees", NULL),
-    PARAMETER("later", FIELD_INTEGER, numbers.draws[LATER_HIT], 1, 0, 1024,
-              "light vertices drawn for each other eye vertex", NULL),
+    PARAMETER_LATER(1),
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path; 0: trace none", NULL),
     PARAMETER_DELTA(0.1),
-    PARAMETERS_SHARED(true, 2, true, 0.2, MAX_TILE_SIZE, POOL_SPREAD),
+    PARAMETER_COUNTS(true, true), PARAMETERS_SHARED(true, 2, true, 0.2, MAX_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_subspaces = {
     .name = "asbdpt", .select = "subspaces", .help = "light vertices by what they are worth where the eye vertex is",
     .parameters = PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .direct_credit = 4, .pair_credit = 2, .pool_credit = 0.25, .single = true, .learns_use = true, .learns_pairs = true,
-    .render = loop_render, .build = build, .draw = draw};
+    .single = true, .learns_use = true, .learns_pairs = true, .render = loop_render, .build = build, .draw = draw};

@@ -53,7 +53,6 @@ static void prepare(const struct render_job *job, struct prepared *p)
 {
     struct tables *t = p->tables;
     (void)job;
-    p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
     t->pairs = table_of_row(t->use, t->vertices, t->regions.n, p->parameters.delta);
 }
 
@@ -63,11 +62,11 @@ static const struct field PARAMETERS[] = {
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 2, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path", NULL),
     PARAMETER_DELTA(0.1),
+    PARAMETER_LATER(-1), PARAMETER_COUNTS(true, false),
     PARAMETERS_SHARED(false, 1, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_vertices = {
     .name = "asbdpt", .select = "vertices", .help = "one alias table over the light vertices of a tile",
-    .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .direct_credit = 2,
-    .pair_credit = 2, .single = true, .learns_use = true, .prepare = prepare, .render = loop_render, .build = build,
+    .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .single = true, .learns_use = true, .prepare = prepare, .render = loop_render, .build = build,
     .draw = draw};

@@ -226,7 +226,8 @@ void methods_all(char out[METHODS_TEXT])
 static const struct {
     const char *name, *value[N_HALVES];
 } SERVICES[] = {{"guide", {"off", "on"}}, {"emission", {"1", "0.2"}}, {"tile", {"16", "32"}},
-                {"spread", {"1", "4"}}, {"race", {"off", "on"}}, {"lightpoints", {"1", "2"}}};
+                {"spread", {"1", "4"}}, {"race", {"off", "on"}}, {"lightpoints", {"1", "2"}}, {"later", {"-1", "1"}},
+                {"credits", {"off", "on"}}, {"bound", {"off", "on"}}};
 
 const char *const HALVES[N_HALVES] = {"The choice alone", "With all services"};
 

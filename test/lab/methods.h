@@ -14,7 +14,7 @@
 
 #include "render/render.h"
 
-enum { METHODS_MAX = 64, METHOD_TEXT = 128 };
+enum { METHODS_MAX = 64, METHOD_TEXT = 192 };
 
 struct measured {
     char text[METHOD_TEXT];

@@ -133,9 +133,8 @@ static void check_weights(struct test *t, const char *path, const char *method)
     if (!scene_from_file(t, path, SIDE, SIDE, &scene) || !bench_new(t, &scene, set_method(&scene, method), 5, 0, &b))
         return;
     struct tile_pass pass = bench_pass(&b, 3, 4);
-    struct prepared counted = ris_counted(&b.prepared);
     struct index r = {.scene = NULL};
-    ris_begin(&r, &counted, &pass, 3);
+    ris_begin(&r, &b.prepared, &pass, 3);
     check_expected(t, &r);
     double worst = 0, weight[16];
     int n = 0;

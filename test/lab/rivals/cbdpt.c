@@ -45,22 +45,16 @@ static bool draw(const struct prepared *p, const struct index *index, struct sam
     return true;
 }
 
-static void prepare(const struct render_job *job, struct prepared *p)
-{
-    (void)job;
-    p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
-}
-
 static const struct field PARAMETERS[] = {
     PARAMETER("connections", FIELD_INTEGER, numbers.draws[FIRST_HIT], 2, 1, 1024, "light sub-paths for each pixel",
               NULL),
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path", NULL),
-    PARAMETER_RACE(false), PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1),
+    PARAMETER_LATER(-1), PARAMETER_COUNTS(false, false), PARAMETER_RACE(false), PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1),
     PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
 const struct method method_cbdpt = {
     .name = "cbdpt", .help = "combinatorial BDPT [Pajot 2011]: all pairs with M of a tile's light sub-paths",
-    .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
+    .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD,
     .render = loop_render, .build = build, .draw = draw};

@@ -4,7 +4,7 @@
  *     (1/C) sum over draws of F(v) V / K
  * has BDPT's expectation. It takes each vertex C/V times, where BDPT, with one of K sub-paths, takes it 1/K times:
  * C K/V times as often, about C/l, l being the expected number of connectible vertices of a light sub-path. That is the
- * count, with no credit. l is learnt before the render: the pool's own V/K would make a vertex' weight depend on what
+ * count, with no credit unless credits=on. l is learnt before the render: the pool's own V/K would make a vertex' weight depend on what
  * else is in the pool, which biases small pools. s = 0, s = 1 and t = 1 stay as they are, lights are chosen by power.
  *
  * Tests: test_asbdpt.c.
@@ -38,11 +38,11 @@ static bool draw(const struct prepared *p, const struct index *index, struct sam
 
 static void prepare(const struct render_job *job, struct prepared *p)
 {
-    int *draws = p->numbers.draws;
+    bool as_many = p->numbers.draws[FIRST_HIT] == 0;
     (void)job;
-    if (draws[FIRST_HIT] == 0)
-        draws[FIRST_HIT] = int_within(ceil(p->tables->light_vertices), 1, 1024);
-    draws[LATER_HIT] = draws[FIRST_HIT];
+    for (int end = 0; end < EYE_ENDS && as_many; end++)
+        if (p->numbers.draws[end] == 0)
+            p->numbers.draws[end] = int_within(ceil(p->tables->light_vertices), 1, 1024);
 }
 
 static const struct field PARAMETERS[] = {
@@ -51,7 +51,7 @@ static const struct field PARAMETERS[] = {
               "average", NULL),
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path", NULL),
-    PARAMETER_RACE(false), PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1),
+    PARAMETER_LATER(-1), PARAMETER_COUNTS(false, false), PARAMETER_RACE(false), PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1),
     PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 

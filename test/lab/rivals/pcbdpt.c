@@ -13,19 +13,21 @@
  *
  * Tests: test_rivals.c.
  */
+#include "base/number.h"
 #include "caustics/surfaces.h"
 #include "rivals/ris.h"
 
 static void prepare(const struct render_job *job, struct prepared *p)
 {
     (void)job;
-    p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
+    for (int end = 0; end < EYE_ENDS; end++) /* all draws count as one */
+        p->draw[end] = 1.0 / most_of(p->numbers.draws[end], 1);
 }
 
 static const struct field PARAMETERS[] = {
     PARAMETER("connections", FIELD_INTEGER, numbers.draws[FIRST_HIT], 4, 1, 1024,
               "light vertices drawn for each eye vertex", NULL),
-    PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(RECORDS_TILE, 1),
+    PARAMETER_LATER(-1), PARAMETER_COUNTS(false, false), PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(RECORDS_TILE, 1),
     {.name = NULL}};
 static const struct field OWN[] = {
     RIS_SUBPATHS_FIELD(200), RIS_RECORDS_FIELD,

@@ -411,23 +411,21 @@ static void render_weighed(const struct prepared *p, const struct tile_pass *pas
     ris_end(&r);
 }
 
-struct prepared ris_counted(const struct prepared *p)
+void ris_prepare(const struct render_job *job, struct prepared *p)
 {
     const struct ris *own = p->own;
-    struct prepared out = *p;
     int M = own->sub_paths;
+    (void)job;
     for (int end = 0; end < EYE_ENDS; end++)
-        out.counts.pair[end] = own->nabata ? M / ((M - 1) * p->tables->light_vertices + 1) : 1;
-    return out;
+        p->draw[end] = own->nabata ? M / ((M - 1) * p->tables->light_vertices + 1) : 1;
 }
 
 void ris_render(const struct prepared *p, const struct tile_pass *pass)
 {
-    struct prepared counted = ris_counted(p);
     if (((const struct ris *)p->own)->nabata)
-        render_weighed(&counted, pass);
+        render_weighed(p, pass);
     else
-        loop_render(&counted, pass);
+        loop_render(p, pass);
 }
 
 /* --- the row ----------------------------------------------------------------------------------------- */
@@ -441,4 +439,5 @@ const struct method method_ris = {
     .name = "ris", .check = surfaces_alone,
     .help = "resampling [Nabata 2020a]: light vertices drawn by a record nearby, with weights to suit",
     .parameters = RIS_PARAMETERS, .own = OWN, .own_size = sizeof(struct ris), .numbers = NUMBERS_OF_BDPT,
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .single = true, .render = ris_render, .build = ris_build, .draw = ris_draw};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .single = true, .prepare = ris_prepare,
+    .render = ris_render, .build = ris_build, .draw = ris_draw};

@@ -34,9 +34,9 @@ struct index {
     struct sight *sight;           /* [max_depth + 2] */
 };
 
-/* ris_counted: the method with its counts.
+/* ris_prepare: what a draw counts as.
  * ris_render: the `render`, by the weights of ris.c or by counts; then by ris_build and ris_draw. */
-struct prepared ris_counted(const struct prepared *p);
+void ris_prepare(const struct render_job *job, struct prepared *p);
 void ris_render(const struct prepared *p, const struct tile_pass *pass);
 struct index *ris_build(const struct prepared *p, const struct tile_pass *pass, long iteration);
 bool ris_draw(const struct prepared *p, const struct index *r, struct sample *sample, int number,
@@ -45,7 +45,7 @@ bool ris_draw(const struct prepared *p, const struct index *r, struct sample *sa
 /* With the weights of ris.c:
  *   ris_begin  an iteration: fill the pool. *r is all zeros before the first; ris_end releases it
  *   ris_join   add a draw for z = z_{t-1} */
-void ris_begin(struct index *r, const struct prepared *counted, const struct tile_pass *pass, long iteration);
+void ris_begin(struct index *r, const struct prepared *p, const struct tile_pass *pass, long iteration);
 void ris_end(struct index *r);
 void ris_join(struct index *r, struct sample *sample, const struct vertex *z, int t);
 

@@ -40,6 +40,7 @@
 #include "base/number.h"
 #include "caustics/delta.h"
 #include "caustics/surfaces.h"
+#include "integrators/prepare.h"
 #include "learning/learn.h"
 #include "learning/patience.h"
 #include "rivals/together.h"
@@ -219,8 +220,9 @@ static void prepare(const struct render_job *job, struct prepared *p)
     struct spcbpt *own = p->own;
     double pixels = (double)rect_pixels(job->film_rect), K = fmin(sqr(p->size.tile), pixels) / p->numbers.path_pixels;
     int n = int_within(own->training * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT;
-    p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
-    struct counts counts = counts_of(p->numbers, 1, 1, pixels, p->tables);
+    method_counts(job, p, true);
+    struct counts counts = p->counts;
+    counts.power = false;
     struct trainer r = {job, &counts, workspaces_new(1, job->max_depth), patience_begin(job), 0, {.n = 0}};
     double *vertices = mem_alloc((size_t)own->subspaces, sizeof *vertices);
     for (int i = 0; i < n && goes_on(&r, i); i++)
@@ -400,7 +402,7 @@ static const struct field PARAMETERS[] = {
     PARAMETER_DELTA(0.2),
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path", NULL),
-    PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(MAX_TILE_SIZE, 1),
+    PARAMETER_LATER(-1), PARAMETER_COUNTS(false, false), PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(MAX_TILE_SIZE, 1),
     {.name = NULL}};
 #define AT(member) offsetof(struct spcbpt, member)
 static const struct field OWN[] = {
