@@ -53,11 +53,11 @@ struct interval equal_ratio(const struct scene_results *s, int method, int over,
     return ratio_at(s, method, over, which, AT_EQUAL_TIME);
 }
 
-struct equal_ends equal_ends(const struct results *r, int method, enum square which)
+struct equal_ends equal_ends(const struct results *r, int method, int over, enum square which)
 {
     struct equal_ends out = {NAN, NAN, "-", "-"};
     for (const struct scene_results *s = r->scene; s < r->scene + r->plan->n_scenes; s++) {
-        double ratio = equal_ratio(s, method, 0, which).value;
+        double ratio = equal_ratio(s, method, over, which).value;
         if (!isfinite(ratio))
             continue;
         if (!(out.best <= ratio)) {

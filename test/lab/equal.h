@@ -31,13 +31,13 @@ extern const char *const EQUAL_NAMES[N_SQUARES]; /* mse8, relmse, 8x8: as tables
 void equal_squares(const struct scene_results *s, int method, enum square which, enum basis basis, double *out);
 struct interval equal_ratio(const struct scene_results *s, int method, int over, enum square which);
 
-/* equal_ends: the smallest and the largest ratio of a method over the first, and their scenes; NaN and "-" if there is
+/* equal_ends: the smallest and the largest ratio of a method over another, and their scenes; NaN and "-" if there is
  * none. */
 struct equal_ends {
     double best, worst;
     const char *best_scene, *worst_scene;
 };
-struct equal_ends equal_ends(const struct results *r, int method, enum square which);
+struct equal_ends equal_ends(const struct results *r, int method, int over, enum square which);
 
 /* equal_price: of a sample over one of the first, geometric mean over scenes and seeds. equal_spread: the largest ratio
  * of two seeds' prices of a method in a scene, less 1. */

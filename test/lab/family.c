@@ -72,7 +72,7 @@ static void best_rival_rows(struct md_table *t, const struct results *e, const s
         md_add(t, row == 0 ? "best rival" : "%s over best rival", label(e, ours));
         md_add_missing(t, 1);
         for (int k = 0; k < N_SQUARES; k++) {
-            struct interval i = equal_over_best(e, row == 0 ? 0 : ours, rivals.method, rivals.n, (enum square)k);
+            struct interval i = equal_over_best(e, row == 0 ? view->method[0] : ours, rivals.method, rivals.n, (enum square)k);
             md_add_interval(t, row == 0 ? (struct interval){1 / i.value, 1 / i.high, 1 / i.low} : i, "");
         }
         md_add_missing(t, 3);
@@ -82,12 +82,13 @@ static void best_rival_rows(struct md_table *t, const struct results *e, const s
 static void summary_table(FILE *f, const struct results *e, enum half half)
 {
     struct view view = view_of(e, half);
+    int first = view.method[0];
     struct md_table t =
         md_begin(f, "Squared error over that of %s after the same CPU time: geometric mean over %d scene%s with "
                     "its 95 %% interval, and the ends of relmse. 0.59: the same noise in 59 %% of the time. Price: "
                     "time of a sample over that of %s. Best rival: in each scene the unbiased method of others without "
                     "a mark that has the least error; for each seed the other seeds say which",
-                    label(e, 0), e->plan->n_scenes, e->plan->n_scenes == 1 ? "" : "s", label(e, 0));
+                    label(e, first), e->plan->n_scenes, e->plan->n_scenes == 1 ? "" : "s", label(e, first));
     md_column(&t, "method");
     md_column(&t, "price");
     square_columns(&t);
@@ -96,11 +97,11 @@ static void summary_table(FILE *f, const struct results *e, enum half half)
     md_column(&t, "marked in");
     for (int i = 1; i < view.n; i++) {
         int v = view.method[i], n;
-        struct equal_ends s = equal_ends(e, v, SQUARE_RELMSE);
+        struct equal_ends s = equal_ends(e, v, first, SQUARE_RELMSE);
         md_add(&t, "%s", label(e, v));
-        md_add(&t, "%.2f", equal_price(e, v));
+        md_add(&t, "%.2f", equal_price(e, v) / equal_price(e, first));
         for (int k = 0; k < N_SQUARES; k++)
-            md_add_interval(&t, equal_mean(e, v, 0, (enum square)k, AT_EQUAL_TIME, NULL, &n), "");
+            md_add_interval(&t, equal_mean(e, v, first, (enum square)k, AT_EQUAL_TIME, NULL, &n), "");
         add_of(&t, s.best, s.best_scene);
         add_of(&t, s.worst, s.worst_scene);
         md_add(&t, "%d", results_marked(e, v));
@@ -112,17 +113,18 @@ static void summary_table(FILE *f, const struct results *e, enum half half)
 static void ratio_table(FILE *f, const struct results *e, enum half half, enum square which)
 {
     struct view view = view_of(e, half);
+    int first = view.method[0];
     struct md_table t =
         md_begin(f, "%s: squared error over that of %s, with its 95 %% interval over %d seed%s", EQUAL_NAMES[which],
-                    label(e, 0), e->plan->n_seeds, e->plan->n_seeds == 1 ? "" : "s");
+                    label(e, first), e->plan->n_seeds, e->plan->n_seeds == 1 ? "" : "s");
     md_column(&t, "method");
     for (const struct scene_results *s = e->scene; s < e->scene + e->plan->n_scenes; s++)
-        md_column(&t, s->mark[0] == MARK_NONE ? "%s, %dx%d" : "%s, %dx%d (%s: %s)", s->name, s->width, s->height,
-                     label(e, 0), MARKS[s->mark[0]]);
+        md_column(&t, s->mark[first] == MARK_NONE ? "%s, %dx%d" : "%s, %dx%d (%s: %s)", s->name, s->width, s->height,
+                     label(e, first), MARKS[s->mark[first]]);
     for (int v = 1; v < view.n; v++) {
         md_add(&t, "%s", label(e, view.method[v]));
         for (int i = 0; i < e->plan->n_scenes; i++)
-            md_add_interval(&t, equal_ratio(&e->scene[i], view.method[v], 0, which),
+            md_add_interval(&t, equal_ratio(&e->scene[i], view.method[v], first, which),
                                MARKS[e->scene[i].mark[view.method[v]]]);
     }
     md_end(&t);
@@ -182,7 +184,7 @@ static void services_table(FILE *f, const struct results *e)
                     "after the same CPU time, geometric mean over scenes with its 95 %% interval");
     md_column(&t, "method");
     square_columns(&t);
-    for (int v = 1; v < m->n; v++)
+    for (int v = 0; v < m->n; v++)
         for (int with = v + 1; with < m->n; with++)
             if (strcmp(m->item[v].label, m->item[with].label) == 0) {
                 md_add(&t, "%s", m->item[v].label);

@@ -14,7 +14,7 @@ static bool set_pairs(const char *text, struct settings *out, struct error *err)
 {
     for (const char *p = strchr(text, ':'); p != NULL; p = strchr(p, ':')) {
         char name[64], value[METHOD_TEXT];
-        if (sscanf(++p, "%63[^=:]=%127[^:]", name, value) != 2)
+        if (sscanf(++p, "%63[^=:]=%191[^:]", name, value) != 2)
             return error_set(err, "%s: expected NAME=VALUE after each colon", text);
         settings_set(out, name, value, text);
     }
@@ -240,8 +240,7 @@ static void in_half(const char *text, enum half half, char out[METHOD_TEXT])
     set_pairs(text, &s, NULL);
     const struct method *row = method_find(integrator, &s, NULL);
     int n = snprintf(out, METHOD_TEXT, "%s", text);
-    bool serves = row != NULL && method_has(row, "tile") != NULL;
-    for (size_t i = 0; serves && i < sizeof SERVICES / sizeof SERVICES[0]; i++)
+    for (size_t i = 0; row != NULL && i < sizeof SERVICES / sizeof SERVICES[0]; i++)
         if (method_has(row, SERVICES[i].name) != NULL && settings_text(&s, SERVICES[i].name, NULL) == NULL &&
             n < METHOD_TEXT)
             n += snprintf(out + n, (size_t)(METHOD_TEXT - n), ":%s=%s", SERVICES[i].name, SERVICES[i].value[half]);

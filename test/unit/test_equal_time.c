@@ -99,7 +99,7 @@ static void check_time(struct test *t, struct results *r)
           equal_samples(s, 0, 0), equal_samples(s, 1, 0), equal_samples(s, 2, 0));
     p->seconds = 0.85; /* a third of a sample is left for asbdpt */
     CHECK(t, equal_samples(s, 1, 0) == 1 && isnan(equal_ratio(s, 1, 0, SQUARE_RELMSE).value) &&
-          strcmp(equal_ends(r, 1, SQUARE_RELMSE).best_scene, "-") == 0, "what cannot be afforded has a ratio");
+          strcmp(equal_ends(r, 1, 0, SQUARE_RELMSE).best_scene, "-") == 0, "what cannot be afforded has a ratio");
     p->seconds = 0;
 }
 
@@ -111,7 +111,7 @@ static void check_ratios(struct test *t, struct results *r)
           near(i.low * i.high, 16), "interval of three seeds each: %g [%g, %g]", i.value, i.low, i.high);
     i = equal_ratio(&r->scene[1], 2, 0, SQUARE_RELMSE);
     CHECK(t, near(log(i.high / i.value), student_quantile(0.05, 4) * sqrt(2 * v)), "Welch's interval: to %g", i.high);
-    struct equal_ends s = equal_ends(r, 1, SQUARE_MSE8);
+    struct equal_ends s = equal_ends(r, 1, 0, SQUARE_MSE8);
     CHECK(t, near(s.best, 0.5) && near(s.worst, 4), "best %g, worst %g", s.best, s.worst);
     CHECK(t, strcmp(s.best_scene, "a") == 0 && strcmp(s.worst_scene, "b") == 0, "in their scenes");
     int n;

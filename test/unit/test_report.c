@@ -125,7 +125,7 @@ static const char ROOM[] =
 
 /* What is measured: four methods, and a sweep that holds the second of them and another. */
 enum { POOL = 2, N_METHODS = 5, COMPARED = 4 };
-static const char METHODS[] = "bdpt,asbdpt:select=bins/pool/subspaces";
+static const char METHODS[] = "bdpt:lightsamplestrategy=power,asbdpt:select=bins/pool/subspaces";
 static const char SWEEP[] = "asbdpt:select=bins,asbdpt:select=bins:restart=0";
 
 struct setup {
@@ -217,7 +217,7 @@ static void check_tables(struct test *t, const struct results *r, const char *pa
     struct estimate e = results_mean(s, POOL, last, Q_RMSE8);
     CHECK(t, e.mean == 0.5 * (x + y) && fabs(e.error - 0.5 * fabs(x - y)) < 1e-12, "mean and error of two values: %g, "
           "%g", e.mean, e.error);
-    const char *row = strstr(page, "| 64 | asbdpt:select=pool | "), *bdpt = strstr(page, "| 64 | bdpt | ");
+    const char *row = strstr(page, "| 64 | asbdpt:select=pool | "), *bdpt = strstr(page, "| 64 | bdpt:lights");
     double found = row != NULL ? strtod(strstr(row, "pool | ") + 7, NULL) : NAN;
     CHECK(t, fabs(found - e.mean) < 0.5 * e.error, "the table says %g of pool, not %g", found, e.mean);
     CHECK(t, bdpt != NULL && strncmp(strstr(bdpt, " | - | "), " | - | 1.9842 | ", 16) == 0, "what was printed: %.80s",

@@ -171,10 +171,10 @@ static void test_limits(struct test *t)
         const char *a, *b, *other;
         double bound;
     } cases[] = {
-        {"light-kinds", 1, 4, "mbdpt pathpixels=1", "bdpt", "cbdpt connections=2", 0},
-        {"mirror-glass", SIDE, 4, "restir candidates=1 neighbours=0 worth=1", "bdpt",
+        {"light-kinds", 1, 4, "mbdpt pathpixels=1", "bdpt guide=off", "cbdpt connections=2", 0},
+        {"mirror-glass", SIDE, 4, "restir candidates=1 neighbours=0 worth=1", "bdpt guide=off",
          "restir candidates=1 neighbours=9 worth=1", 1e-6},
-        {"light-kinds", SIDE, 4, "restir candidates=1 neighbours=0 worth=1", "bdpt",
+        {"light-kinds", SIDE, 4, "restir candidates=1 neighbours=0 worth=1", "bdpt guide=off",
          "restir candidates=2 neighbours=0 worth=1", 1e-6},
         /* without records the choice is uniform; where light sub-paths have two vertices, two draws count like one */
         {"white", SIDE, 2, "pcbdpt records=0 connections=2 subpaths=256", "lvc connections=2",
@@ -193,17 +193,17 @@ static void test_limits(struct test *t)
          "spcbpt subspaces=4 steps=9", 0},
         {"all-materials", SIDE, 4, "spcbpt delta=1 steps=9", "spcbpt delta=1 steps=0", "spcbpt delta=.5 steps=0", 1e-9},
         {"white", SIDE, 2, "spcbpt subspaces=1", "lvc connections=3", "spcbpt subspaces=1 connections=1", 0.01},
-        {"all-materials", SIDE, 4, "vcm radius=1e-7", "bdpt", "vcm radius=.6 alpha=1", 1e-6},
-        {"mirror-glass", SIDE, 4, "restirgi neighbours=0", "pt", "restirgi neighbours=5", 0},
-        {"mirror-glass", SIDE, 4, "ppg training=0", "pt", "ppg training=1", 0},
-        {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph cluster=2", 1e-6},
-        {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt", "pathgraph radius=.2", 1e-6},
-        {"white", SIDE, 4, "pathgraph radius=.1 iterations=0", "pt", "pathgraph radius=1", 0.1}, /* light is even */
-        {"white", SIDE, 4, "pathgraph radius=.02", "pt", "pathgraph radius=1", 0.1},
+        {"all-materials", SIDE, 4, "vcm radius=1e-7", "bdpt guide=off", "vcm radius=.6 alpha=1", 1e-6},
+        {"mirror-glass", SIDE, 4, "restirgi neighbours=0", "pt guide=off", "restirgi neighbours=5", 0},
+        {"mirror-glass", SIDE, 4, "ppg training=0", "pt guide=off", "ppg training=1", 0},
+        {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt guide=off", "pathgraph cluster=2", 1e-6},
+        {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt guide=off", "pathgraph radius=.2", 1e-6},
+        {"white", SIDE, 4, "pathgraph radius=.1 iterations=0", "pt guide=off", "pathgraph radius=1", 0.1}, /* light is even */
+        {"white", SIDE, 4, "pathgraph radius=.02", "pt guide=off", "pathgraph radius=1", 0.1},
         {"all-materials", SIDE, 4, "pathgraph iterations=4", "pathgraph", "pathgraph iterations=3", 0},
         {"all-materials", SIDE, 4, "pathgraph cluster=1", "pathgraph cluster=1 iterations=0", "pathgraph", 1e-6},
-        {"light-kinds", SIDE, 6, "pathgraph cluster=1 heuristic=power", "pt heuristic=power", "pt", 1e-6},
-        {"all-materials", SIDE, 4, "pathgraph radius=1e-6", "pt", "pathgraph radius=.2", 1e-6},
+        {"light-kinds", SIDE, 6, "pathgraph cluster=1 heuristic=power", "pt guide=off heuristic=power", "pt guide=off", 1e-6},
+        {"all-materials", SIDE, 4, "pathgraph radius=1e-6", "pt guide=off", "pathgraph radius=.2", 1e-6},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char path[256];
