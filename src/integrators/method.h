@@ -59,10 +59,11 @@ struct parameters {
 #define PARAMETER_LATER(DEFAULT) \
     PARAMETER("later", FIELD_INTEGER, numbers.draws[LATER_HIT], DEFAULT, -1, 1024, \
               "draws of an eye vertex that the camera does not see; -1: as many as of one that it sees", NULL)
-#define PARAMETER_COUNTS(CREDITS, BOUND) \
-    PARAMETER("credits", FIELD_WORD, credits, CREDITS, 0, 0, \
-              "count direct light where the camera sees, and draws, as more samples, for they are stratified", OFF_ON), \
-    PARAMETER("bound", FIELD_WORD, bound, BOUND, 0, 0, \
+#define PARAMETER_CREDITS(DEFAULT) \
+    PARAMETER("credits", FIELD_WORD, credits, DEFAULT, 0, 0, \
+              "count draws, and direct light that the camera sees, as more samples, for they are stratified", OFF_ON)
+#define PARAMETER_BOUND(DEFAULT) \
+    PARAMETER("bound", FIELD_WORD, bound, DEFAULT, 0, 0, \
               "count draws as less than a quarter of the light sub-paths of a tile", OFF_ON)
 #define PARAMETER_TILES(TILE, SPREAD) \
     PARAMETER("tile", FIELD_INTEGER, tile, TILE, 1, MAX_TILE_SIZE, \

@@ -51,8 +51,8 @@ static const struct field PARAMETERS[] = {
               "average", NULL),
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path", NULL),
-    PARAMETER_LATER(-1), PARAMETER_COUNTS(false, false), PARAMETER_RACE(false), PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1),
-    PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
+    PARAMETER_LATER(-1), PARAMETER_CREDITS(false), PARAMETER_BOUND(false), PARAMETER_RACE(false), PARAMETER_POINTS(1),
+    PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
 const struct method method_lvc = {

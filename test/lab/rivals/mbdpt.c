@@ -166,7 +166,8 @@ static void prepare(const struct render_job *job, struct prepared *p)
 static const struct field PARAMETERS[] = {
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 2, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path", NULL),
-    PARAMETER_COUNTS(false, false), PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
+    PARAMETER_CREDITS(false), PARAMETER_BOUND(false), PARAMETER_POINTS(1), PARAMETER_GUIDE(false),
+    PARAMETER_EMISSION(1), PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 static const struct field OWN[] = {
     {"key", FIELD_WORD, offsetof(struct mbdpt, throughput), 0, 0, 0, "what sub-paths are sorted by", KEYS},

@@ -27,7 +27,8 @@ static void prepare(const struct render_job *job, struct prepared *p)
 static const struct field PARAMETERS[] = {
     PARAMETER("connections", FIELD_INTEGER, numbers.draws[FIRST_HIT], 4, 1, 1024,
               "light vertices drawn for each eye vertex", NULL),
-    PARAMETER_LATER(-1), PARAMETER_COUNTS(false, false), PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(RECORDS_TILE, 1),
+    PARAMETER_LATER(-1), PARAMETER_CREDITS(false), PARAMETER_BOUND(false), PARAMETER_POINTS(1),
+    PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(RECORDS_TILE, 1),
     {.name = NULL}};
 static const struct field OWN[] = {
     RIS_SUBPATHS_FIELD(200), RIS_RECORDS_FIELD,

@@ -16,8 +16,8 @@
  * K sub-paths of a tile are drawn from; all are for t = 1. Unlike in the paper they and the records are a tile's, not
  * the picture's, and s = 1 takes light points of its own. A light sub-path is splat in any tile, so t = 1 has mis.h's
  * weight, with lvc.c's count of connections, and the others share what that leaves. In the first iteration the paper
- * takes its own Q, which is biased; here an iteration is made up before it. It has no guide, which its weights do not
- * count.
+ * takes its own Q, which is biased; here an iteration is made up before it. With credits, N has that of a draw, and s = 0
+ * and s = 1 at a first hit have that of direct light; the bound of N is 1/K.
  *
  * `weights = counts` draws the same and has the weights of pcbdpt.c, whose draws by place alone it is to the byte.
  *
@@ -63,7 +63,7 @@ static double worth(const struct index *r, double P, double L, double h, double 
         return 0;
     if (M2 > 0)
         ratio = (1 - 1.0 / M2) * ratio + r->previous_g / (M2 * L);
-    return P / (share + (1 - share) * ratio);
+    return r->credit * P / (share + (1 - share) * ratio);
 }
 
 /* Of the technique without a record. */
@@ -128,6 +128,14 @@ static void count(const struct index *r, struct sums *a, double ratio, double pl
     a->N += ratio * N;
 }
 
+/* s = 1: of an eye end z and a point of a light's cell. */
+static void count_direct(const struct index *r, struct sums *a, double ratio, const struct vertex *z, enum eye_end end,
+                         int cell)
+{
+    double n = n_direct(r->counts, z->region, end, cell);
+    count(r, a, ratio, n, n);
+}
+
 static void sum_light_side(const struct index *r, const struct path_end *end, struct sums *a)
 {
     const struct vertex *v = end->v;
@@ -140,7 +148,8 @@ static void sum_light_side(const struct index *r, const struct path_end *end, st
         }
         bool direct = v[-1].kind == VERTEX_LIGHT;
         if (!passed && !v->prev_delta)
-            count(r, a, ratio, direct ? 1 : r->counts->pair[LATER_HIT], direct ? 1 : r->light_n[v - r->pool->vertex]);
+            direct ? count_direct(r, a, ratio, v, LATER_HIT, v[-1].cell)
+                   : count(r, a, ratio, r->counts->pair[LATER_HIT], r->light_n[v - r->pool->vertex]);
         passed = v->prev_delta;
         pdf_other = pdf_rev * v->back;
         pdf_rev = vertex_pdf_rev(&v[-1], v, IMPORTANCE);
@@ -161,7 +170,7 @@ static void sum_eye_side(struct index *r, int s, const struct path_end *end, dou
             return;
         }
         if (!passed && !v->prev_delta && light)
-            count(r, a, ratio, 1, 1);
+            count_direct(r, a, ratio, before, before->eye_end, v->cell);
         else if (!passed && !v->prev_delta) {
             const struct vertex *lens = before;
             while (lens->kind != VERTEX_LENS)
@@ -182,11 +191,12 @@ static void sum_eye_side(struct index *r, int s, const struct path_end *end, dou
     }
 }
 
-/*   s  0: y is NULL, z is on the light; 1: y is y_0; else 2: of s >= 2 */
-static double weigh(struct index *r, int s, const struct path_end *y, const struct path_end *z)
+/*   s  0: y is NULL, z is on the light; 1: y is y_0; else 2: of s >= 2
+ *   n  its count, if s < 2 */
+static double weigh(struct index *r, int s, double n, const struct path_end *y, const struct path_end *z)
 {
     struct sums a = {0, 0, 0};
-    double own = s == 2 ? r->one : 1, all = s == 2 ? r->all : 1, L = 0;
+    double own = s == 2 ? r->one : n, all = s == 2 ? r->all : n, L = 0;
     vec3 w = neg(z->v->wo);
     if (s > 0) {
         sum_light_side(r, y, &a);
@@ -194,7 +204,7 @@ static double weigh(struct index *r, int s, const struct path_end *y, const stru
         L = s == 1 ? emitted(r->scene, y->v, w) : r->light_L[y->v - r->pool->vertex] * kept(y->v, y->v->wo, w);
     }
     sum_eye_side(r, s, z, L, neg(w), &a);
-    a.plain += mis_raise(r->counts, s == 2 ? r->counts->pair[LATER_HIT] : 1);
+    a.plain += mis_raise(r->counts, s == 2 ? r->counts->pair[LATER_HIT] : n);
     return own / (all + a.N) * a.plain / (a.plain + a.lens);
 }
 
@@ -208,7 +218,7 @@ struct connection ris_hit(struct index *r, const struct vertex *prev, const stru
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &at,
                                    end->kind == VERTEX_ESCAPED ? prev->p : end->p, end->wo);
     const struct path_end z_end = {end, prev, end->pdf_origin, pdf_emit};
-    c.weight = weigh(r, 0, NULL, &z_end);
+    c.weight = weigh(r, 0, r->counts->hit[prev->eye_end], NULL, &z_end);
     return c;
 }
 
@@ -220,10 +230,11 @@ struct connection ris_lit(struct index *r, const struct lit *l)
     if (rgb_is_black(c.value))
         return c;
     vertex_light_end(r->scene, r->counts, &l->at, &y);
+    y.mis_c = y.mis_c > 0 ? r->counts->hit[z->eye_end] : 0;
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &l->at, z->p, neg(l->w));
     double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
     const struct path_end y_end = {&y, NULL, l->pdf_z * l->at_light, 0}, z_end = {z, z - 1, pdf_z, l->pdf_rev_z};
-    c.weight = weigh(r, 1, &y_end, &z_end);
+    c.weight = weigh(r, 1, n_direct(r->counts, z->region, z->eye_end, l->at.cell), &y_end, &z_end);
     return c;
 }
 
@@ -233,7 +244,7 @@ struct connection ris_joint(struct index *r, const struct joint *j)
     const struct path_end y_end = {j->y, j->y - 1, j->pdf_z * j->area_y, j->pdf_rev_y};
     const struct path_end z_end = {j->z, j->z - 1, j->pdf_y * j->area_z, j->pdf_rev_z};
     if (!rgb_is_black(c.value))
-        c.weight = weigh(r, 2, &y_end, &z_end);
+        c.weight = weigh(r, 2, 0, &y_end, &z_end);
     return c;
 }
 
@@ -247,6 +258,7 @@ static void gather(struct index *r, const struct prepared *p, const struct tile_
     r->own = p->own;
     r->scene = pass->job->scene;
     r->counts = &p->counts;
+    r->credit = p->parameters.credits ? PAIR_CREDIT : 1;
     r->pool = pool;
     r->K = r->own->sub_paths < pool->n ? r->own->sub_paths : pool->n;
     pool_find_candidates(pool);
@@ -378,15 +390,20 @@ static void sum_eye(struct index *r, struct sample *sample, const struct vertex 
 {
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
-        struct connection hit = ris_hit(r, z - 1, z, t), direct = {.weight = 0};
-        struct light_point y0;
-        struct lit l;
+        struct connection hit = ris_hit(r, z - 1, z, t);
+        int points = z->eye_end == FIRST_HIT ? sample->light_points : 1;
         sample_add(sample, (struct joined){.t = t, .z = z, .c = &hit, .pmf = 1, .scale = 1});
         if (z->kind != VERTEX_SURFACE || t > sample->pass->job->max_depth + 1)
             continue;
-        if (lit_draw(sample, z, &sample->sampler, 0, 1, &y0, &l))
-            direct = ris_lit(r, &l);
-        sample_add(sample, (struct joined){.s = 1, .t = t, .z = z, .c = &direct, .y0 = &y0, .pmf = 1, .scale = 1});
+        for (int i = 0; i < points; i++) {
+            struct connection direct = {.weight = 0};
+            struct light_point y0;
+            struct lit l;
+            if (lit_draw(sample, z, &sample->sampler, i, points, &y0, &l))
+                direct = ris_lit(r, &l);
+            sample_add(sample, (struct joined){.s = 1, .t = t, .z = z, .c = &direct, .y0 = &y0, .pmf = 1,
+                                               .scale = 1.0 / points});
+        }
     }
 }
 
@@ -430,7 +447,9 @@ void ris_render(const struct prepared *p, const struct tile_pass *pass)
 
 /* --- the row ----------------------------------------------------------------------------------------- */
 
-const struct field RIS_PARAMETERS[] = {PARAMETER_EMISSION(1), PARAMETER_TILES(RECORDS_TILE, 1), {.name = NULL}};
+const struct field RIS_PARAMETERS[] = {
+    PARAMETER_CREDITS(false), PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1),
+    PARAMETER_TILES(RECORDS_TILE, 1), {.name = NULL}};
 static const struct field OWN[] = {
     RIS_WEIGHTS_FIELD, RIS_SUBPATHS_FIELD(50), RIS_RECORDS_FIELD,
     {.name = NULL}};

@@ -26,7 +26,7 @@ struct index {
 
     /* What the weights of [Nabata 2020a] need. */
     struct arena arena[2];         /* of even and of odd iterations; owned */
-    double vertices;               /* l */
+    double vertices, credit;       /* l; of a draw */
     struct records previous;       /* of the iteration before */
     double previous_g;
     double *light_L, *light_n;     /* [pool->used] see ris.c; of these K */

@@ -402,7 +402,8 @@ static const struct field PARAMETERS[] = {
     PARAMETER_DELTA(0.2),
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path", NULL),
-    PARAMETER_LATER(-1), PARAMETER_COUNTS(false, false), PARAMETER_POINTS(1), PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(MAX_TILE_SIZE, 1),
+    PARAMETER_LATER(-1), PARAMETER_CREDITS(false), PARAMETER_BOUND(false), PARAMETER_POINTS(1),
+    PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(MAX_TILE_SIZE, 1),
     {.name = NULL}};
 #define AT(member) offsetof(struct spcbpt, member)
 static const struct field OWN[] = {
