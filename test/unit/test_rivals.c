@@ -62,6 +62,41 @@ static const struct agreement EXPECTATIONS[] = {
     {LAMP, 0, 0, 4, "pt", "ppg cell=50, ppg cell=1000 heuristic=power", 16, 16, 16, 32, false, 0.15}};
 enum { N_EXPECTATIONS = sizeof EXPECTATIONS / sizeof EXPECTATIONS[0] };
 
+/* All methods that can have credits, with all services that they can have (lab/methods.h), and with each alone. */
+static void test_services(struct test *t, int more)
+{
+    static const char *const alone[] = {"credits=on", "bound=on", "later=1", "lightpoints=2", "guide=on"};
+    static char all[METHODS_TEXT], ways[METHODS_TEXT];
+    const struct agreement agreements[] = {
+        {"doc/mini/rooms", 6, 6, 4, "bdpt", ways, 32, 16, 16, 6, true, 0.2},
+        {"scenes/test/light-kinds", 24, 24, 4, "bdpt", ways, 2, 2, 12, 12, true, 0.1}};
+    struct methods served;
+    struct error err = {.text = ""};
+    int n = 0, rows = 0;
+    methods_all(all);
+    if (!CHECK(t, methods_add_halves(all, 1u << HALF_SERVICES, &served, &err), "%s", err.text))
+        return;
+    for (const struct measured *m = served.item; m < served.item + served.n; m++) {
+        struct settings s = measured_settings(m, NULL);
+        const struct method *row = method_find(m->integrator, &s, NULL);
+        settings_clear(&s);
+        if (method_has(row, "credits") == NULL)
+            continue;
+        rows++;
+        n += snprintf(ways + n, sizeof ways - (size_t)n, n > 0 ? ",%s" : "%s", m->text);
+        for (size_t k = 0; k < sizeof alone / sizeof alone[0]; k++) {
+            char name[16];
+            snprintf(name, sizeof name, "%.*s", (int)strcspn(alone[k], "="), alone[k]);
+            if (method_has(row, name) != NULL)
+                n += snprintf(ways + n, sizeof ways - (size_t)n, ",%s %s", method_name(row), alone[k]);
+        }
+    }
+    for (char *c = ways; *c != '\0'; c++)
+        *c = *c == ':' ? ' ' : *c;
+    CHECK(t, rows >= 10, "%d methods have credits", rows);
+    check_agreements(t, agreements, 2, more);
+}
+
 /* In three pixels, where sub-paths of a rank would meet too often if the lattice were not shifted at random. */
 static const struct agreement THREE_PIXELS = {"doc/mini/rooms", 3, 1, 4, "bdpt", "mbdpt pathpixels=1",
                                               1024, 1024, 32, 3, true, 0};
@@ -184,6 +219,8 @@ static void test_limits(struct test *t)
         /* of one light sub-path every draw counts like one: the arrays of the path give what the recursion does */
         {"light-kinds", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
          "ris records=0 subpaths=2", 1e-5},
+        {"light-kinds", SIDE, 4, "ris records=0 subpaths=1 credits=on guide=on lightpoints=2",
+         "pcbdpt records=0 subpaths=1 credits=on guide=on lightpoints=2", "ris records=0 subpaths=1 credits=on", 1e-5},
         {"mirror-glass", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
          "ris records=.1 subpaths=1", 1e-5},
         {"all-materials", SIDE, 4, "ris records=0 subpaths=1", "pcbdpt records=0 subpaths=1",
@@ -223,6 +260,7 @@ static void test_limits(struct test *t)
 void test_rivals_long(struct test *t)
 {
     check_agreements(t, EXPECTATIONS, N_EXPECTATIONS, 8);
+    test_services(t, 8);
     test_furnace(t, 8);
     check_agreements(t, &ROOMS, 1, 8);
     test_bias(t, 8);
@@ -231,6 +269,7 @@ void test_rivals_long(struct test *t)
 void test_rivals(struct test *t)
 {
     check_agreements(t, EXPECTATIONS, N_EXPECTATIONS, 1);
+    test_services(t, 1);
     test_furnace(t, 1);
     check_agreements(t, &THREE_PIXELS, 1, 1);
     test_limits(t);
