@@ -2,7 +2,8 @@
  *
  * A pixel has an eye sub-path, a light sub-path and all their connections. The halves trace the same sub-paths. They
  * use different strategies, so they differ in their numbers of samples (counts.h). Light tracing uses the eye sub-path
- * only for lights that the camera sees directly (s = 0, t = 2).
+ * only for lights that the camera sees directly (s = 0, t = 2). Where a scene has several lights, s = 1 chooses them by
+ * the guide unless the user says otherwise; without it they are chosen by power.
  *
  * Tests: test_render.c (they agree with each other and with analytic scenes).
  */

@@ -67,8 +67,8 @@ static bool draw(const struct prepared *p, const struct index *index, struct sam
 
 static const struct field PARAMETERS[] = {
     PARAMETER("metric", FIELD_WORD, metric, METRIC_USE, 0, 0, "what a light sub-path is chosen by", METRICS),
-    PARAMETER_DELTA(0.1),
-    PARAMETER_CREDITS(false), PARAMETER_BOUND(false), PARAMETERS_SHARED(false, 1, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
+    PARAMETER_DELTA(0.1), PARAMETER_CREDITS(false), PARAMETER_BOUND(false),
+    PARAMETERS_SHARED(false, 1, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_pool = {

@@ -125,8 +125,8 @@ static const struct field PARAMETERS[] = {
     PARAMETER_LATER(1),
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path; 0: trace none", NULL),
-    PARAMETER_DELTA(0.1),
-    PARAMETER_CREDITS(true), PARAMETER_BOUND(true), PARAMETERS_SHARED(true, 2, true, 0.2, MAX_TILE_SIZE, POOL_SPREAD),
+    PARAMETER_DELTA(0.1), PARAMETER_CREDITS(true), PARAMETER_BOUND(true),
+    PARAMETERS_SHARED(true, 2, true, 0.2, MAX_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_subspaces = {

@@ -61,12 +61,11 @@ static const struct field PARAMETERS[] = {
               "light vertices drawn for each eye vertex", NULL),
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 2, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path", NULL),
-    PARAMETER_DELTA(0.1),
-    PARAMETER_LATER(-1), PARAMETER_CREDITS(true), PARAMETER_BOUND(false),
+    PARAMETER_DELTA(0.1), PARAMETER_LATER(-1), PARAMETER_CREDITS(true), PARAMETER_BOUND(false),
     PARAMETERS_SHARED(false, 1, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_vertices = {
     .name = "asbdpt", .select = "vertices", .help = "one alias table over the light vertices of a tile",
-    .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .single = true, .learns_use = true, .prepare = prepare, .render = loop_render, .build = build,
-    .draw = draw};
+    .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .single = true,
+    .learns_use = true, .prepare = prepare, .render = loop_render, .build = build, .draw = draw};

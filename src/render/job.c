@@ -81,7 +81,8 @@ static const struct field COMMON[] = {
     {"rrthreshold", FIELD_NUMBER, AT(rr_threshold), DEFAULT_RR_THRESHOLD, 0, 1e6,
      "relative throughput below which Russian roulette begins, 0: never; for bins 0", NULL},
     {"lightsamplestrategy", FIELD_WORD, AT(strategy), 0, 0, 0,
-     "how lights are chosen: by power or uniformly; spatial: s = 1 by what a region sees, if guide is on", LIGHT_STRATEGIES},
+     "how lights are chosen: by power or uniformly; spatial: s = 1 by what a region sees, if guide is on",
+     LIGHT_STRATEGIES},
     {.name = NULL}};
 
 const struct field *job_common(void) { return COMMON; }

@@ -3,8 +3,8 @@
  * Five kinds. Area lights are one per primitive. A light's end point y0 is a point in space (area, point, spot) or a
  * direction (distant, infinite): then y0 lies "at infinity" and its density is per steradian.
  *
- * Lights are chosen in proportion to their power, or uniformly, by an alias table; s = 1 and emission use the same choice and the
- * same density of y0, so one number serves both in the MIS weights.
+ * Lights are chosen in proportion to their power, or uniformly, by an alias table; s = 1 and emission use the same
+ * choice and the same density of y0, so one number serves both in the MIS weights.
  *
  * A ray that leaves the scene meets all infinite lights at once. So they are one light, the sky, which is the sum of
  * its layers. Its directions have one density, whichever layer sends light from there.
@@ -144,9 +144,9 @@ static inline double light_watts(const struct light *l) { return l->power * (l->
 void light_prepare(struct light_set *set, const struct geometry *geo, vec3 center, double radius);
 void light_set_free(struct light_set *set);
 
-/* light_uniform: *out becomes a set of the same lights that chooses all that emit with the same probability, as pbrt-v3
- * does by "uniform". A layer of the sky counts as a light; a light's own cells are chosen by power. *out shares all else
- * with the prepared *set, which must outlive it; light_uniform_free releases it. */
+/* light_uniform: *out becomes a set of the same lights that chooses all that emit with the same probability, as
+ * pbrt-v3 does by "uniform". A layer of the sky counts as a light; a light's own cells are chosen by power. *out shares
+ * all else with the prepared *set, which must outlive it; light_uniform_free releases it. */
 void light_uniform(const struct light_set *set, struct light_set *out);
 void light_uniform_free(struct light_set *set);
 

@@ -12,10 +12,10 @@
  * The balance heuristic compares second moments. The samples of some strategies are better distributed than independent
  * samples and have less variance. Such a strategy deserves a higher count, a credit [Grittmann 2019]. The weights still
  * add up to 1. Stratified draws have the credit 2. The credit of direct light at a first hit is 4: the first numbers of
- * an eye sub-path are spread evenly over the iterations of a pixel (sampler.h), so the mean of N samples of direct light
- * has less than 1/N of the variance of one. Such a sample should count as E[X^2] / (N V_N) samples, X its contribution
- * and V_N the variance of the mean. For N = 16 that ratio is between 1 and 64 in most scenes. One constant costs 3 %
- * more squared error than to measure it before each render.
+ * an eye sub-path are spread evenly over the iterations of a pixel (sampler.h), so the mean of N samples of direct
+ * light has less than 1/N of the variance of one. Such a sample should count as E[X^2] / (N V_N) samples, X its
+ * contribution and V_N the variance of the mean. For N = 16 that ratio is between 1 and 64 in most scenes. One constant
+ * costs 3 % more squared error than to measure it before each render.
  *
  * Draws from a pool have a bound M: where few light vertices are useful, the same ones are drawn again and again. Draws
  * that would count as x samples of an endless pool count as x / (1 + x / M), less than M.

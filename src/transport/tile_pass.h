@@ -10,8 +10,8 @@
 
 struct observer;
 
-/* pbrt-v3's lightsamplestrategy: how s = 1 chooses lights. SPATIAL: by region, if the method learns that; else, and where
- * light sub-paths start, by power. UNIFORM is of the scene (scene_uniform). */
+/* pbrt-v3's lightsamplestrategy: how s = 1 chooses lights. SPATIAL: by region, if the method learns that; else, and
+ * where light sub-paths start, by power. UNIFORM is of the scene (scene_uniform). */
 enum light_strategy { LIGHTS_SPATIAL, LIGHTS_POWER, LIGHTS_UNIFORM };
 
 /* The parameters of a render, which do not change while it runs. */

@@ -72,7 +72,8 @@ static void best_rival_rows(struct md_table *t, const struct results *e, const s
         md_add(t, row == 0 ? "best rival" : "%s over best rival", label(e, ours));
         md_add_missing(t, 1);
         for (int k = 0; k < N_SQUARES; k++) {
-            struct interval i = equal_over_best(e, row == 0 ? view->method[0] : ours, rivals.method, rivals.n, (enum square)k);
+            int over = row == 0 ? view->method[0] : ours;
+            struct interval i = equal_over_best(e, over, rivals.method, rivals.n, (enum square)k);
             md_add_interval(t, row == 0 ? (struct interval){1 / i.value, 1 / i.high, 1 / i.low} : i, "");
         }
         md_add_missing(t, 3);

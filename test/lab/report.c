@@ -24,7 +24,7 @@ static const struct published {
     {"living-room", {8.2173, 5.8870, 4.3207, 3.2946, 2.6155}, {8.2646, 5.9254, 4.2720, 3.0800, 2.2604}},
 };
 
-/* What was printed of this method after so many samples: the dissertation's BDPT is METHOD_PRINTED_BDPT; NaN: nothing. */
+/* What was printed of METHOD_PRINTED_BDPT or METHOD_PRINTED after so many samples; NaN: nothing. */
 static double printed(const char *scene, const char *method, long spp)
 {
     bool bdpt = strcmp(method, METHOD_PRINTED_BDPT) == 0, bins = strcmp(method, METHOD_PRINTED) == 0;

@@ -235,11 +235,12 @@ static void test_limits(struct test *t)
         {"mirror-glass", SIDE, 4, "ppg training=0", "pt guide=off", "ppg training=1", 0},
         {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt guide=off", "pathgraph cluster=2", 1e-6},
         {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt guide=off", "pathgraph radius=.2", 1e-6},
-        {"white", SIDE, 4, "pathgraph radius=.1 iterations=0", "pt guide=off", "pathgraph radius=1", 0.1}, /* light is even */
+        {"white", SIDE, 4, "pathgraph radius=.1 iterations=0", "pt", "pathgraph radius=1", 0.1}, /* light is even */
         {"white", SIDE, 4, "pathgraph radius=.02", "pt guide=off", "pathgraph radius=1", 0.1},
         {"all-materials", SIDE, 4, "pathgraph iterations=4", "pathgraph", "pathgraph iterations=3", 0},
         {"all-materials", SIDE, 4, "pathgraph cluster=1", "pathgraph cluster=1 iterations=0", "pathgraph", 1e-6},
-        {"light-kinds", SIDE, 6, "pathgraph cluster=1 heuristic=power", "pt guide=off heuristic=power", "pt guide=off", 1e-6},
+        {"light-kinds", SIDE, 6, "pathgraph cluster=1 heuristic=power", "pt guide=off heuristic=power", "pt guide=off",
+         1e-6},
         {"all-materials", SIDE, 4, "pathgraph radius=1e-6", "pt guide=off", "pathgraph radius=.2", 1e-6},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {

@@ -4,8 +4,9 @@
  *     (1/C) sum over draws of F(v) V / K
  * has BDPT's expectation. It takes each vertex C/V times, where BDPT, with one of K sub-paths, takes it 1/K times:
  * C K/V times as often, about C/l, l being the expected number of connectible vertices of a light sub-path. That is the
- * count, with no credit unless credits=on. l is learnt before the render: the pool's own V/K would make a vertex' weight depend on what
- * else is in the pool, which biases small pools. s = 0, s = 1 and t = 1 stay as they are, lights are chosen by power.
+ * count, with no credit by default. l is learnt before the render: the pool's own V/K would make a vertex' weight
+ * depend on what else is in the pool, which biases small pools. s = 0, s = 1 and t = 1 stay as they are, lights are
+ * chosen by power.
  *
  * Tests: test_asbdpt.c.
  */

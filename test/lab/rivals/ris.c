@@ -16,8 +16,8 @@
  * K sub-paths of a tile are drawn from; all are for t = 1. Unlike in the paper they and the records are a tile's, not
  * the picture's, and s = 1 takes light points of its own. A light sub-path is splat in any tile, so t = 1 has mis.h's
  * weight, with lvc.c's count of connections, and the others share what that leaves. In the first iteration the paper
- * takes its own Q, which is biased; here an iteration is made up before it. With credits, N has that of a draw, and s = 0
- * and s = 1 at a first hit have that of direct light; the bound of N is 1/K.
+ * takes its own Q, which is biased; here an iteration is made up before it. With credits, N has that of a draw, and
+ * s = 0 and s = 1 at a first hit have that of direct light; N has a bound of its own.
  *
  * `weights = counts` draws the same and has the weights of pcbdpt.c, whose draws by place alone it is to the byte.
  *
