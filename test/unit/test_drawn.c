@@ -173,13 +173,12 @@ static void note_joined(void *context, const struct sample *sample, const struct
 /* By ris.c's own weights: one technique for each record nearby, and one without. */
 static void check_ris(struct test *t, struct drawer *d, const char *name)
 {
-    struct prepared counted = ris_counted(&d->b.prepared);
     struct index r = {.scene = NULL};
     const struct vertex *z = &d->eye[1];
     d->number = 0;
     if (!see(t, d, name))
         return;
-    ris_begin(&r, &counted, &d->pass, 1);
+    ris_begin(&r, &d->b.prepared, &d->pass, 1);
     struct tally c = tally_new(WAYS, r.pool->used + 1);
     struct seen seen = {&c, r.pool, &r};
     const struct observer observer = {.context = &seen, .joined = note_joined};
