@@ -21,9 +21,9 @@ file == 1 {
     s = $at["scene"]; h = "part" in at && $at["part"] != "" ? $at["part"] : $at["half"]
     last = h == "" ? "all" : h
     n = split(h == "both" ? "choice services" : h == "" ? "all" : h, half, " ")
-    if (!(s in known)) { scene[++scenes] = s; first = $at["label"]; known[s] }
+    if (!(s in known)) { scene[++scenes] = s; first = $at["label"]; timed = $at["half"]; known[s] }
     i = ++seeds[$at["label"], $at["half"], s] # methods have seeds of their own
-    if ($at["label"] == first) time[s, i] = $at["price_before"] + $at["spp"]
+    if ($at["label"] == first && $at["half"] == timed) time[s, i] = $at["price_before"] + $at["spp"]
     mark[$at["label"], s] = $at["mark"]
     afforded = (time[s, i] - $at["price_before"]) / $at["price_each"] # samples
     for (h = 1; h <= n; h++)
