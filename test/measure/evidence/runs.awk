@@ -35,7 +35,7 @@ FNR == 1 {
         if (!(g in first)) { first[g] = l; group[++groups] = g }
         if (!((g, s) in scene_seen)) { scene_seen[g, s]; scene[g, ++scenes[g]] = s }
         i = ++seeds[g, l, s]
-        if (l == first[g]) time[g, s, i] = field("price_before") + field("spp")
+        if (l == first[g]) time[g, s, i] = field("price_before") + field("spp") * field("price_each")
         if (time[g, s, i] - field("price_before") < field("price_each")) unaffordable[g, l, s]
         for (k = 1; k <= 3; k++) cost[g, l, s, k, i] = field(square[k]) * field("seconds")
         mark[g, l, s] = field("mark")
