@@ -151,14 +151,22 @@ static vec3 point_direction(bool ribbon, const struct row *row, int j, vec3 *nor
     return *normal = d;
 }
 
-/* A corner of the net, in the world. */
-static vec3 point_of(const struct curves *all, const struct curve *c, const struct row *row, int j)
-{
-    vec3 unused, d = mul(point_direction(c->net.ribbon, row, j, &unused), row->radius);
-    return add(row->p, transform_vector(&all->place[c->place].to_world, d));
-}
-
 static int columns_of(const struct curve *c) { return c->net.ribbon ? 1 : CURVE_SIDES; }
+
+/* The points of a row in the world: the corners of triangles, for all who ask. */
+struct row_points {
+    float p[CURVE_SIDES + 1][3];
+};
+
+static struct row_points points_of(const struct curves *all, const struct curve *c, const struct row *row)
+{
+    struct row_points out;
+    for (int j = 0; j <= columns_of(c); j++) {
+        vec3 unused, d = mul(point_direction(c->net.ribbon, row, j, &unused), row->radius);
+        store3(out.p[j], 0, add(row->p, transform_vector(&all->place[c->place].to_world, d)));
+    }
+    return out;
+}
 
 /* --- bounds --------------------------------------------------------------------------------------------- */
 
@@ -168,10 +176,10 @@ static double reach_at(const struct curves *all, const struct curve *c, double a
     return all->place[c->place].stretch * mean_at(c->net.radius, along) + c->slack;
 }
 
-bool curve_bounds(const struct curves *all, int number, const float cell_lo[3], const float cell_hi[3], float lo[3],
+bool curve_bounds(const struct curves *all, int curve, const float cell_lo[3], const float cell_hi[3], float lo[3],
                   float hi[3])
 {
-    const struct curve *c = &all->curve[number];
+    const struct curve *c = &all->curve[curve];
     double p[2][3], r[2]; /* of both rows of a piece */
     bool any = false;
     vec3 P[4], unused;
@@ -272,20 +280,12 @@ static void note(struct search *q, const struct hit *h, int row, int column, boo
     q->hit->b2 = column + (upper ? h->b1 + h->b2 : h->b1);
 }
 
-static void row_points(const struct search *q, int i, float out[CURVE_SIDES + 1][3])
-{
-    struct row row = row_at(q->all, q->curve, i);
-    for (int j = 0; j <= columns_of(q->curve); j++)
-        store3(out[j], 0, point_of(q->all, q->curve, &row, j));
-}
-
 static void meet_piece(struct search *q, int i)
 {
-    float near[CURVE_SIDES + 1][3], far[CURVE_SIDES + 1][3];
-    row_points(q, i, near);
-    row_points(q, i + 1, far);
+    const struct row row[2] = {row_at(q->all, q->curve, i), row_at(q->all, q->curve, i + 1)};
+    const struct row_points near = points_of(q->all, q->curve, &row[0]), far = points_of(q->all, q->curve, &row[1]);
     for (int j = 0; j < columns_of(q->curve); j++) {
-        const float *corner[4] = {near[j], near[j + 1], far[j + 1], far[j]};
+        const float *corner[4] = {near.p[j], near.p[j + 1], far.p[j + 1], far.p[j]};
         for (int half = 0; half < 2; half++) {
             float v[9];
             struct hit h;
@@ -323,10 +323,10 @@ static bool meets(struct search *q, const struct hull *h, double lo, double hi, 
     return q->found;
 }
 
-bool curve_intersect(const struct curves *all, int number, const struct ray *ray, bool begins, bool ends,
+bool curve_intersect(const struct curves *all, int curve, const struct ray *ray, bool begins, bool ends,
                      struct hit *hit)
 {
-    struct search q = {.all = all, .curve = &all->curve[number], .ray = *ray, .except = {NAN, NAN}, .hit = hit};
+    struct search q = {.all = all, .curve = &all->curve[curve], .ray = *ray, .except = {NAN, NAN}, .hit = hit};
     const double place[2] = {0, ray->tmax}, d[3] = {ray->d.x, ray->d.y, ray->d.z};
     double except[2] = {NAN, NAN};
     struct hull h;
@@ -349,26 +349,24 @@ bool curve_intersect(const struct curves *all, int number, const struct ray *ray
 
 /* --- the surface ------------------------------------------------------------------------------------------- */
 
-void curve_triangle(const struct curves *all, int number, const struct hit *hit, struct triangle *tri, double *b1,
+void curve_triangle(const struct curves *all, int curve, const struct hit *hit, struct triangle *tri, double *b1,
                     double *b2)
 {
-    const struct curve *c = &all->curve[number];
+    const struct curve *c = &all->curve[curve];
     const struct curve_place *place = &all->place[c->place];
     int i = (int)fmin(hit->b1, c->net.pieces - 1), j = (int)fmin(hit->b2, columns_of(c) - 1);
     double along = hit->b1 - i, across = hit->b2 - j;
     bool upper = across >= along;
-    struct row row[2] = {row_at(all, c, i), row_at(all, c, i + 1)};
+    const struct row row[2] = {row_at(all, c, i), row_at(all, c, i + 1)};
+    const struct row_points points[2] = {points_of(all, c, &row[0]), points_of(all, c, &row[1])};
     const int at[3][2] = {{0, 0}, {!upper, 1}, {1, upper}};
     for (int k = 0; k < 3; k++) {
-        const struct row *r = &row[at[k][0]];
-        int column = j + at[k][1];
-        float p[3];
+        int number = at[k][0], column = j + at[k][1];
         vec3 normal;
-        point_direction(c->net.ribbon, r, column, &normal);
-        store3(p, 0, point_of(all, c, r, column));
-        tri->p[k] = load3(p, 0);
+        point_direction(c->net.ribbon, &row[number], column, &normal);
+        tri->p[k] = load3(points[number].p[0], (size_t)column);
         tri->n[k] = mul(transform_normal(&place->to_world, normal), place->reverse ? -1 : 1);
-        tri->uv[k][0] = mean_at(c->net.u, (double)(i + at[k][0]) / c->net.pieces);
+        tri->uv[k][0] = mean_at(c->net.u, (double)(i + number) / c->net.pieces);
         tri->uv[k][1] = (double)column / columns_of(c);
     }
     *b1 = upper ? across - along : across;

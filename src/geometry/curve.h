@@ -71,16 +71,16 @@ bool curves_add(struct curves *all, const struct strand *s, int n, const struct 
 void curves_free(struct curves *all);
 
 /* curve_bounds: a box around what a curve has in a closed box, which may be infinite; false if it has nothing there. */
-bool curve_bounds(const struct curves *all, int number, const float cell_lo[3], const float cell_hi[3], float lo[3],
+bool curve_bounds(const struct curves *all, int curve, const float cell_lo[3], const float cell_hi[3], float lo[3],
                   float hi[3]);
 
 /* curve_intersect: where is the first hit of a curve in (tmin, tmax)? False if there is none.
  *   begins, ends  the ray does so on this curve: where it meets it nearest to 0, or to tmax, does not count */
-bool curve_intersect(const struct curves *all, int number, const struct ray *ray, bool begins, bool ends,
+bool curve_intersect(const struct curves *all, int curve, const struct ray *ray, bool begins, bool ends,
                      struct hit *hit);
 
 /* curve_triangle: the triangle of the net that was hit, and the hit's barycentric coordinates in it. */
-void curve_triangle(const struct curves *all, int number, const struct hit *hit, struct triangle *tri, double *b1,
+void curve_triangle(const struct curves *all, int curve, const struct hit *hit, struct triangle *tri, double *b1,
                     double *b2);
 
 #endif
