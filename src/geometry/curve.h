@@ -1,9 +1,10 @@
 /* curve.h: curves that have a width: cubic Bezier curves, each with a tube around it or a ribbon along it.
  *
- * A curve of n pieces is a net: rows of points across it at 0, 1/n, ... 1, eight around a tube and two across a ribbon,
- * with two triangles between each four of them. The net is never stored. A row follows from the control points and the
- * frames at both ends of the curve. Both pieces that share a row compute the same numbers, so no ray slips through. What
- * a scene file calls a curve is cut into such curves of a few pieces (strand.c), which share the frames at their ends.
+ * A curve of n pieces is a net: rows of points across it at 0, 1/n, ... 1, eight around a tube, two across a ribbon,
+ * with two triangles between each four of them. The net is never stored: a row follows from the control points and the
+ * frames at both ends of the curve. Two pieces compute the same numbers for the row that they share, so no ray slips
+ * through. What a scene file calls a curve is cut into curves of a few pieces (strand.c), which share the frames at
+ * their ends.
  *
  * Tests: test_curve.c.
  */

@@ -22,7 +22,10 @@ struct kd_ref {
 };
 
 /* How many triangles cost as much to test: a curve has many, an instance is a tree of its own; found by measurement. */
-static inline int kd_weight(const struct kd_ref *r) { return r->item < FIRST_CURVE ? 1 : r->item < FIRST_INSTANCE ? 4 : 32; }
+static inline int kd_weight(const struct kd_ref *r)
+{
+    return r->item < FIRST_CURVE ? 1 : r->item < FIRST_INSTANCE ? 4 : 32;
+}
 
 struct kd_plane {
     int axis; /* -1: none */

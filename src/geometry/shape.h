@@ -1,8 +1,10 @@
 /* shape.h: the geometry of a scene: triangles, quadrics and curves in flat arrays, in world space, or in that of an
  * object, which instances then place.
  *
- * Primitives are numbered: triangle i is primitive i, quadric i is primitive FIRST_QUADRIC + i, curve i FIRST_CURVE + i, instance i as a whole FIRST_INSTANCE + i, so that a number given out stays valid when more shapes are
- * added. Every one but instances belongs to a group (what one Shape directive made), which carries material, alpha textures and area light.
+ * Primitives are numbered: triangle i is primitive i, quadric i is primitive FIRST_QUADRIC + i, curve i is primitive
+ * FIRST_CURVE + i, instance i as a whole FIRST_INSTANCE + i, so that a number given out stays valid when shapes are
+ * added. Each of the first three belongs to a group (what one Shape directive made), which carries material, alpha
+ * textures and area light.
  *
  * Tests: test_shape.c.
  */

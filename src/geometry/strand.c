@@ -177,7 +177,7 @@ static double width_at(const struct curve_fields *c, double along)
 /* Is there memory for so many curves? */
 static bool curves_fit(struct mesh_task *task, double n)
 {
-    const double bytes = sizeof(struct strand) + sizeof(struct curve) + 200; /* the last for their part of the kd-tree */
+    const double bytes = sizeof(struct strand) + sizeof(struct curve) + 200; /* here, in the scene, in the kd-tree */
     struct error why;
     return budget_has(task->memory, bytes * n, &why) || error_set(&task->err, "%.4g parts of a curve: %s", n, why.text);
 }

@@ -258,13 +258,16 @@ static void random_curve(struct test *t, struct rng *r, struct transform place, 
     draw(t, &c, place, reverse, geo);
 }
 
-/* All hits of a ray with the mesh, in order. */
-static int mesh_hits(const struct geometry *mesh, const struct ray *ray, double t[64])
+/* All hits of a ray with the mesh, which is where an instance places it, in order. */
+static int mesh_hits(const struct geometry *mesh, const struct transform *place, const struct ray *ray, double t[64])
 {
+    struct ray r = *ray;
     int n = 0;
+    r.o = transform_point_back(place, ray->o);
+    r.d = transform_vector_back(place, ray->d);
     for (int i = 0; i < mesh->n_triangles; i++) {
         struct hit h;
-        if (n < 64 && shape_intersect(mesh, i, ray, &h))
+        if (n < 64 && shape_intersect(mesh, i, &r, &h))
             t[n++] = h.t;
     }
     for (int i = 1; i < n; i++)
@@ -276,13 +279,13 @@ static int mesh_hits(const struct geometry *mesh, const struct ray *ray, double 
     return n;
 }
 
-/* Follow a ray from hit to hit, with the primitive where it begins left out, and compare with all hits of the mesh; hits
+/* Follow a ray from hit to hit, with the primitive where it begins left out, and compare with all of the mesh. Hits
  * in one place, as on an edge, count once. Returns how many there were; *wrong: how many differ. */
-static int follow(const struct geometry *geo, const struct kdtree *kd, const struct geometry *mesh, struct ray ray,
-                  double size, int *wrong)
+static int follow(const struct geometry *geo, const struct kdtree *kd, const struct geometry *mesh,
+                  const struct transform *place, struct ray ray, double size, int *wrong)
 {
     double want[64], last = 0;
-    int n = mesh_hits(mesh, &ray, want), k = 0, hits = 0;
+    int n = mesh_hits(mesh, place, &ray, want), k = 0, hits = 0;
     struct hit hit;
     while (kd_closest(kd, geo, &ray, &hit)) {
         struct surface at;
@@ -304,9 +307,26 @@ static int follow(const struct geometry *geo, const struct kdtree *kd, const str
     return hits;
 }
 
+/* A ray that leaves from where another has hit, away from edges, does not meet the curve there, and meets what it would
+ * meet if it began a little farther on. */
+static bool leaves(const struct geometry *geo, const struct kdtree *kd, const struct surface *at, double size, vec3 d)
+{
+    struct ray own = {at->p, d, 0, INFINITY, at->prim_id, 0}, far = {at->p, d, 1e-8 * size, INFINITY, 0, 0};
+    struct hit a, b;
+    bool met = kd_closest(kd, geo, &own, &a);
+    return met == kd_closest(kd, geo, &far, &b) && (!met || fabs(a.t - b.t) <= 1e-9 * size);
+}
+
+/* Is a place in a net away from the edges of its triangles? */
+static bool is_inside(const struct hit *h)
+{
+    double along = h->b1 - floor(h->b1), across = h->b2 - floor(h->b2);
+    return fmin(along, across) > 0.05 && fmax(along, across) < 0.95 && fabs(along - across) > 0.05;
+}
+
 static void against_mesh(struct test *t, struct rng *r)
 {
-    int hits = 0, wrong = 0, late = 0;
+    int hits = 0, wrong = 0, late = 0, left = 0, stuck = 0;
     for (int k = 0; k < 120; k++) {
         struct geometry geo = {0};
         double size = pow(10, 4 * rng_uniform(r) - 2);
@@ -316,21 +336,32 @@ static void against_mesh(struct test *t, struct rng *r)
             random_curve(t, r, place, i == 1, &geo);
         struct mesh m = mesh_of_nets(&geo);
         struct geometry mesh = geometry_of(t, &m);
+        struct transform instance = transform_identity();
+        if (k % 4 == 1) {
+            instance = random_affine(r);
+            CHECK(t, shape_add_instance(&geo, shape_make_object(&geo, 0), &instance, NULL), "an instance");
+        }
         struct kdtree kd;
         kd_build(&kd, &geo, KD_SURFACES);
         size = fmax(kd.reach, 1e-30);
         for (int i = 0; i < 300; i++) {
             vec3 target = mesh.n_triangles > 0 ? load3(mesh.P, rng_below(r, (uint32_t)mesh.n_vertices)) : in_cube(r);
-            target = add(target, mul(on_sphere(r), i % 2 == 0 ? 1e-3 * size : 0.05 * size));
+            target = add(transform_point(&instance, target), mul(on_sphere(r), i % 2 == 0 ? 1e-3 * size : 0.05 * size));
             vec3 d = i % 8 == 0 ? axis((int)rng_below(r, 6)) : on_sphere(r);
             struct ray ray = {sub(target, mul(d, 4 * size)), d, 0, INFINITY, 0, 0};
-            int n = follow(&geo, &kd, &mesh, ray, size, &wrong);
+            int n = follow(&geo, &kd, &mesh, &instance, ray, size, &wrong);
             hits += n;
             /* A shadow ray that ends on a curve is not shaded by it there. */
             struct hit hit;
             if (n > 0 && kd_closest(&kd, &geo, &ray, &hit)) {
-                ray.tmax = hit.t;
-                ray.to = shape_prim_id(hit.prim, 0);
+                struct surface at;
+                shape_surface(&geo, &hit, &ray, &at);
+                if (is_inside(&hit) && geo.curves.curve[0].net.radius[0] > 1e-3f) {
+                    left++;
+                    stuck += !leaves(&geo, &kd, &at, size, on_sphere(r));
+                }
+                ray.tmax = hit.t - 1e-7 * size;
+                ray.to = shape_prim_id(hit.prim, hit.instance);
                 late += kd_occluded(&kd, &geo, &ray, INFINITY);
             }
         }
@@ -339,6 +370,7 @@ static void against_mesh(struct test *t, struct rng *r)
         geometry_free(&mesh);
     }
     CHECK(t, hits > 30000 && wrong == 0, "%d of %d hits differ from those of the mesh", wrong, hits);
+    CHECK(t, left > 4000 && stuck <= left / 100, "%d of %d rays do not leave the curve where they begin", stuck, left);
     CHECK(t, late == 0, "%d shadow rays are shaded where they end", late);
 }
 
