@@ -37,9 +37,9 @@ static inline uint32_t kd_children(struct kd_node n) { return n.word >> 2 << 1; 
 
 enum { KD_LANES = 4 };
 
-/* Up to four triangles, or up to four quadrics. */
+/* Up to four triangles, or up to four quadrics and curves. */
 struct kd_block {
-    float v[3][3][KD_LANES]; /* corner, axis, lane; zeros for a quadric, NaN for an unused lane */
+    float v[3][3][KD_LANES]; /* corner, axis, lane; zeros for others, NaN for an unused lane */
     float reach[KD_LANES];   /* 8 times the longest of the triangle's edges, by its largest coordinate, or KD_TINY */
     uint32_t prim[KD_LANES]; /* primitive number, with KD_ALPHA added if its group has an alpha texture */
 };

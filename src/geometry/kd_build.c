@@ -31,7 +31,7 @@ struct kd_cell {
     int depth;
 };
 
-/* The two parts of an item that the plane cuts; a quadric is represented by its bounding box. */
+/* The two parts of an item that the plane cuts; a quadric or instance is represented by its bounding box. */
 static void split_item(const struct geometry *geo, const struct kd_ref *whole, const struct box *cell,
                        const struct kd_plane *p, struct kd_ref half[2], bool filled[2])
 {
@@ -42,8 +42,15 @@ static void split_item(const struct geometry *geo, const struct kd_ref *whole, c
         kd_split_triangle(v, cell, p->axis, p->at, part, filled);
         half[0].box = part[0];
         half[1].box = part[1];
-    } else {
-        half[0].box.hi[p->axis] = half[1].box.lo[p->axis] = p->at;
+        return;
+    }
+    half[0].box.hi[p->axis] = half[1].box.lo[p->axis] = p->at;
+    if (whole->item < FIRST_CURVE || whole->item >= FIRST_INSTANCE)
+        return;
+    for (int i = 0; i < 2; i++) {
+        const struct box in = half[i].box;
+        filled[i] = curve_bounds(&geo->curves, (int)whole->item - FIRST_CURVE, in.lo, in.hi, half[i].box.lo,
+                                 half[i].box.hi);
     }
 }
 
@@ -63,7 +70,7 @@ static void split_items(const struct geometry *geo, const struct kd_cell *cell, 
     }
 }
 
-/* The blocks of a leaf: first those of triangles, then those of quadrics, then those of instances. */
+/* The blocks of a leaf: first those of triangles, then those of quadrics and curves, then those of instances. */
 static void make_leaf(struct builder *b, uint32_t node, const struct kd_cell *cell)
 {
     struct kdtree *kd = b->kd;

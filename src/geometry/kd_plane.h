@@ -21,8 +21,11 @@ struct kd_ref {
     uint32_t item;
 };
 
-/* How many triangles cost as much to test: an instance is a tree of its own; found by measurement. */
-static inline int kd_weight(const struct kd_ref *r) { return r->item < FIRST_INSTANCE ? 1 : 32; }
+/* How many triangles cost as much to test: a curve has many, an instance is a tree of its own; found by measurement. */
+static inline int kd_weight(const struct kd_ref *r)
+{
+    return r->item < FIRST_CURVE ? 1 : r->item < FIRST_INSTANCE ? 4 : 32;
+}
 
 struct kd_plane {
     int axis; /* -1: none */
@@ -53,7 +56,8 @@ double kd_half_area(const struct box *b);
 /* kd_leaf_cost: the same for a leaf with items of weight n. */
 double kd_leaf_cost(size_t n);
 
-/* kd_best_plane: the cheapest cut of a cell with n items, axis -1 if none is cheaper than a leaf. */
+/* kd_best_plane: the cheapest cut of a cell with n items, axis -1 if none is cheaper than a leaf, or little dearer than
+ * one of many items. */
 struct kd_plane kd_best_plane(const struct kd_ref *ref, size_t n, const struct box *cell);
 
 /* kd_split_triangle: bounds of the two parts into which the plane at `split` of `axis` cuts the triangle v (three

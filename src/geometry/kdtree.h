@@ -1,4 +1,4 @@
-/* kdtree.h: which primitive does a ray meet first? A kd-tree over triangles and quadrics [Wald & Havran 2006].
+/* kdtree.h: which primitive does a ray meet first? A kd-tree over triangles, quadrics and curves [Wald & Havran 2006].
  *
  * Nodes hold float planes; traversal and intersection are computed in double from exact float vertices. A point found
  * on a surface is therefore within about 1e-15 of the scene's size of it.

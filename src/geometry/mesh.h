@@ -1,4 +1,4 @@
-/* mesh.h: shapes that are made of triangles. Each is one file and one row of the table in mesh.c.
+/* mesh.h: shapes that are made of triangles or of curves. Each is one file and one row of the table in mesh.c.
  *
  * Tests: test_parser.c, test_format.c.
  */

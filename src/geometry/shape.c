@@ -1,4 +1,4 @@
-/* shape.c: see shape.h. Keeps the flat arrays and hands each question to triangle.c or quadric.c. */
+/* shape.c: see shape.h. Keeps the flat arrays and hands each question to triangle.c, quadric.c or curve.c. */
 #include "geometry/shape.h"
 
 #include <stdlib.h>
@@ -8,7 +8,8 @@
 #include "base/warp.h"
 #include "geometry/triangle.h"
 
-static bool is_quadric(int prim) { return prim >= FIRST_QUADRIC; }
+static bool is_quadric(int prim) { return prim >= FIRST_QUADRIC && prim < FIRST_CURVE; }
+static bool is_curve(int prim) { return prim >= FIRST_CURVE && prim < FIRST_INSTANCE; }
 static const struct quadric *quadric_of(const struct geometry *geo, int prim)
 {
     return &geo->quadric[prim - FIRST_QUADRIC];
@@ -21,6 +22,7 @@ void mesh_free(struct mesh *m)
     free(m->S);
     free(m->UV);
     free(m->index);
+    free(m->strand);
     memset(m, 0, sizeof *m);
 }
 
@@ -33,6 +35,7 @@ void geometry_free(struct geometry *geo)
     free(geo->index);
     free(geo->group_of_triangle);
     free(geo->quadric);
+    curves_free(&geo->curves);
     free(geo->object);
     free(geo->instance);
     free(geo->group);
@@ -105,9 +108,26 @@ static bool add_vertices(struct geometry *geo, const struct mesh *m, const struc
     return true;
 }
 
+static int add_curves(struct geometry *geo, const struct mesh *m, const struct transform *to_world,
+                      struct shape_group group, bool reverse, struct error *err)
+{
+    struct curves *all = &geo->curves;
+    if (m->n_strands > FIRST_INSTANCE - FIRST_CURVE - all->n) {
+        error_set(err, "the scene has more than 2^28 curves");
+        return -1;
+    }
+    group.first_prim = FIRST_CURVE + all->n;
+    group.n_prims = m->n_strands;
+    group.has_n = group.has_uv = true;
+    group.has_s = group.flip = false;
+    return curves_add(all, m->strand, m->n_strands, to_world, reverse, geo->n_groups, err) ? add_group(geo, group) : -1;
+}
+
 int shape_add_mesh(struct geometry *geo, const struct mesh *m, const struct transform *to_world,
                    struct shape_group group, bool reverse_orientation, struct error *err)
 {
+    if (m->n_strands > 0)
+        return add_curves(geo, m, to_world, group, reverse_orientation, err);
     if (m->n_triangles > FIRST_QUADRIC - geo->n_triangles || m->n_vertices > INT32_MAX - geo->n_vertices) {
         error_set(err, "the scene has more than 2^30 triangles");
         return -1;
@@ -141,8 +161,8 @@ int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group
                   lo.z, hi.x, hi.y, hi.z);
         return -1;
     }
-    if (geo->n_quadrics >= FIRST_INSTANCE - FIRST_QUADRIC) {
-        error_set(err, "the scene has more than 2^29 quadrics");
+    if (geo->n_quadrics >= FIRST_CURVE - FIRST_QUADRIC) {
+        error_set(err, "the scene has more than 2^28 quadrics");
         return -1;
     }
     q.group = geo->n_groups;
@@ -190,7 +210,7 @@ bool shape_add_instance(struct geometry *geo, int object, const struct transform
 {
     const struct instance in = {*to_world, object};
     vec3 lo, hi;
-    if (geo->n_instances >= FIRST_INSTANCE - FIRST_QUADRIC)
+    if (geo->n_instances > INT32_MAX - FIRST_INSTANCE)
         return error_set(err, "the scene has more than 2^29 instances");
     instance_bounds(geo, &in, &lo, &hi);
     if (!is_place(lo) || !is_place(hi))
@@ -203,7 +223,9 @@ bool shape_add_instance(struct geometry *geo, int object, const struct transform
 
 const struct shape_group *shape_group_of(const struct geometry *geo, int prim)
 {
-    return &geo->group[is_quadric(prim) ? quadric_of(geo, prim)->group : geo->group_of_triangle[prim]];
+    return &geo->group[prim < FIRST_QUADRIC ? geo->group_of_triangle[prim]
+                       : is_quadric(prim)   ? quadric_of(geo, prim)->group
+                                            : geo->curves.curve[prim - FIRST_CURVE].group];
 }
 
 void shape_vertices(const struct geometry *geo, int triangle, float v[9])
@@ -228,6 +250,18 @@ static const struct transform *transform_of(const struct geometry *geo, int inst
     return &geo->instance[instance - 1].to_world;
 }
 
+static void place_triangle(struct triangle *tri, const struct transform *t)
+{
+    tri->flip = tri->flip != transform_swaps_handedness(t);
+    for (int i = 0; i < 3; i++) {
+        tri->p[i] = transform_point(t, tri->p[i]);
+        if (tri->has_n)
+            tri->n[i] = transform_normal(t, tri->n[i]);
+        if (tri->has_s)
+            tri->s[i] = transform_vector(t, tri->s[i]);
+    }
+}
+
 static inline void load_triangle(const struct geometry *geo, const struct shape_group *group, int prim, int instance,
                                  struct triangle *tri)
 {
@@ -245,22 +279,28 @@ static inline void load_triangle(const struct geometry *geo, const struct shape_
     tri->has_s = group->has_s;
     tri->flip = group->flip;
     tri->skip_partials = group->skip_partials;
-    if (instance == 0)
-        return;
-    const struct transform *t = transform_of(geo, instance);
-    tri->flip = tri->flip != transform_swaps_handedness(t);
-    for (int i = 0; i < 3; i++) {
-        tri->p[i] = transform_point(t, tri->p[i]);
-        if (group->has_n)
-            tri->n[i] = transform_normal(t, tri->n[i]);
-        if (group->has_s)
-            tri->s[i] = transform_vector(t, tri->s[i]);
-    }
+    if (instance > 0)
+        place_triangle(tri, transform_of(geo, instance));
+}
+
+/* The triangle of a curve that was hit, and where in it. */
+static void load_curve_triangle(const struct geometry *geo, const struct shape_group *group, const struct hit *hit,
+                                struct triangle *tri, double *b1, double *b2)
+{
+    *tri = (struct triangle){.has_n = true, .skip_partials = group->skip_partials};
+    curve_triangle(&geo->curves, hit->prim - FIRST_CURVE, hit, tri, b1, b2);
+    if (hit->instance > 0)
+        place_triangle(tri, transform_of(geo, hit->instance));
 }
 
 void shape_bounds(const struct geometry *geo, int prim, float lo[3], float hi[3])
 {
-    if (is_quadric(prim)) {
+    if (is_curve(prim)) {
+        const float low[3] = {-INFINITY, -INFINITY, -INFINITY}, high[3] = {INFINITY, INFINITY, INFINITY};
+        curve_bounds(&geo->curves, prim - FIRST_CURVE, low, high, lo, hi);
+        return;
+    }
+    if (prim >= FIRST_QUADRIC) {
         vec3 low, high;
         if (prim >= FIRST_INSTANCE)
             instance_bounds(geo, &geo->instance[prim - FIRST_INSTANCE], &low, &high);
@@ -288,6 +328,9 @@ bool shape_intersect(const struct geometry *geo, int prim, const struct ray *ray
         if (!quadric_intersect(quadric_of(geo, prim), ray, begins, ends, &hit->t))
             return false;
         hit->b1 = hit->b2 = 0;
+    } else if (is_curve(prim)) {
+        if (!curve_intersect(&geo->curves, prim - FIRST_CURVE, ray, begins, ends, hit))
+            return false;
     } else if (begins || ends) {
         return false;
     } else {
@@ -313,10 +356,14 @@ void shape_surface(const struct geometry *geo, const struct hit *hit, const stru
         quadric_surface_at(&q, group->flip, group->skip_uv, p, out);
     } else {
         struct triangle tri;
-        load_triangle(geo, group, hit->prim, hit->instance, &tri);
-        triangle_place(&tri, hit->b1, hit->b2, out);
+        double b1 = hit->b1, b2 = hit->b2;
+        if (is_curve(hit->prim))
+            load_curve_triangle(geo, group, hit, &tri, &b1, &b2);
+        else
+            load_triangle(geo, group, hit->prim, hit->instance, &tri);
+        triangle_place(&tri, b1, b2, out);
         if (!group->skip_uv)
-            triangle_partials(&tri, hit->b1, hit->b2, out);
+            triangle_partials(&tri, b1, b2, out);
     }
     out->material = group->material;
     out->prim_id = shape_prim_id(hit->prim, hit->instance);

@@ -1,9 +1,10 @@
-/* shape.h: the geometry of a scene: triangles and quadrics in flat arrays, in world space, or in that of an object,
- * which instances then place.
+/* shape.h: the geometry of a scene: triangles, quadrics and curves in flat arrays, in world space, or in that of an
+ * object, which instances then place.
  *
- * Primitives are numbered: triangle i is primitive i, quadric i is primitive FIRST_QUADRIC + i, instance i as a whole
- * FIRST_INSTANCE + i, so that a number given out stays valid when more shapes are added. Every triangle and quadric
- * belongs to a group (what one Shape directive made), which carries material, alpha textures and area light.
+ * Primitives are numbered: triangle i is primitive i, quadric i is primitive FIRST_QUADRIC + i, curve i is primitive
+ * FIRST_CURVE + i, instance i as a whole FIRST_INSTANCE + i, so that a number given out stays valid when shapes are
+ * added. Each of the first three belongs to a group (what one Shape directive made), which carries material, alpha
+ * textures and area light.
  *
  * Tests: test_shape.c.
  */
@@ -17,10 +18,11 @@
 #include "base/error.h"
 #include "base/transform.h"
 #include "base/vec.h"
+#include "geometry/curve.h"
 #include "geometry/quadric.h"
 #include "geometry/surface.h"
 
-enum { FIRST_QUADRIC = 1 << 30, FIRST_INSTANCE = FIRST_QUADRIC + (1 << 29) };
+enum { FIRST_QUADRIC = 1 << 30, FIRST_CURVE = FIRST_QUADRIC + (1 << 28), FIRST_INSTANCE = FIRST_CURVE + (1 << 28) };
 
 /* What the primitives of one Shape directive have in common. */
 struct shape_group {
@@ -61,6 +63,7 @@ struct geometry {
     uint32_t *index;  /* [n_triangles*3] */
     int32_t *group_of_triangle; /* [n_triangles] */
     struct quadric *quadric;    /* [n_quadrics] */
+    struct curves curves;
     struct shape_group *group;  /* [n_groups] */
     struct object *object;      /* [n_objects] */
     struct instance *instance;  /* [n_instances] */
@@ -83,22 +86,29 @@ struct mesh {
     uint64_t content;   /* hash_content of the file it was read from; 0: none */
     size_t file_size;   /* bytes of it */
     float *S;           /* [n_vertices*3] tangents; or NULL */
+    struct strand *strand; /* [n_strands], instead of triangles */
+    int n_strands;
 };
 
 /* mesh_free: release its arrays; the mesh is empty then. geometry_free: the same of a geometry. */
 void mesh_free(struct mesh *m);
 
+/* mesh_primitives: how many it has. mesh_point: a point of it, if there are any. */
+static inline int mesh_primitives(const struct mesh *m) { return m->n_triangles + m->n_strands; }
+static inline vec3 mesh_point(const struct mesh *m) { return m->n_triangles > 0 ? m->P[0] : m->strand[0].P[0]; }
+
 /* shape_add_mesh: transform a mesh to world space and append it as one group.
  *   group  material, alpha and light fields to use; first_prim, flip (from reverse_orientation), has_n, has_s
  *          and has_uv are filled in here
  * Degenerate triangles (zero area) are kept: they are never hit. Returns the group's number, or -1 with a
- * message when a world position is no place (vec.h) or there would be more than 2^30 triangles. */
+ * message when a world position is no place (vec.h) or there would be more than 2^30 triangles, or
+ * 2^28 curves. */
 int shape_add_mesh(struct geometry *geo, const struct mesh *m, const struct transform *to_world,
                    struct shape_group group, bool reverse_orientation, struct error *err);
 
 /* shape_add_quadric: append one quadric as a group of its own (q.group is filled in, the parameters are clamped
  * as pbrt does). Returns the group's number, or -1 with a message when its bounds are no places (vec.h) or there
- * would be more than 2^29 quadrics. */
+ * would be more than 2^28 quadrics. */
 int shape_add_quadric(struct geometry *geo, struct quadric q, struct shape_group group, bool reverse_orientation,
                       struct error *err);
 
@@ -111,7 +121,10 @@ bool shape_add_instance(struct geometry *geo, int object, const struct transform
 void geometry_free(struct geometry *geo);
 
 /* geometry_primitives: how many primitives there are (their numbers are not contiguous, see above). */
-static inline int geometry_primitives(const struct geometry *geo) { return geo->n_triangles + geo->n_quadrics; }
+static inline int geometry_primitives(const struct geometry *geo)
+{
+    return geo->n_triangles + geo->n_quadrics + geo->curves.n;
+}
 
 /* shape_group_of: the group a primitive belongs to. */
 const struct shape_group *shape_group_of(const struct geometry *geo, int prim);
@@ -149,7 +162,7 @@ static inline uint64_t shape_own_id(uint64_t id, int instance)
  * refined onto the surface for quadrics). Shading normal and partials as pbrt-v3 defines them. */
 void shape_surface(const struct geometry *geo, const struct hit *hit, const struct ray *ray, struct surface *out);
 
-/* shape_area: world area of a primitive in m^2 (quadrics: exact under similarity transforms, otherwise by
+/* shape_area: world area of a triangle or quadric in m^2 (quadrics: exact under similarity transforms, otherwise by
  * numerical integration). */
 double shape_area(const struct geometry *geo, int prim);
 

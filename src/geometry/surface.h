@@ -11,7 +11,7 @@ struct ray {
     vec3 o, d;
     double tmin, tmax; /* tmin < 0: the ray begins on a light, tmin being -GRAZING margins; tmax may be HUGE_VAL */
     uint64_t from, to; /* primitives that the segment begins and ends on, as shape_prim_id numbers them; 0: none
-                        * known. A line meets a triangle once and a quadric twice, so these meetings are left out. */
+                        * known. A line meets a triangle once and others more often, so these meetings are left out. */
 };
 
 /* Where a ray begins or ends, or a surface is, that is a point within a medium, instead of a primitive. */
@@ -32,7 +32,8 @@ static inline double start_margin(const struct ray *ray) { return ray->tmin < 0 
 /* Where a ray meets a primitive. */
 struct hit {
     double t;      /* distance along the ray */
-    double b1, b2; /* triangle: barycentric coordinates of vertices 1 and 2; quadric: unused, 0 */
+    double b1, b2; /* triangle: barycentric coordinates of vertices 1 and 2; quadric: unused, 0; curve: place
+                    * in its net, in pieces along it and in sides around it */
     int prim;      /* primitive number */
     int instance;  /* in which it is, from 1; 0: none */
 };

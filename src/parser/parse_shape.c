@@ -200,14 +200,15 @@ static double bytes_of(const struct shape_item *item)
 {
     const struct mesh *m = &item->mesh;
     double vertex = sizeof(vec3) + 5 * sizeof(float), triangle = 3 * sizeof(uint32_t);
-    return sizeof *item + (item->is_mesh ? vertex * m->n_vertices + triangle * m->n_triangles : 0);
+    double mesh = vertex * m->n_vertices + triangle * m->n_triangles + (double)sizeof *m->strand * m->n_strands;
+    return sizeof *item + (item->is_mesh ? mesh : 0);
 }
 
 /* About what it takes in the world in addition: its part of the kd-tree, and its lights. */
 static double bytes_more(const struct shape_item *item)
 {
     const double primitive = 110, light = 200;
-    return (item->is_mesh ? item->mesh.n_triangles : 1) * (primitive + (item->area.on ? light : 0));
+    return (item->is_mesh ? mesh_primitives(&item->mesh) : 1) * (primitive + (item->area.on ? light : 0));
 }
 
 /* Add one shape to the scene. A mesh inside the item stays the caller's. */
@@ -223,7 +224,7 @@ static bool add_shape(struct parser *p, const struct shape_item *item, struct tr
     if (!budget_take(&s->memory, bytes_of(item) + bytes_more(item), &inner))
         return source_error(&p->messages, at, "%s", inner.text);
     if (item->is_mesh) {
-        n = item->mesh.n_triangles;
+        n = mesh_primitives(&item->mesh);
         id = shape_add_mesh(&s->geo, &item->mesh, &to_world, group, item->reverse, &inner);
     } else {
         struct quadric q = item->quadric;
@@ -253,6 +254,7 @@ static uint64_t hash_shape(const struct shape_item *item)
     if (!item->is_mesh)
         return hash_combine(h, hash_content(size, sizeof size));
     h = hash_combine(h, hash_content(m->P, (size_t)m->n_vertices * sizeof *m->P));
+    h = hash_combine(h, hash_content(m->strand, (size_t)m->n_strands * sizeof *m->strand));
     return hash_combine(h, hash_content(m->index, 3 * (size_t)m->n_triangles * sizeof *m->index));
 }
 
@@ -300,7 +302,7 @@ static bool place_shape(struct parser *p, struct shape_item *item)
 /* Is there anything to be seen of it, or does it bound a medium? */
 static bool is_seen(const struct shape_item *item)
 {
-    bool empty = item->is_mesh && item->mesh.n_triangles == 0;
+    bool empty = item->is_mesh && mesh_primitives(&item->mesh) == 0;
     bool bounds = item->group.medium[0] != item->group.medium[1];
     return !empty && (item->group.material != MATERIAL_NONE || item->area.on || bounds);
 }
@@ -368,7 +370,7 @@ static int64_t triangles_of(const struct shape_list *object)
 {
     int64_t n = 0;
     for (int i = 0; i < object->n; i++)
-        n += object->item[i].is_mesh ? object->item[i].mesh.n_triangles : 1;
+        n += object->item[i].is_mesh ? mesh_primitives(&object->item[i].mesh) : 1;
     return n;
 }
 
@@ -389,7 +391,7 @@ static bool make_shared(struct parser *p, struct shape_list *list, struct source
         if (!may_be_shared(item))
             continue;
         if (geo->n_groups == first_group)
-            list->origin = transform_point(&item->place, item->is_mesh ? item->mesh.P[0] : vec(0, 0, 0));
+            list->origin = transform_point(&item->place, item->is_mesh ? mesh_point(&item->mesh) : vec(0, 0, 0));
         if (!add_shape(p, item, transform_compose(transform_translate(neg(list->origin)), item->place), at))
             return false;
     }

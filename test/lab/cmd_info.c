@@ -46,8 +46,8 @@ static void print_scene(const struct scene *s, const struct method *m, double se
         error_set(&line, "  %-11s %s", s->settings.item[i].name, s->settings.item[i].value);
         printf("%s\n", line.text);
     }
-    printf("triangles     %d (%d vertices)\nquadrics      %d\nshapes        %d\n", s->geo.n_triangles,
-           s->geo.n_vertices, s->geo.n_quadrics, s->geo.n_groups);
+    printf("triangles     %d (%d vertices)\nquadrics      %d\ncurves        %d\nshapes        %d\n", s->geo.n_triangles,
+           s->geo.n_vertices, s->geo.n_quadrics, s->geo.curves.n, s->geo.n_groups);
     printf("materials     %d\ntextures      %d (%d images)\n", s->n_materials, s->textures.n_textures,
            s->textures.n_images);
     print_lights(&s->lights);

@@ -133,7 +133,10 @@ static void check_memory(struct test *t)
         "LightSource \"infinite\" \"string mapname\" \"@map\"",
         "Translate 1 0 0 Shape \"loopsubdiv\" \"integer levels\" 7 \"integer indices\" [ 0 1 2 ] "
         "\"point P\" [ 0 0 0 1 0 0 0 1 0 ]",
-        "Translate 1 0 0 Shape \"curve\" \"float width\" 1e-6 \"point P\" [ 0 0 0 1 2 0 1 0 0 0 2 0 ]",
+        "Translate 1 0 0 Shape \"curve\" \"string basis\" \"bspline\" \"float width\" 1e-6 "
+        "\"point P\" [ 0 0 0 1 2 0 1 0 0 2 2 0 2 0 0 3 2 0 3 0 0 4 2 0 4 0 0 5 2 0 5 0 0 6 2 0 6 0 0 7 2 0 7 0 0 "
+        "8 2 0 8 0 0 9 2 0 9 0 0 10 2 0 10 0 0 9 2 0 9 0 0 8 2 0 8 0 0 7 2 0 7 0 0 6 2 0 6 0 0 5 2 0 5 0 0 4 2 0 "
+        "4 0 0 3 2 0 3 0 0 2 2 0 2 0 0 1 2 0 ]",
         "ObjectBegin \"o\" Shape \"loopsubdiv\" \"integer levels\" 8 \"integer indices\" [ 0 1 2 ] "
         "\"point P\" [ 0 0 0 1 0 0 0 1 0 ] ObjectEnd",
         "AttributeBegin AreaLightSource \"diffuse\" ObjectBegin \"o\" Shape \"loopsubdiv\" \"integer levels\" 5 "

@@ -157,6 +157,15 @@ static void put_shapes(struct words *w, const struct scene *s)
         put3(w, "to", q->p2.x, q->p2.y, q->p2.z);
         put(w, "\n");
     }
+    for (int i = 0; i < geo->curves.n; i++) {
+        const struct curve *c = &geo->curves.curve[i];
+        put(w, "curve %d: %d pieces ribbon %d radius %g %g u %g %g", i, c->net.pieces, c->net.ribbon,
+            (double)c->net.radius[0], (double)c->net.radius[1], (double)c->net.u[0], (double)c->net.u[1]);
+        put3(w, "from", (double)c->P[0][0], (double)c->P[0][1], (double)c->P[0][2]);
+        put3(w, "to", (double)c->P[3][0], (double)c->P[3][1], (double)c->P[3][2]);
+        put3(w, "guide", (double)c->net.guide[0][0], (double)c->net.guide[0][1], (double)c->net.guide[0][2]);
+        put(w, "\n");
+    }
     put(w, "%d triangles of %d points\n", geo->n_triangles, geo->n_vertices);
     for (int i = 0; i < geo->n_vertices; i++) {
         const float *P = geo->P + 3 * i, *uv = geo->UV + 2 * i;

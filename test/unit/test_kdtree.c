@@ -5,7 +5,7 @@
  * splits, through vertices and edges. The distance must be that of brute force to the last bit. Closed surfaces
  * must let no ray out; with one triangle taken away they must.
  */
-#include "geometry/kdtree.h"
+#include "geometry/kd_block.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -276,6 +276,41 @@ static void check_costs(struct test *t)
     }
 }
 
+/* Planes that cross the whole cube in three directions: no single cut is worth its cost, and yet a ray meets the first
+ * of them soon. Spheres around one point: no cut helps, and the tree stays small. */
+static void check_crossing(struct test *t, struct rng *r)
+{
+    enum { MANY = 2000 };
+    struct mesh s = {0};
+    struct geometry spheres = {0};
+    struct kdtree kd;
+    for (int i = 0; i < MANY; i++) {
+        double z = 2 * rng_uniform(r) - 1;
+        vec3 p[3] = {{-1, -1, z}, {1, -1, z}, {1, 1, z}};
+        for (int k = 0; k < 3 * (i % 3); k++)
+            p[k % 3] = vec(p[k % 3].y, p[k % 3].z, p[k % 3].x);
+        add_triangle(&s, p[0], p[1], p[2]);
+        struct quadric q = {.kind = QUADRIC_SPHERE, .to_world = transform_identity(), .phi_max = 2 * PI};
+        q.radius = q.zmax = (i + 1.0) / MANY;
+        q.zmin = -q.radius;
+        shape_add_quadric(&spheres, q, group_of(0, -1), false, NULL);
+    }
+    struct geometry geo = geometry_of(t, &s);
+    kd_build(&kd, &geo, KD_SURFACES);
+    double most = 0;
+    for (int i = 0; i < kd.n_nodes; i++)
+        if (i != 1 && kd_is_leaf(kd.node[i]))
+            most = fmax(most, kd_blocks(kd.node[i]));
+    CHECK(t, most < MANY / KD_LANES / 3, "crossing planes: a leaf of %g blocks", most);
+    kd_free(&kd);
+    kd_build(&kd, &spheres, KD_SURFACES);
+    size_t references = tree_figures(&kd).references;
+    CHECK(t, references < 8 * MANY, "concentric spheres: %zu references", references);
+    kd_free(&kd);
+    geometry_free(&geo);
+    geometry_free(&spheres);
+}
+
 /* Triangles far smaller than a float's step at the ray's origin are hit where they are. */
 static void check_tiny(struct test *t, struct rng *r)
 {
@@ -310,5 +345,6 @@ void test_kdtree(struct test *t)
     check_nonsense_rays(t, &r);
     check_watertight(t, &r);
     check_tiny(t, &r);
+    check_crossing(t, &r);
     check_alpha(t, &r);
 }

@@ -101,11 +101,12 @@ static void check_rays(struct test *t, struct rng *r)
     struct transform far = transform_translate(vec(1e12, 0, 0)); /* one end of it is near enough */
     CHECK(t, !shape_add_instance(&geo, 0, &far, &err) && strstr(err.text, "places go up to 1e12") != NULL,
           "an instance at no place");
-    geo.n_instances = geo.n_quadrics = 1 << 29;
+    geo.n_instances = 1 << 29;
+    geo.n_quadrics = 1 << 28;
     CHECK(t, !shape_add_instance(&geo, 0, &far, &err) && strstr(err.text, "2^29 instances") != NULL,
           "too many instances");
     CHECK(t, shape_add_quadric(&geo, geo.quadric[0], group_of(0, -1), false, &err) < 0 &&
-             strstr(err.text, "2^29 quadrics") != NULL, "too many quadrics");
+             strstr(err.text, "2^28 quadrics") != NULL, "too many quadrics");
     geometry_free(&geo);
 }
 
@@ -165,7 +166,8 @@ static void check_surfaces(struct test *t, struct rng *r)
                 store3(N, k, add(vec(0, 0, 2), in_cube(r)));
                 store3(S, k, add(vec(2, 0, 0), in_cube(r)));
             }
-            struct mesh m = {P, i % 5 < 2 ? N : NULL, UV, index, 3, 1, 0, 0, 0, i % 5 < 1 ? S : NULL};
+            struct mesh m = {.P = P, .N = i % 5 < 2 ? N : NULL, .UV = UV, .index = index, .n_vertices = 3, .n_triangles = 1,
+                             .S = i % 5 < 1 ? S : NULL};
             CHECK(t,
                   shape_add_mesh(&shared, &m, &own, group_of(0, -1), reverse, &err) == 0 &&
                       shape_add_mesh(&copied, &m, &both, group_of(0, -1), reverse, &err) == 0,

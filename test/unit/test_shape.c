@@ -23,8 +23,8 @@ static uint32_t corner_index[] = {0, 1, 2};
 static int add_triangle(struct test *t, struct geometry *geo, bool with_n, bool with_uv, struct transform to_world,
                         bool reverse)
 {
-    struct mesh m = {corner, with_n ? corner_normal : NULL, with_uv ? corner_uv : NULL, corner_index, 3, 1, 0, 0, 0,
-                     NULL};
+    struct mesh m = {.P = corner, .N = with_n ? corner_normal : NULL, .UV = with_uv ? corner_uv : NULL,
+                     .index = corner_index, .n_vertices = 3, .n_triangles = 1};
     struct error err = {.text = ""};
     int group = shape_add_mesh(geo, &m, &to_world, group_of(7, 40), reverse, &err);
     CHECK(t, group == geo->n_groups - 1, "%s", err.text);
@@ -254,7 +254,7 @@ static void check_refused(struct test *t)
     for (size_t i = 0; i < sizeof q / sizeof q[0]; i++)
         CHECK(t, shape_add_quadric(&geo, q[i], group_of(0, -1), false, &err) == -1 && geo.n_quadrics == 0 &&
                      strstr(err.text, "places go up to 1e12") != NULL, "quadric %d: \"%s\"", (int)i, err.text);
-    struct mesh m = {corner, NULL, NULL, corner_index, 3, 1, 0, 0, 0, NULL};
+    struct mesh m = {.P = corner, .N = NULL, .UV = NULL, .index = corner_index, .n_vertices = 3, .n_triangles = 1};
     struct transform far = transform_translate(vec(1e30, 0, 0));
     CHECK(t, shape_add_mesh(&geo, &m, &far, group_of(0, -1), false, &err) == -1 && geo.n_triangles == 0 &&
                  geo.n_groups == 0 && strstr(err.text, "vertex 0") != NULL, "a vertex at 1e30: %s", err.text);

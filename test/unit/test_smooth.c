@@ -27,7 +27,8 @@ static void check_vertex_normals(struct test *t, struct rng *r)
         vec3 n[3];
         for (int k = 0; k < 9; k++)
             normal[k] = corner_normal[k] * (float)(k / 3 + 1);
-        struct mesh mesh = {corner, normal, corner_uv, corner_index, 3, 1, 0, 0, 0, NULL};
+        struct mesh mesh = {.P = corner, .N = normal, .UV = corner_uv, .index = corner_index, .n_vertices = 3,
+                            .n_triangles = 1};
         CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), false, &err) == 0, "%s", err.text);
         for (size_t k = 0; k < 3; k++)
             n[k] = load3(normal, k);
@@ -59,7 +60,8 @@ static void check_vertex_tangents(struct test *t, struct rng *r)
             store3(tangent, (size_t)k, v);
             s[k] = load3(tangent, (size_t)k);
         }
-        struct mesh mesh = {corner, i % 2 ? corner_normal : NULL, corner_uv, corner_index, 3, 1, 0, 0, 0, NULL};
+        struct mesh mesh = {.P = corner, .N = i % 2 ? corner_normal : NULL, .UV = corner_uv, .index = corner_index,
+                            .n_vertices = 3, .n_triangles = 1};
         CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), i % 3 == 0, &err) == 0, "%s", err.text);
         mesh.S = tangent;
         CHECK(t, shape_add_mesh(&geo, &mesh, &m, group_of(7, 40), i % 3 == 0, &err) == 1, "%s", err.text);
@@ -85,7 +87,8 @@ static void check_degenerate_uv(struct test *t)
     struct geometry geo = {0};
     struct transform id = transform_identity();
     float same[] = {0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f};
-    struct mesh m = {corner, corner_normal, same, corner_index, 3, 1, 0, 0, 0, NULL};
+    struct mesh m = {.P = corner, .N = corner_normal, .UV = same, .index = corner_index, .n_vertices = 3,
+                     .n_triangles = 1};
     for (int i = 0; i < 2; i++, m.N = NULL) {
         shape_add_mesh(&geo, &m, &id, group_of(0, -1), false, NULL);
         struct surface at = surface_at(&geo, i, 0.3, 0.3);

@@ -32,7 +32,7 @@ struct caustics {
 
 static void find_middles(const struct geometry *geo, struct caster *caster)
 {
-    for (int i = 0; i < geometry_primitives(geo); i++) {
+    for (int i = 0; i < geo->n_triangles + geo->n_quadrics; i++) {
         int prim = i < geo->n_triangles ? i : FIRST_QUADRIC + (i - geo->n_triangles);
         struct caster *c = &caster[shape_group_of(geo, prim) - geo->group];
         float lo[3], hi[3];
@@ -53,7 +53,7 @@ static double classify(const struct scene *scene, struct arena *arena, const str
     struct surface at;
     struct bsdf bsdf;
     double reflects = 0;
-    if (group->material < 0 || group->shared)
+    if (group->material < 0 || group->shared || group->first_prim >= FIRST_CURVE) /* curves cast no chains */
         return 0;
     shape_surface(&scene->geo, &hit, &ray, &at);
     c->curved = length2(specular_normal_change(&scene->geo, &at, frame_from_normal(at.ng).s)) > 0;

@@ -99,8 +99,8 @@ bool specular_trace(const struct quest *q, vec3 w, struct specular_chain *c)
         struct surface at;
         if (!scene_intersect(q->scene, &ray, &at) || at.material < 0 || dot(at.ng, c->d) == 0)
             return false;
-        if (q->scene->geo.group[specular_group(q->scene, &at)].shared) /* its normals are in another space */
-            return false;
+        if (q->scene->geo.group[specular_group(q->scene, &at)].shared || shape_prim(at.prim_id) >= FIRST_CURVE)
+            return false; /* the normals of the former are in another space */
         if (q->group >= 0 && specular_group(q->scene, &at) != q->group)
             return false;
         transfer(c, &at);
