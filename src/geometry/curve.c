@@ -139,10 +139,12 @@ static struct row row_at(const struct curves *all, const struct curve *c, int i)
     return row;
 }
 
+#define SQRT_HALF 0.70710678118654752440
+
 /* The direction from a row's middle to its point j, and the normal there, both in object space. */
 static vec3 point_direction(bool ribbon, const struct row *row, int j, vec3 *normal)
 {
-    static const double H = 0.70710678118654752440, COSINE[CURVE_SIDES] = {1, H, 0, -H, -1, -H, 0, H};
+    static const double COSINE[CURVE_SIDES] = {1, SQRT_HALF, 0, -SQRT_HALF, -1, -SQRT_HALF, 0, SQRT_HALF};
     if (ribbon) {
         *normal = row->x;
         return mul(row->y, 2 * j - 1);
