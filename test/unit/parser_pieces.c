@@ -55,6 +55,24 @@ static void check_spectrum_files(struct test *t)
     }
 }
 
+/* A line ends in LF, CR LF or CR, and counts once; a comment ends with it. */
+static void check_line_ends(struct test *t)
+{
+    static const char *const END[] = {"\n", "\r\n", "\r"};
+    for (int i = 0; i < 3; i++) {
+        char text[64];
+        struct arena arena = {NULL, NULL};
+        struct messages messages = {0};
+        snprintf(text, sizeof text, "1%s# 7%s%s2", END[i], END[i], END[i]);
+        struct source_file file = {"lines", text, text + strlen(text), false};
+        struct lexer l = {.arena = &arena, .messages = &messages};
+        double number[2] = {0, 0};
+        lexer_enter(&l, &file);
+        bool ok = lexer_number(&l, &number[0]) && lexer_number(&l, &number[1]);
+        CHECK(t, ok && number[1] == 2 && l.line == 4, "ends of kind %d: %g in line %d", i, number[1], l.line);
+    }
+}
+
 /* One number through the lexer. */
 static bool lex_number(const char *text, double *out)
 {
@@ -154,6 +172,7 @@ void check_parser_pieces(struct test *t)
     check_symbols(t);
     check_numbers(t);
     check_spectrum_files(t);
+    check_line_ends(t);
     check_spectra(t);
     check_cleaning(t);
     check_odd_bytes(t);
