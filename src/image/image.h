@@ -155,8 +155,8 @@ void png_write(FILE *f, const struct raster *r);
  * pixels are refused. */
 bool tga_read(const uint8_t *data, size_t size, const struct budget *memory, struct image *out, struct error *err);
 
-/* OpenEXR files [OpenEXR]. Read: one part in rows or tiles, channels of halfs, floats and integers, uncompressed or by ZIPS, ZIP
- * or PIZ; as pbrt-v3 does, the data window as the picture, of the channels R, G, B (also r, g, b; a missing one
+/* OpenEXR files [OpenEXR]. Read: one part in rows or tiles, channels of halfs, floats and integers, uncompressed or by
+ * ZIPS, ZIP or PIZ; as pbrt-v3 does, the data window as the picture, of the channels R, G, B (also r, g, b; a missing one
  * is 0), or Y alone as grey. Other compressions, several parts, deep pictures and subsampled channels are
  * refused. Written: R, G, B and all other channels as halfs, where what is finite and beyond 65504 becomes that, or as
  * floats, exactly; ZIP; as pbrt-v3 does, the picture as the data window and the whole as the display window. */

@@ -44,7 +44,8 @@ int plan_seeds(const struct plan *p, int method) { return method < p->n_compared
 uint64_t plan_seed(const struct plan *p, int method, int i)
 {
     const char *text = p->methods.item[method].text;
-    return 1000000000 * p->seed + 1000 * (uint64_t)(checksum_crc32(0, (const uint8_t *)text, strlen(text)) % 999983) + (uint64_t)i;
+    uint64_t number = checksum_crc32(0, (const uint8_t *)text, strlen(text)) % 999983;
+    return 1000000000 * p->seed + 1000 * number + (uint64_t)i; /* no two sets have a seed in common */
 }
 
 bool plan_create(const struct plan *p, const char *name, struct file_output *out, struct error *err)

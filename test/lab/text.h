@@ -1,6 +1,6 @@
 /* text.h: a text made of pieces, in memory of a fixed size.
  *
- * Tests: test_files.c.
+ * Tests: test/run/lab.sh.
  */
 #ifndef ASBDPT_LAB_TEXT_H
 #define ASBDPT_LAB_TEXT_H
