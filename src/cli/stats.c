@@ -60,7 +60,6 @@ static void put_parameters(FILE *f, const struct job *job)
 {
     const struct method *m = job->options.integrator;
     fprintf(f, ",\n\"parameters\": {\n\"maxdepth\": %d", job->state.max_depth);
-    put_text(f, "heuristic", job->state.power_heuristic ? "power" : "balance");
     put_number(f, "rrthreshold", job->state.rr_threshold);
     put_text(f, "lightsamplestrategy", LIGHT_STRATEGIES[job->state.strategy]);
     if (m->select != NULL)

@@ -16,7 +16,6 @@ void method_counts(const struct render_job *job, struct prepared *p, bool credit
     double M = BOUND * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
     p->counts = counts_of(p->numbers, credits && q->credits ? DIRECT_CREDIT : 1, q->credits ? PAIR_CREDIT : 1,
                           (double)rect_pixels(job->film_rect), p->tables);
-    p->counts.power = job->power_heuristic;
     for (int end = 0; end < EYE_ENDS; end++) {
         p->counts.pair[end] *= p->draw[end];
         p->counts.again[end] = q->bound ? p->counts.pair[end] / M : 0;

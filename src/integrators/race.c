@@ -276,7 +276,6 @@ static struct prepared prepare_turn(const struct prepared *p, enum turn turn)
         q.numbers = (struct numbers)NUMBERS_OF_PT;
         q.counts = counts_of(q.numbers, 1, 1, 0, &NO_TABLES);
     }
-    q.counts.power = false; /* S is a sum */
     if (turn == HALF_SPLATS)
         q.counts.lens /= 2;
     else if (turn > FIRST)

@@ -66,18 +66,16 @@ const struct method *method_find(const char *name, const struct settings *s, str
 
 /* What all integrators have. */
 struct common {
-    int max_depth, heuristic, strategy;
+    int max_depth, strategy;
     double rr_threshold;
 };
 enum { DEFAULT_MAX_DEPTH = 5 }; /* pbrt-v3's */
-static const char *const HEURISTICS[] = {"balance", "power", NULL};
 const char *const LIGHT_STRATEGIES[] = {"spatial", "power", "uniform", NULL};
 
 #define AT(member) offsetof(struct common, member)
 static const struct field COMMON[] = {
     {"maxdepth", FIELD_INTEGER, AT(max_depth), DEFAULT_MAX_DEPTH, 0, PATH_MAX_DEPTH,
      "longest path, in edges minus one", NULL},
-    {"heuristic", FIELD_WORD, AT(heuristic), 0, 0, 0, "heuristic of the weights: balance or power", HEURISTICS},
     {"rrthreshold", FIELD_NUMBER, AT(rr_threshold), DEFAULT_RR_THRESHOLD, 0, 1e6,
      "relative throughput below which Russian roulette begins, 0: never; for bins 0", NULL},
     {"lightsamplestrategy", FIELD_WORD, AT(strategy), 0, 0, 0,
@@ -215,7 +213,7 @@ bool job_settle(const struct scene *scene, const struct render_options *options,
     o->max_depth = o->max_depth > 0 ? o->max_depth : c.max_depth;
     out->state = (struct render_job){
         .scene = scene, .film_rect = render_crop(scene), .seed = o->seed, .eye_seed = o->seed,
-        .n_threads = o->n_threads, .max_depth = o->max_depth, .power_heuristic = c.heuristic == 1,
+        .n_threads = o->n_threads, .max_depth = o->max_depth,
         .strategy = (enum light_strategy)c.strategy,
         .rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold};
     return true;

@@ -22,17 +22,16 @@ static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, en
 /* Media between vertex a and a point on primitive `to`, at a distance in direction w. Their transmittance is a factor
  * of c's value. The densities of the passage are factors of the densities of both ends, and so of the sums (5) of
  * mis.h. */
-static inline void pass_media(const struct scene *scene, const struct counts *counts, const struct vertex *a,
-                              vec3 w, double distance, uint64_t to, struct connection *c, double *side_a,
-                              double *side_b)
+static inline void pass_media(const struct scene *scene, const struct vertex *a, vec3 w, double distance, uint64_t to,
+                              struct connection *c, double *side_a, double *side_b)
 {
     if (scene->media.n == 0)
         return;
     const struct ray ray = {a->p, w, 0, distance, a->prim_id, to};
     struct passage way = medium_pass(&scene->media, &ray, a->ng, a->medium);
     c->value = rgb_mul(c->value, way.left);
-    *side_a *= mis_raise(counts, way.density[0]);
-    *side_b *= mis_raise(counts, way.density[1]);
+    *side_a *= way.density[0];
+    *side_b *= way.density[1];
 }
 
 struct connection connect_hit(const struct scene *scene, const struct counts *counts, const struct vertex *prev,
@@ -55,8 +54,8 @@ struct connection connect_hit(const struct scene *scene, const struct counts *co
     /* density of the direction of the light sub-path's first ray; at infinity, of its origin */
     const vec3 start = z->kind == VERTEX_ESCAPED ? prev->p : z->p;
     double pdf_emit = emission_pdf(&counts->tables->emission, lights, &at, start, z->wo);
-    double eye_side = mis_side(counts, z->pdf_origin, z->pdf_fwd, c_e, pdf_emit, z->mis); /* mis.h (5) */
-    c.weight = mis_weight(counts, counts->hit[prev->eye_end], 0, eye_side); /* mis.h (7), A_light being 0 */
+    double eye_side = mis_side(z->pdf_origin, z->pdf_fwd, c_e, pdf_emit, z->mis); /* mis.h (5) */
+    c.weight = mis_weight(counts->hit[prev->eye_end], 0, eye_side); /* mis.h (7), A_light being 0 */
     return c;
 }
 
@@ -117,14 +116,14 @@ struct connection connect_lit(const struct scene *scene, const struct counts *co
         return (struct connection){.light = -1};
     double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
     /* mis.h (5); the light side has the strategy s = 0 alone */
-    double light = mis_side(counts, l->pdf_z * l->at_light, at->pdf, hit, 0, 0);
+    double light = mis_side(l->pdf_z * l->at_light, at->pdf, hit, 0, 0);
     double pdf_emit = emission_pdf(&counts->tables->emission, lights, at, z->p, neg(l->w));
     double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
-    double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
+    double eye = mis_side(pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
     double count = n_direct(counts, z->region, z->eye_end, at->cell);
     struct connection c = {.value = l->value, .light = at->light};
-    pass_media(scene, counts, z, l->w, l->distance, at->prim_id, &c, &eye, &light);
-    c.weight = mis_weight(counts, count, light, eye); /* mis.h (7) */
+    pass_media(scene, z, l->w, l->distance, at->prim_id, &c, &eye, &light);
+    c.weight = mis_weight(count, light, eye); /* mis.h (7) */
     return c;
 }
 
@@ -169,12 +168,12 @@ struct connection connect_joint(const struct scene *scene, const struct counts *
     if (rgb_is_black(j->value) || !scene_visible(scene, z->p, z->prim_id, y->p, y->prim_id))
         return c;
     /* mis.h (5), of both sides */
-    double light = mis_side(counts, j->pdf_z * j->area_y, y->pdf_fwd, y->mis_c, j->pdf_rev_y, y->mis);
-    double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
+    double light = mis_side(j->pdf_z * j->area_y, y->pdf_fwd, y->mis_c, j->pdf_rev_y, y->mis);
+    double eye = mis_side(j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
     c.value = j->value;
     double n = n_pair(counts, z->region, z->eye_end, y->region);
-    pass_media(scene, counts, z, j->w, j->length, y->prim_id, &c, &eye, &light);
-    c.weight = mis_weight(counts, n, light, eye); /* mis.h (7) */
+    pass_media(scene, z, j->w, j->length, y->prim_id, &c, &eye, &light);
+    c.weight = mis_weight(n, light, eye); /* mis.h (7) */
     return c;
 }
 
@@ -217,9 +216,9 @@ struct connection connect_lens(const struct scene *scene, const struct counts *c
     double c_e = c_light(counts, &light[s - 2], y, FIRST_HIT);
     double mis = y->mis, eye_side = 0;
     if (s == 2 && !light_is_delta(&scene->lights.light[light[0].light]))
-        mis = mis_step(counts, counts->hit[FIRST_HIT], 0, 0, light[0].pdf_fwd, y->back);
-    double light_side = mis_side(counts, density * vertex_cosine(y, w), y->pdf_fwd, c_e, at_y.pdf_rev, mis);
-    pass_media(scene, counts, y, neg(w), distance, 0, &c, &light_side, &eye_side);
-    c.weight = mis_weight(counts, counts->lens, light_side, eye_side); /* mis.h (7) */
+        mis = mis_step(counts->hit[FIRST_HIT], 0, 0, light[0].pdf_fwd, y->back);
+    double light_side = mis_side(density * vertex_cosine(y, w), y->pdf_fwd, c_e, at_y.pdf_rev, mis);
+    pass_media(scene, y, neg(w), distance, 0, &c, &light_side, &eye_side);
+    c.weight = mis_weight(counts->lens, light_side, eye_side); /* mis.h (7) */
     return c;
 }

@@ -57,7 +57,6 @@ struct counts {
     double pair[EYE_ENDS];   /* times the ratio of tables->pairs: x */
     double lens;             /* light sub-paths, those of all pixels of the film */
     const struct tables *tables;
-    bool power;              /* power heuristic instead of the balance heuristic */
     double again[EYE_ENDS];  /* times the ratio of tables->pairs: x / M; 0: no bound */
 };
 

@@ -38,40 +38,32 @@
  * For s, t >= 2 and n = 1 dVCM is 1/F_e, and after a delta lobe 0. At e = 1 its numerator is the number of light
  * sub-paths (c_1 of the eye side) or the ratio of the two densities of y_0 (c_1 of the light side).
  *
- * The power heuristic with exponent 2 squares every factor.                                           [V97 9.2.3]
- *
  * Tests: test_mis.c compares the weights with all p_i, computed one by one.
  */
 #ifndef ASBDPT_MIS_H
 #define ASBDPT_MIS_H
-
-#include "transport/counts.h"
-
-/* mis_raise: a density or count to the power of the heuristic. */
-static inline double mis_raise(const struct counts *m, double x) { return m->power ? x * x : x; }
 
 /* mis_step: (6), from vertex e to e+1.
  *   c        c_e, or 0 if the walk left e by a delta lobe
  *   pdf_rev  1/sr, of continuing from e to e-1
  *   mis, F   of vertex e
  *   g        1/m^2: turns a density per steradian at e+1 into one per area at e */
-static inline double mis_step(const struct counts *m, double c, double pdf_rev, double mis, double F, double g)
+static inline double mis_step(double c, double pdf_rev, double mis, double F, double g)
 {
-    return mis_raise(m, g) * (mis_raise(m, c) + mis_raise(m, pdf_rev) * mis) / mis_raise(m, F);
+    return g * (c + pdf_rev * mis) / F;
 }
 
 /* mis_side: (5): A_e, the sum over the strategies of one side, relative to one sample of strategy s.
  *   R        density of vertex e in the other walk, same measure as F */
-static inline double mis_side(const struct counts *m, double R, double F, double c, double pdf_rev, double mis)
+static inline double mis_side(double R, double F, double c, double pdf_rev, double mis)
 {
-    return mis_raise(m, R) / mis_raise(m, F) * (mis_raise(m, c) + mis_raise(m, pdf_rev) * mis);
+    return R / F * (c + pdf_rev * mis);
 }
 
 /* mis_weight: (7): w_s from the sums of the two sides and the strategy's own count n. */
-static inline double mis_weight(const struct counts *m, double n, double light_side, double eye_side)
+static inline double mis_weight(double n, double light_side, double eye_side)
 {
-    double own = mis_raise(m, n);
-    return own / (own + light_side + eye_side);
+    return n / (n + light_side + eye_side);
 }
 
 #endif

@@ -29,7 +29,7 @@ void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *p
     double spread = prev->kind == VERTEX_LENS ? camera_spread(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
     v->back = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * spread;
     v->pdf_fwd = from->pdf * vertex_cosine(v, from->ray.d) * spread;
-    v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, v->back);
+    v->mis = mis_step(from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, v->back);
 }
 
 /* The same with the factors of media on the edge. */
@@ -40,7 +40,7 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
     if (w->scene->media.n > 0) {
         v->back *= from->way->density[0];
         v->pdf_fwd *= from->way->density[1];
-        v->mis *= mis_raise(w->counts, from->way->density[0]);
+        v->mis *= from->way->density[0];
         v->medium = from->way->medium;
     }
 }

@@ -22,7 +22,6 @@ struct render_job {
     uint64_t eye_seed; /* of eye sub-paths; equal to `seed` except in measurements */
     int max_depth;
     int n_threads;
-    bool power_heuristic;
     double rr_threshold; /* of Russian roulette, see path.h */
     enum light_strategy strategy;
     /* A method calls this from time to time while it prepares, one call at a time, with the number of sub-paths that it

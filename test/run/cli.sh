@@ -42,8 +42,8 @@ refuse 'no integrator asbdtp; known are: pt lt bdpt asbdpt; did you mean "asbdpt
     render "$box" --integrator asbdtp
 refuse 'there is no help on integrator; did you mean "integrators"[?] try asbdpt --help$' help integrator
 refuse '[-]-filter gausian: known are .*; did you mean "gaussian"[?]$' render "$box" --filter gausian
-refuse 'heuristic = "powr" is unknown: give "balance" or "power"; did you mean "power"[?]$' \
-    render "$box" -P heuristic=powr
+refuse 'lightsamplestrategy = "powr" is unknown: give "spatial", "power" or "uniform"; did you mean "power"[?]$' \
+    render "$box" -P lightsamplestrategy=powr
 # A file that is called like an option is not taken for one: what is wrong with it is no wrong usage.
 expect 1 '^asbdpt: --x' "$program" render "$box" $small -o--x/y.png
 # One meaning of --res everywhere: a width keeps the film's shape.

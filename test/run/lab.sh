@@ -19,7 +19,7 @@ check grep -q 'equal-time --spp 1 .* --seed 7 --res 8x8' names/report.html
 cp names/runs.csv seven.csv
 expect 0 '' "$lab" equal-time e*.pbrt plain.pbrt $tiny -o others
 check [ "$(cut -d , -f 8 seven.csv)" != "$(cut -d , -f 8 others/runs.csv)" ] # errors
-long=$(i=0 && while [ $i -lt 48 ]; do printf 'asbdpt:select=bins:binpaths=16:maxage=%d:restart=0:rrthreshold=0.125:order=printed:heuristic=balance,' $i && i=$((i + 1)); done)
+long=$(i=0 && while [ $i -lt 48 ]; do printf 'asbdpt:select=bins:binpaths=16:maxage=%d:restart=0:rrthreshold=0.125:order=printed:lightsamplestrategy=power,' $i && i=$((i + 1)); done)
 expect 2 'longer than a report can repeat' "$lab" equal-time plain.pbrt $tiny --methods "${long}pt" -o long
 name=$(printf '%0200d' 0)
 cp plain.pbrt "$name.pbrt"

@@ -252,8 +252,6 @@ bool oracle_weights(const struct scene *scene, const struct counts *counts, cons
         p[i] = samples(&f, i);
         for (int j = 0; j < f.n && p[i] > 0; j++)
             p[i] *= j < i ? light_density(&f, j) : eye_density(&f, j);
-        if (counts->power)
-            p[i] *= p[i];
         sum += p[i];
     }
     for (int i = 0; i < f.n; i++)

@@ -95,8 +95,7 @@ static void begin(struct writer *w, const struct view *v, int max_depth)
 {
     film(w, v->fov < 1);
     put(w, "Sampler \"halton\" \"integer pixelsamples\" 4 Accelerator \"bvh\"\n");
-    put(w, "Integrator \"bdpt\" \"integer maxdepth\" %d \"string heuristic\" \"%s\"\n", max_depth,
-        chance(w, 0.5) ? "power" : "balance");
+    put(w, "Integrator \"bdpt\" \"integer maxdepth\" %d\n", max_depth);
     if (w->media)
         put_media(w, v->unit);
     camera(w, v);

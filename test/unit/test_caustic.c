@@ -166,7 +166,7 @@ static const struct agreement PARTITION[] = {
     {"scenes/test/caustic-bulb", 12, 8, 4, "bdpt", "caustics with=pt longest=2", 64, 64, 12, 4, true, 0.15},
     {"scenes/test/caustic-diver", 12, 8, 4, "lt", "caustics with=asbdpt longest=1", 32, 32, 12, 4, false, 0.15},
     {"scenes/test/mirror-glass", 12, 8, 4, "bdpt", "caustics with=pt longest=2", 24, 24, 12, 4, true, 0.15},
-    {"scenes/test/mirror-glass", 12, 8, 4, "bdpt", "caustics with=bdpt longest=2 heuristic=power", 16, 16, 12, 4, true,
+    {"scenes/test/mirror-glass", 12, 8, 4, "bdpt", "caustics with=bdpt longest=2", 16, 16, 12, 4, true,
      0.15}};
 
 /* --- any receiver -------------------------------------------------------------------------------------- */
@@ -253,7 +253,7 @@ static void test_receivers(struct test *t)
         vec3 eye = scene.camera.position;
         struct one_more *extra = caustics_new(&scene, 1);
         const struct counts counts = {.hit = {1, 1}, .direct = {1, 1}, .pair = {1, 1}, .lens = 640 * 480,
-                                      .tables = &NO_TABLES, .power = i % 4 > 1};
+                                      .tables = &NO_TABLES};
         const struct render_job job = {.scene = &scene, .max_depth = 5};
         const struct tile_pass pass = {.job = &job, .work = &work};
         struct sample sample = {.pass = &pass, .counts = &counts};

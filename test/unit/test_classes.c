@@ -103,7 +103,6 @@ struct subject {
     struct scene scene;
     double share;
     int spp;                      /* of a batch at the first stage */
-    bool power;                   /* heuristic, for balance */
     struct batches right[STAGES]; /* by bdpt, as far as it is known */
 };
 
@@ -113,7 +112,6 @@ static struct batches render(struct subject *s, const char *way, int stage)
     for (const char *c = way; *c != '\0'; c++)
         seed = hash_combine(seed, (uint64_t)*c);
     const char *integrator = set_method(&s->scene, way);
-    settings_set(&s->scene.settings, "heuristic", s->power ? "power" : "balance", "test");
     return render_batches(s->all->t, &s->scene, integrator, s->made.max_depth, s->spp * (int)pow(10, stage), BATCHES,
                           SIZE, seed);
 }
@@ -143,8 +141,8 @@ static void compare(struct subject *s, const char *way)
         batches_free(&x);
     }
     char what[256];
-    snprintf(what, sizeof what, "class %llu (%s %s %s), %s%s: %.4f of bdpt's light", (unsigned long long)s->number,
-             s->made.light, s->made.word, s->made.camera, way, s->power ? ", power" : "", ratio);
+    snprintf(what, sizeof what, "class %llu (%s %s %s), %s: %.4f of bdpt's light", (unsigned long long)s->number,
+             s->made.light, s->made.word, s->made.camera, way, ratio);
     if (p < BEYOND_DOUBT)
         TEST_ACCEPT(all->t, p, "%s", what);
     if (all->n++ == 0 || p < all->least) {
@@ -193,7 +191,6 @@ static void compare_all(struct subject *s)
 {
     struct rng r = rng_stream(s->number, RNG_TEST, 11, 0);
     const char *word = s->made.word;
-    s->power = rng_below(&r, 4) == 0;
     struct batches x = render(s, "bdpt rrthreshold=0", 0);
     batches_scale(&x, 1 - s->share);
     TEST_REJECT(s->all->t, differ_p(&x, right(s, 0)), "class %llu: %s is missing", (unsigned long long)s->number, word);

@@ -1,8 +1,8 @@
 /* test_random.c: random scenes (random_scene.h): all methods have the same expectation, and the known value where
  * there is one.
  *
- * bdpt is compared with one other method and some of its parameters, drawn from the number as the heuristic and the
- * gate are, each by itself; with pt where no delta light could be behind a specular surface, and with lt where no
+ * bdpt is compared with one other method and some of its parameters, drawn from the number as the gate is,
+ * by itself; with pt where no delta light could be behind a specular surface, and with lt where no
  * specular surface is.
  * Renders are made in independent batches; Welch's test compares the means of the picture and of its tiles. Where light
  * is found rarely such p-values are too small (doc/evidence.md), so the comparison goes by stages: if p is below CUTOFF
@@ -31,7 +31,7 @@
 enum { BATCHES = 8, TILE = 6, STAGES = 3 };
 static const double CUTOFF = 0.01, BEYOND_DOUBT = 1e-15;
 
-/* A method's name, and all that set_method wants, but for the heuristic. */
+/* A method's name, and all that set_method wants. */
 struct way {
     char name[64], text[128];
 };
@@ -86,7 +86,6 @@ struct subject {
     struct scene scene;
     uint64_t number;
     double samples; /* of a render at the first stage */
-    bool power;     /* heuristic, for balance */
     struct gate gate; /* its end 0: all light */
 };
 
@@ -100,7 +99,6 @@ static struct batches render(struct subject *s, const struct way *m, int stage)
     for (const char *c = m->text; *c != '\0'; c++)
         seed = hash_combine(seed, (uint64_t)*c);
     const char *integrator = set_method(&s->scene, m->text);
-    settings_set(&s->scene.settings, "heuristic", s->power ? "power" : "balance", "test");
     return render_gated(s->t, &s->scene, integrator, s->made.max_depth, s->gate, spp, BATCHES, TILE, seed);
 }
 
@@ -191,8 +189,8 @@ static void compare(struct subject *s, const struct way *a, const struct way *b)
             break;
     }
     char what[400];
-    snprintf(what, sizeof what, "%s against %s%s, gate %g:%g:", a->text, b != NULL ? b->text : "the truth",
-             s->power ? ", power" : "", s->gate.begin, s->gate.end);
+    snprintf(what, sizeof what, "%s against %s, gate %g:%g:", a->text, b != NULL ? b->text : "the truth",
+             s->gate.begin, s->gate.end);
     report(s, p, what, found, expected);
 }
 
@@ -252,7 +250,6 @@ static void look_at(struct subject *s)
 {
     struct rng r = rng_stream(s->number, RNG_TEST, 8, 0);
     struct way other = draw_other(&r, s->made.media);
-    s->power = rng_below(&r, 2) == 0;
     bool pt = !(s->made.delta_light && (s->made.specular || s->made.fog));
     bool lt = !s->made.specular && !s->made.one_ray && !s->made.fog;
     if (s->made.known && pt)

@@ -41,7 +41,7 @@ static const char LAMP[] =
 #define EVERY                                                                                                          \
     "mbdpt, mbdpt matrix=pixel pathpixels=1, pcbdpt connections=2, ris, ris subpaths=20 records=.01,"                  \
     "ris2 presampled=20 records=.01, spcbpt,"                                                                          \
-    "spcbpt heuristic=power guide=on, restir neighbours=20"
+    "spcbpt guide=on, restir neighbours=20"
 #define SHARED "restirgi, restirgi neighbours=20, ppg cell=100 combine=off"
 static const struct agreement EXPECTATIONS[] = {
     {"doc/mini/rooms", 3, 3, 4, "bdpt",
@@ -59,7 +59,7 @@ static const struct agreement EXPECTATIONS[] = {
     {"scenes/test/mirror-glass", 24, 24, 4, "pt", SHARED, 16, 16, 12, 12, true, 0.2},
     {"scenes/test/all-materials", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0.2},
     {SLOPE, 0, 0, 4, "pt", "restirgi neighbours=8", 1024, 1024, 16, 1, false, 0.1},
-    {LAMP, 0, 0, 4, "pt", "ppg cell=50, ppg cell=1000 heuristic=power", 16, 16, 16, 32, false, 0.15}};
+    {LAMP, 0, 0, 4, "pt", "ppg cell=50, ppg cell=1000", 16, 16, 16, 32, false, 0.15}};
 enum { N_EXPECTATIONS = sizeof EXPECTATIONS / sizeof EXPECTATIONS[0] };
 
 /* All methods that can have credits, with all services that they can have (lab/methods.h), and with each alone. */
@@ -105,7 +105,7 @@ static const struct agreement THREE_PIXELS = {"doc/mini/rooms", 3, 1, 4, "bdpt",
 static const struct agreement ROOMS = {
     "doc/mini/rooms", 16, 16, 4, "bdpt",
     "pcbdpt records=.02, ris records=.02 subpaths=30, ris2 records=.02 presampled=30, spcbpt, restir neighbours=20,"
-    "restirgi neighbours=20 heuristic=power, ppg cell=300 combine=off", 8, 8, 16, 8, true, 0};
+    "restirgi neighbours=20, ppg cell=300 combine=off", 8, 8, 16, 8, true, 0};
 
 /* The bias of pathgraph falls with the radius: it is seen where vertices share across half a room, and not with the
  * same samples where they share nearby. */
@@ -150,7 +150,7 @@ static void test_furnace(struct test *t, int more)
         int depth;
         double light;
     } cases[] = {{CORNER, "pathgraph radius=1 cluster=64 iterations=0", 30, 1},
-                 {CORNER, "pathgraph radius=.1 iterations=20 heuristic=power", 30, 1},
+                 {CORNER, "pathgraph radius=.1 iterations=20", 30, 1},
                  {CORNER, "restirgi neighbours=20 rrthreshold=1.5", 30, 1},
                  {SHINING, "vcm radius=.05 alpha=1", 5, 2 - 1 / 32.0}}; /* 1 + 1/2 + ... */
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
@@ -239,8 +239,7 @@ static void test_limits(struct test *t)
         {"white", SIDE, 4, "pathgraph radius=.02", "pt guide=off", "pathgraph radius=1", 0.1},
         {"all-materials", SIDE, 4, "pathgraph iterations=4", "pathgraph", "pathgraph iterations=3", 0},
         {"all-materials", SIDE, 4, "pathgraph cluster=1", "pathgraph cluster=1 iterations=0", "pathgraph", 1e-6},
-        {"light-kinds", SIDE, 6, "pathgraph cluster=1 heuristic=power", "pt guide=off heuristic=power", "pt guide=off",
-         1e-6},
+        {"light-kinds", SIDE, 6, "pathgraph cluster=1", "pt guide=off", "pathgraph radius=.2", 1e-6},
         {"all-materials", SIDE, 4, "pathgraph radius=1e-6", "pt guide=off", "pathgraph radius=.2", 1e-6},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {

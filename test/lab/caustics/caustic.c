@@ -176,10 +176,10 @@ static struct makers makers_of(const struct counts *n, const struct quest *q, co
     return m;
 }
 
-static double share(const struct counts *n, double own, struct makers m)
+static double share(double own, struct makers m)
 {
-    double all = mis_raise(n, m.connect) + mis_raise(n, m.hit) + mis_raise(n, m.splat);
-    return all > 0 ? mis_raise(n, own) / all : 0;
+    double all = m.connect + m.hit + m.splat;
+    return all > 0 ? own / all : 0;
 }
 
 static struct connection contribution(const struct counts *counts, const struct quest *q,
@@ -200,7 +200,7 @@ static struct connection contribution(const struct counts *counts, const struct 
                     : scene_lit(scene, c->p, c->prim_id, y->p, y->prim_id))
         out.value = value;
     struct makers m = makers_of(counts, q, c, (struct arrival){z->wo, pdf});
-    out.weight = share(counts, m.connect, m);
+    out.weight = share(m.connect, m);
     return out;
 }
 
@@ -275,7 +275,7 @@ static void weigh_hit(const struct caustics *all, const struct sample *sample, c
     y.pdf = end->pdf_origin;
     struct arrival at = {z->wo, z == first ? z->pdf_fwd : 0};
     if (z->kind == VERTEX_SURFACE && z->eye_end == FIRST_HIT && in_psi(all, sample, z, 1, k, &y, at, &m))
-        *weight = share(sample->counts, m.hit, m);
+        *weight = share(m.hit, m);
 }
 
 static void weigh_lens(const struct caustics *all, const struct sample *sample, const struct joined *j, vec3 lens,
@@ -293,7 +293,7 @@ static void weigh_lens(const struct caustics *all, const struct sample *sample, 
         if (!light[i].prev_delta)
             return;
     if (in_psi(all, sample, z, -1, j->s - 2, &y, (struct arrival){neg(w), pdf * abs_dot(z->ng, w)}, &m))
-        *weight = share(sample->counts, m.splat, m);
+        *weight = share(m.splat, m);
 }
 
 static void weigh(const struct one_more *self, const struct sample *sample, const struct joined *j, vec3 lens,

@@ -21,7 +21,7 @@
  * The estimate. kappa being the coefficients of the delta lobes, J the area of light per solid angle at z, p_y the
  * density of y times the probability of looking for a chain of that kind,
  *     C* = beta_z f_z |cos| kappa_1 ... kappa_k Le |cos_y| / (J p_y)
- * The weights are the balance (or power) heuristic's. As densities of y they are p_y; of s = 0 p_z(w) |cos_y| / J times
+ * The weights are the balance heuristic's. As densities of y they are p_y; of s = 0 p_z(w) |cos_y| / J times
  * the probability of choosing the lobes; of t = 1 p_emit(w_y) |cos_z| / J times the same: J is the same both ways,
  * except for indices of refraction. At a focus, where J is 0, these two have all the weight.
  *

@@ -75,9 +75,8 @@ static void draw_light(struct sample *sample, struct node *node)
     node->q = delta ? 0 : density;
 }
 
-/* Ask the members for f and p towards w. Returns the sum of the p by which they could go there, raised as the heuristic
- * has it; *able: how many take light from there. */
-static double ask(struct node **member, int n, const struct counts *counts, vec3 w, int *able)
+/* Ask the members for f and p towards w. Returns the sum of the p by which they could go there; *able: how many take light from there. */
+static double ask(struct node **member, int n, vec3 w, int *able)
 {
     double sum = 0;
     *able = 0;
@@ -86,7 +85,7 @@ static double ask(struct node **member, int n, const struct counts *counts, vec3
         struct bsdf_value b = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE);
         member[m]->f = rgb_scale(b.f, scatter_cosine(z, w, RADIANCE));
         member[m]->p = b.pdf;
-        sum += member[m]->led ? mis_raise(counts, b.pdf) : 0;
+        sum += member[m]->led ? b.pdf : 0;
         *able += bsdf_may_scatter(&z->bsdf, z->wo, w);
     }
     return sum;
@@ -94,11 +93,11 @@ static double ask(struct node **member, int n, const struct counts *counts, vec3
 
 
 /* The edge of one member to a light, to all. */
-static void aggregate_light(const struct sample *sample, struct node **member, int n, const struct node *from)
+static void aggregate_light(struct node **member, int n, const struct node *from)
 {
     int able;
-    double sum = ask(member, n, sample->counts, from->w, &able), own = mis_raise(sample->counts, from->q);
-    rgb light = rgb_scale(from->Le, from->q > 0 ? own / ((sum + able * own) * from->q) : 1.0 / able);
+    double sum = ask(member, n, from->w, &able);
+    rgb light = rgb_scale(from->Le, from->q > 0 ? 1 / (sum + able * from->q) : 1.0 / able);
     for (int m = 0; m < n; m++)
         member[m]->direct = rgb_add(member[m]->direct, rgb_mul(member[m]->f, light));
 }
@@ -106,15 +105,13 @@ static void aggregate_light(const struct sample *sample, struct node **member, i
 /* The edge that leads on, to all; to the member alone if it left by a delta lobe. */
 static void aggregate_next(const struct sample *sample, struct node **member, int n, struct node *from)
 {
-    const struct counts *counts = sample->counts;
     const struct vertex *next = from->z + 1;
     const struct connection hit = reuse_hit(sample, from->z, next, 3, rgb_grey(1));
     int able;
-    double roulette, sum = ask(member, n, counts, neg(next->wo), &able), p = from->p;
-    double all = sum + able * mis_raise(counts, p * reuse_hit_density(next));
+    double roulette, sum = ask(member, n, neg(next->wo), &able);
+    double all = sum + able * from->p * reuse_hit_density(next);
     rgb step = reuse_step(from->z, next, &roulette);
-    rgb light = rgb_scale(rgb_add(rgb_scale(hit.value, sum / all), from[1].before),
-                          roulette * mis_raise(counts, p) / (sum * p));
+    rgb light = rgb_scale(rgb_add(rgb_scale(hit.value, sum / all), from[1].before), roulette / sum);
     if (next->prev_delta)
         from->L = rgb_add(from->L, rgb_mul(step, rgb_add(hit.value, from[1].before)));
     for (int m = 0; m < n && !next->prev_delta; m++)
@@ -189,7 +186,7 @@ static void aggregate(const struct clusters *c, const struct sample *sample, int
         end = cluster_end(c, i);
         for (int k = i; k < end; k++)
             if (!rgb_is_black(c->node[k]->Le))
-                aggregate_light(sample, &c->node[i], end - i, c->node[k]);
+                aggregate_light(&c->node[i], end - i, c->node[k]);
     }
     while (times-- > 0 && !pass_enough(sample->pass->job)) {
         for (int i = 0; i < c->n; i++)

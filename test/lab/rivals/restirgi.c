@@ -52,7 +52,6 @@ struct reservoir {
 static double value_at(const struct pixel *p, const struct tail *x, struct connection *out, double *g)
 {
     const struct vertex *z = &p->eye[1];
-    const struct counts *counts = p->sample.counts;
     vec3 d = sub(x->z->p, z->p);
     double d2 = length2(d);
     struct connection c = {.light = x->ends_on, .weight = x->light};
@@ -66,9 +65,9 @@ static double value_at(const struct pixel *p, const struct tail *x, struct conne
     double cosines = scatter_cosine(z, w, RADIANCE) * scatter_cosine(x->z, x->w, RADIANCE);
     *g = abs_dot(x->z->ng, w) / d2;
     c.value = rgb_scale(rgb_mul(rgb_mul(z->beta, at1.f), rgb_mul(at2.f, x->L)), cosines * *g);
-    double both = mis_raise(counts, x->light) + mis_raise(counts, at2.pdf);
+    double both = x->light + at2.pdf;
     if (x->kind != LATER && both > 0)
-        c.weight = mis_raise(counts, x->kind == POINT ? x->light : at2.pdf) / both;
+        c.weight = (x->kind == POINT ? x->light : at2.pdf) / both;
     *out = c;
     return rgb_luminance(c.value) * c.weight;
 }

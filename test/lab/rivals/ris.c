@@ -122,9 +122,9 @@ struct sums {
     double N;           /* by N: all but t = 1 */
 };
 
-static void count(const struct index *r, struct sums *a, double ratio, double plain, double N)
+static void count(struct sums *a, double ratio, double plain, double N)
 {
-    a->plain += mis_raise(r->counts, ratio * plain);
+    a->plain += ratio * plain;
     a->N += ratio * N;
 }
 
@@ -133,7 +133,7 @@ static void count_direct(const struct index *r, struct sums *a, double ratio, co
                          int cell)
 {
     double n = n_direct(r->counts, z->region, end, cell);
-    count(r, a, ratio, n, n);
+    count(a, ratio, n, n);
 }
 
 static void sum_light_side(const struct index *r, const struct path_end *end, struct sums *a)
@@ -143,13 +143,13 @@ static void sum_light_side(const struct index *r, const struct path_end *end, st
     for (bool passed = false;; v--) {
         ratio *= pdf_other / v->pdf_fwd;
         if (v->kind == VERTEX_LIGHT) {
-            count(r, a, ratio, v->mis_c, v->mis_c);
+            count(a, ratio, v->mis_c, v->mis_c);
             return;
         }
         bool direct = v[-1].kind == VERTEX_LIGHT;
         if (!passed && !v->prev_delta)
             direct ? count_direct(r, a, ratio, v, LATER_HIT, v[-1].cell)
-                   : count(r, a, ratio, r->counts->pair[LATER_HIT], r->light_n[v - r->pool->vertex]);
+                   : count(a, ratio, r->counts->pair[LATER_HIT], r->light_n[v - r->pool->vertex]);
         passed = v->prev_delta;
         pdf_other = pdf_rev * v->back;
         pdf_rev = vertex_pdf_rev(&v[-1], v, IMPORTANCE);
@@ -166,7 +166,7 @@ static void sum_eye_side(struct index *r, int s, const struct path_end *end, dou
         ratio *= pdf_other / v->pdf_fwd;
         if (before->kind == VERTEX_LENS) {
             if (!passed && !v->prev_delta)
-                a->lens = mis_raise(r->counts, ratio * r->counts->lens);
+                a->lens = ratio * r->counts->lens;
             return;
         }
         if (!passed && !v->prev_delta && light)
@@ -178,7 +178,7 @@ static void sum_eye_side(struct index *r, int s, const struct path_end *end, dou
             struct sight *known = &r->sight[before - lens];
             if (memcmp(&known->x, &before->p, sizeof known->x) != 0 || memcmp(&known->y, &v->p, sizeof known->y) != 0)
                 *known = look(r, before, v);
-            count(r, a, ratio, r->counts->pair[LATER_HIT], worth_edge(r, known, L, v, wo));
+            count(a, ratio, r->counts->pair[LATER_HIT], worth_edge(r, known, L, v, wo));
         }
         if (light)
             L = emitted(r->scene, v, v->wo);
@@ -204,7 +204,7 @@ static double weigh(struct index *r, int s, double n, const struct path_end *y, 
         L = s == 1 ? emitted(r->scene, y->v, w) : r->light_L[y->v - r->pool->vertex] * kept(y->v, y->v->wo, w);
     }
     sum_eye_side(r, s, z, L, neg(w), &a);
-    a.plain += mis_raise(r->counts, s == 2 ? r->counts->pair[LATER_HIT] : n);
+    a.plain += s == 2 ? r->counts->pair[LATER_HIT] : n;
     return own / (all + a.N) * a.plain / (a.plain + a.lens);
 }
 

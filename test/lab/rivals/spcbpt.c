@@ -221,9 +221,7 @@ static void prepare(const struct render_job *job, struct prepared *p)
     double pixels = (double)rect_pixels(job->film_rect), K = fmin(sqr(p->size.tile), pixels) / p->numbers.path_pixels;
     int n = int_within(own->training * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT;
     method_counts(job, p, true);
-    struct counts counts = p->counts;
-    counts.power = false;
-    struct trainer r = {job, &counts, workspaces_new(1, job->max_depth), patience_begin(job), 0, {.n = 0}};
+    struct trainer r = {job, &p->counts, workspaces_new(1, job->max_depth), patience_begin(job), 0, {.n = 0}};
     double *vertices = mem_alloc((size_t)own->subspaces, sizeof *vertices);
     for (int i = 0; i < n && goes_on(&r, i); i++)
         trace_eye(&r, i);
@@ -256,9 +254,9 @@ struct index {
 };
 
 /* mis of vertex v again, which follows x. */
-static double step_again(const struct counts *counts, const struct vertex *x, const struct vertex *v, double pdf_rev)
+static double step_again(const struct vertex *x, const struct vertex *v, double pdf_rev)
 {
-    return mis_step(counts, v->prev_delta ? 0 : x->mis_c, pdf_rev, x->mis, x->pdf_fwd, v->back);
+    return mis_step(v->prev_delta ? 0 : x->mis_c, pdf_rev, x->mis, x->pdf_fwd, v->back);
 }
 
 /* The subspaces of a sub-path's vertices, and what weights depend on them: walks know no trees. A vertex has that of
@@ -270,11 +268,11 @@ static void classify(const struct prepared *p, struct vertex *path, int n, struc
     for (struct vertex *v = path + 1; v < path + n; v++) {
         const struct vertex *x = v - 1;
         double pdf_rev = vertex_pdf_rev(x, v, mode);
-        v->mis = step_again(counts, x, v, pdf_rev);
+        v->mis = step_again(x, v, pdf_rev);
         if (v->lamp != NULL) {
             struct vertex *lamp = arena_alloc(arena, sizeof *lamp);
             *lamp = *v->lamp;
-            lamp->mis = step_again(counts, x, lamp, pdf_rev);
+            lamp->mis = step_again(x, lamp, pdf_rev);
             v->lamp = lamp;
         }
         if (v->kind != VERTEX_SURFACE)

@@ -13,7 +13,7 @@
  *
  * Unlike in the paper the K sub-paths are those of a tile, so no map of the whole picture is needed, and nothing
  * between iterations: the radius of iteration i is r_0 (i + 1)^((alpha - 1) / 2). With fewer sub-paths a merge adds
- * more at a time; over iterations it is the same. Only the balance heuristic is right here.
+ * more at a time; over iterations it is the same.
  *
  * Tests: test_rivals.c.
  */
@@ -44,7 +44,7 @@ struct index {
 static bool can_merge(const struct vertex *v) { return v->kind == VERTEX_SURFACE && vertex_connectible(v); }
 
 /* Give all vertices of a walk c_e' and what follows from it. Vertices 0 and 1 have no merge before them. */
-static void know_merges(const struct index *m, const struct counts *counts, struct arena *arena, struct vertex *path,
+static void know_merges(const struct index *m, struct arena *arena, struct vertex *path,
                         int n, enum transport mode)
 {
     for (int e = 1; e < n; e++) {
@@ -52,11 +52,11 @@ static void know_merges(const struct index *m, const struct counts *counts, stru
         const struct vertex *before = v - 1;
         double c = v->prev_delta ? 0 : before->mis_c, pdf_rev = e > 1 ? vertex_pdf_rev(before, v, mode) : 0;
         if (e > 1)
-            v->mis = mis_step(counts, c, pdf_rev, before->mis, before->pdf_fwd, v->back);
+            v->mis = mis_step(c, pdf_rev, before->mis, before->pdf_fwd, v->back);
         if (e > 1 && v->lamp != NULL) {
             struct vertex *lamp = arena_alloc(arena, sizeof *lamp);
             *lamp = *v->lamp;
-            lamp->mis = mis_step(counts, c, pdf_rev, before->mis, before->pdf_fwd, lamp->back);
+            lamp->mis = mis_step(c, pdf_rev, before->mis, before->pdf_fwd, lamp->back);
             v->lamp = lamp;
         }
         if (can_merge(v))
@@ -169,7 +169,7 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     m->r = own->radius * pass->job->scene->lights.radius * m_pow((double)iteration + 1, (own->alpha - 1) / 2);
     m->eta = pool->n * PI * sqr(m->r);
     for (int k = 0; k < pool->n; k++)
-        know_merges(m, &p->counts, &pool->arena, &pool->vertex[pool->start[k]], pool->length[k], IMPORTANCE);
+        know_merges(m, &pool->arena, &pool->vertex[pool->start[k]], pool->length[k], IMPORTANCE);
     pool_find_candidates(pool);
     fill_grid(m, pool);
     return m;
@@ -179,11 +179,12 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
                         struct pixel *pixel, int n)
 {
     const struct pool *pool = &pass->work->pool;
+    (void)p;
     for (int i = 0; i < n && !pass_enough(pass->job); i++) {
         struct sample *sample = &pixel[i].sample;
         struct vertex *eye = pixel[i].eye;
         const struct drawn light = {pool_path(pool, i), 1, pool->length[i], 1};
-        know_merges(m, &p->counts, &pass->work->arena, eye, pixel[i].n, RADIANCE);
+        know_merges(m, &pass->work->arena, eye, pixel[i].n, RADIANCE);
         loop_eye(sample, eye, pixel[i].n);
         for (int t = 2; t <= pixel[i].n; t++) {
             sample_pairs(sample, &light, &eye[t - 1], t, 1);
