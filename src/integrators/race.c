@@ -67,8 +67,8 @@ static void joined(void *context, const struct sample *sample, const struct join
     bool direct = first && p->s <= 1;
     enum turn half = p->t == 1 ? HALF_SPLATS : p->s <= 1 ? TURNS : first ? HALF_FIRST_DRAWS : HALF_LATER_DRAWS;
     struct pixel_rect film = l->pixels.rect; /* a splat next to the film counts at its edge */
-    int x_seen = p->t == 1 ? int_within(floor(p->c->px), film.x0, film.x1 - 1) : sample->x;
-    int y_seen = p->t == 1 ? int_within(floor(p->c->py), film.y0, film.y1 - 1) : sample->y;
+    int x_seen = p->t == 1 ? int_within(floor(p->px), film.x0, film.x1 - 1) : sample->x;
+    int y_seen = p->t == 1 ? int_within(floor(p->py), film.y0, film.y1 - 1) : sample->y;
     int cell = pixels_cell(l->pixels, x_seen, y_seen);
     double x = fabs(rgb_luminance(p->added)); /* that signs of a filter differ is no noise of an image (filter.h) */
     if (l->turn == FIRST && p->t > 1 && p->s > 0)

@@ -97,12 +97,12 @@ static void trace_uses(struct learning *l, const struct counts *counts, struct w
         struct lesson lesson = {regions_key(&l->tables->regions, z->p, vertex_side(z)), VISIT, 0, beta};
         lessons_add(out, lesson);
         for (int j = 0; l->options->direct && j < LIGHTS_PER_VERTEX; j++) {
-            struct light_point y0;
-            struct connection c = connect_direct(l->job->scene, counts, z, &sampler, j, LIGHTS_PER_VERTEX, &y0);
-            lesson.column = y0.cell;
-            lesson.x = rgb_luminance(c.value) / beta;
-            if (y0.cell >= 0)
-                lessons_add(out, lesson);
+            struct vertex y;
+            if (!light_point(l->job->scene, counts, z, &sampler, j, LIGHTS_PER_VERTEX, &y))
+                continue;
+            lesson.column = y.cell;
+            lesson.x = rgb_luminance(connect_vertices(l->job->scene, counts, &y, z).value) / beta;
+            lessons_add(out, lesson);
         }
     }
 }
@@ -253,7 +253,7 @@ static void trace_trials(struct learning *l, const struct counts *counts, struct
             double beta = rgb_luminance(z->beta), u = (k + sampler_number(&sampler, DRAW_LIGHT_END)) / TRIALS;
             const struct candidate *c = &pool->candidate[alias_sample(&pool->alias, u, NULL, NULL)];
             const struct vertex *y = candidate_vertex(c);
-            struct connection found = connect_pair(l->job->scene, counts, y, z);
+            struct connection found = connect_vertices(l->job->scene, counts, y, z);
             double x = rgb_luminance(found.value) / (beta * c->L);
             lessons_add(out, (struct lesson){(uint64_t)z->region, y->region, x, beta});
         }

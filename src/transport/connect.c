@@ -4,50 +4,21 @@
 #include "base/alias.h"
 #include "tables/emission.h"
 
-/* Scattering at a surface vertex towards wi: factor of the throughput, and both densities (1/sr). */
-struct scatter {
-    rgb factor; /* f times scatter_cosine */
-    double pdf, pdf_rev;
-};
-
-static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum transport mode)
-{
-    struct bsdf_value b = bsdf_eval(&v->bsdf, v->wo, wi, mode);
-    struct scatter s = {{0, 0, 0}, b.pdf, b.pdf_rev};
-    if (!rgb_is_black(b.f))
-        s.factor = rgb_scale(b.f, scatter_cosine(v, wi, mode));
-    return s;
-}
-
-/* Media between vertex a and a point on primitive `to`, at a distance in direction w. Their transmittance is a factor
- * of c's value. The densities of the passage are factors of the densities of both ends, and so of the sums (5) of
- * mis.h. */
-static inline void pass_media(const struct scene *scene, const struct vertex *a, vec3 w, double distance, uint64_t to,
-                              struct connection *c, double *side_a, double *side_b)
-{
-    if (scene->media.n == 0)
-        return;
-    const struct ray ray = {a->p, w, 0, distance, a->prim_id, to};
-    struct passage way = medium_pass(&scene->media, &ray, a->ng, a->medium);
-    c->value = rgb_mul(c->value, way.left);
-    *side_a *= way.density[0];
-    *side_b *= way.density[1];
-}
-
 struct connection connect_hit(const struct scene *scene, const struct counts *counts, const struct vertex *prev,
-                              const struct vertex *z, int t)
+                              const struct vertex *z)
 {
     const struct light_set *lights = &scene->lights;
+    const bool seen = prev->kind == VERTEX_LENS;
     struct connection c = {.light = -1};
     z = z->lamp != NULL ? z->lamp : z;
-    if (z->light < 0 || (t == 2 && z->kind == VERTEX_SURFACE && lights->light[z->light].hidden))
+    if (z->light < 0 || (seen && z->kind == VERTEX_SURFACE && lights->light[z->light].hidden))
         return c;
     struct light_point at = vertex_light_point(z);
     c.light = z->light;
-    rgb Le = z->kind == VERTEX_ESCAPED ? light_Le_sky(lights, at.w, t == 2) : light_Le(lights, &at, z->wo);
+    rgb Le = z->kind == VERTEX_ESCAPED ? light_Le_sky(lights, at.w, seen) : light_Le(lights, &at, z->wo);
     c.value = rgb_mul(z->beta, Le); /* C* = alpha_t Le [V97 10.2] */
     c.weight = 1;
-    if (rgb_is_black(c.value) || t == 2)
+    if (rgb_is_black(c.value) || seen)
         return c;
     /* n of s = 1, which connects prev to z; z->mis_c is n of s >= 2 */
     double c_e = z->prev_delta ? 0 : n_direct(counts, prev->region, prev->eye_end, z->cell);
@@ -59,166 +30,164 @@ struct connection connect_hit(const struct scene *scene, const struct counts *co
     return c;
 }
 
-bool connect_light_draw(const struct scene *scene, const struct counts *counts, const struct vertex *z,
-                        struct sampler *sampler, int i, int n, struct light_point *at, double *pdf)
+/* --- two vertices ------------------------------------------------------------------------------------ */
+
+/* The straight edge between both ends. */
+struct edge {
+    vec3 w;          /* from z to y, unit */
+    double distance; /* infinite if y is at infinity */
+    double spread;   /* of rays: area across w at one end per steradian at the other, 1/distance^2; parallel rays: 1 */
+};
+
+static struct edge edge_between(const struct scene *scene, const struct vertex *y, const struct vertex *z)
+{
+    if (vertex_at_infinity(scene, y))
+        return (struct edge){y->wo, INFINITY, 1};
+    vec3 d = sub(y->p, z->p);
+    double d2 = length2(d), distance = sqrt(d2);
+    double spread = z->kind == VERTEX_LENS ? camera_spread(&scene->camera, d2) : 1 / d2;
+    return (struct edge){mul(d, 1 / distance), distance, spread};
+}
+
+/* Does light pass the edge? What media leave of it, and how far they let walks come, is in *way. */
+static bool edge_passes(const struct scene *scene, const struct vertex *y, const struct vertex *z,
+                        const struct edge *e, struct passage *way)
+{
+    bool passes = y->kind != VERTEX_LIGHT    ? scene_visible(scene, z->p, z->prim_id, y->p, y->prim_id)
+                  : e->distance < INFINITY ? scene_lit(scene, z->p, z->prim_id, y->p, y->prim_id)
+                                             : scene_lit_from(scene, z->p, z->prim_id, e->w);
+    *way = (struct passage){.left = rgb_grey(1), .density = {1, 1}};
+    if (passes && scene->media.n > 0) {
+        const struct ray ray = {z->p, e->w, 0, e->distance, z->prim_id, y->prim_id};
+        *way = medium_pass(&scene->media, &ray, z->ng, z->medium);
+    }
+    return passes;
+}
+
+/* What an end makes of light, or of importance, that goes on in direction wi: the factor of the throughput, and the
+ * densities, 1/sr, of that direction and of the reverse move to the vertex before. */
+struct scatter {
+    rgb factor;
+    double pdf, pdf_rev;
+};
+
+/* Of a light or the lens beta has what it sends there, except for the cosine at an area light. The density of a light
+ * is that of emission, which is asked for last. */
+static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum transport mode)
+{
+    if (v->kind == VERTEX_LENS)
+        return (struct scatter){rgb_grey(1), v->beta.g, 0};
+    if (v->kind == VERTEX_LIGHT)
+        return (struct scatter){rgb_grey(vertex_cosine(v, wi)), 0, 0};
+    struct bsdf_value b = bsdf_eval(&v->bsdf, v->wo, wi, mode);
+    struct scatter s = {{0, 0, 0}, b.pdf, b.pdf_rev};
+    if (!rgb_is_black(b.f))
+        s.factor = rgb_scale(b.f, scatter_cosine(v, wi, mode));
+    return s;
+}
+
+/* Can anything go on from v in direction w, as far as one sees at once? */
+static inline bool may_leave(const struct vertex *v, vec3 w)
+{
+    return v->kind == VERTEX_LIGHT || v->kind == VERTEX_LENS || (v->bsdf.n_smooth > 0 && bsdf_may_scatter(&v->bsdf, v->wo, w));
+}
+
+/* A_light of mis.h (5). A light walk counts y as a later hit. Next to the lens it is the first hit, so its c_e differs
+ * from y->mis_c; and if s = 2, the count of s = 0 in y->mis differs, too.
+ *   R  density of y in the eye walk */
+static double light_side(const struct scene *scene, const struct counts *counts, const struct vertex *y,
+                         const struct vertex *z, double R, double pdf_rev)
+{
+    const struct vertex *prev = y - 1; /* if y is no LIGHT */
+    double c_e = y->mis_c, mis = y->mis;
+    if (z->kind == VERTEX_LENS) {
+        c_e = y->prev_delta ? 0 : n_if(counts, prev, y, FIRST_HIT);
+        if (prev->kind == VERTEX_LIGHT && !light_is_delta(&scene->lights.light[prev->light]))
+            mis = mis_step(counts->hit[FIRST_HIT], 0, 0, prev->pdf_fwd, y->back);
+    }
+    return mis_side(R, y->pdf_fwd, c_e, pdf_rev, mis);
+}
+
+struct connection connect_vertices(const struct scene *scene, const struct counts *counts, const struct vertex *y,
+                                   const struct vertex *z)
+{
+    struct connection c = {.light = y->kind == VERTEX_LIGHT ? y->light : -1};
+    struct passage way;
+    const struct edge e = edge_between(scene, y, z);
+    const vec3 back = neg(e.w);
+    if (!(e.distance > 0) || rgb_is_black(y->beta) || !may_leave(z, e.w) || !may_leave(y, back))
+        return c;
+    struct scatter at_z = scatter_towards(z, e.w, RADIANCE);
+    if (rgb_is_black(at_z.factor))
+        return c;
+    struct scatter at_y = scatter_towards(y, back, IMPORTANCE);
+    /* C* = alpha_s c alpha_t, c = f G f: both cosines are in the factors [V97 10.2] */
+    rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), e.spread));
+    if (rgb_is_black(value) || !edge_passes(scene, y, z, &e, &way))
+        return c;
+    if (y->kind == VERTEX_LIGHT) {
+        struct light_point at = vertex_light_point(y);
+        at_y.pdf = emission_pdf(&counts->tables->emission, &scene->lights, &at, z->p, back);
+    }
+    double R_y = at_z.pdf * vertex_cosine(y, e.w) * e.spread * way.density[1];
+    double R_z = at_y.pdf * vertex_cosine(z, e.w) * e.spread * way.density[0];
+    double eye_side = mis_side(R_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis); /* mis.h (5) */
+    c.value = rgb_mul(value, way.left);
+    c.weight = mis_weight(n_of(counts, y, z), light_side(scene, counts, y, z, R_y, at_y.pdf_rev), eye_side); /* (7) */
+    return c;
+}
+
+/* --- ends that are drawn anew ------------------------------------------------------------------------ */
+
+bool light_draw(const struct scene *scene, const struct counts *counts, const struct vertex *z, struct sampler *sampler,
+                int i, int n, struct light_point *at, double *pdf)
 {
     const struct light_set *lights = &scene->lights;
     const struct table *table = &counts->tables->direct;
     double u[3], pmf;
     double number = below_one((i + sampler_number(sampler, DRAW_LIGHT)) / n);
     sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
-    at->light = at->cell = -1;
     if (!vertex_connectible(z) || lights->choice.n == 0)
         return false;
     int cell = table->rows > 0 ? table_draw(table, z->region, table_all(table), number, &pmf, &u[0])
                                : alias_sample(&lights->choice, number, &pmf, &u[0]);
-    if (!light_sample_cell(lights, &scene->geo, cell, u, at))
-        return false;
-    *pdf = pmf * at->pdf_cell;
-    return at->pdf > 0;
+    bool emits = light_sample_cell(lights, &scene->geo, cell, u, at) && at->pdf > 0;
+    *pdf = emits ? pmf * at->pdf_cell : 0;
+    return true;
 }
 
-bool connect_light(const struct scene *scene, const struct vertex *z, const struct light_point *at, double pdf,
-                   struct lit *out)
+bool light_point(const struct scene *scene, const struct counts *counts, const struct vertex *z,
+                 struct sampler *sampler, int i, int n, struct vertex *y)
 {
     const struct light_set *lights = &scene->lights;
-    const struct light *light = &lights->light[at->light];
-    bool parallel = light_at_infinity(light);
-    vec3 d = parallel ? at->w : sub(at->p, z->p);
-    double d2 = length2(d);
-    out->value = rgb_black();
-    if (!(d2 > 0) || !bsdf_may_scatter(&z->bsdf, z->wo, d))
-        return false;
-    double distance = parallel ? INFINITY : sqrt(d2);
-    vec3 w = mul(d, 1 / sqrt(d2));
-    rgb Le = light_Le(lights, at, neg(w));
-    if (rgb_is_black(Le))
-        return false;
-    struct scatter at_z = scatter_towards(z, w, RADIANCE);
-    double spread = parallel ? 1 : 1 / d2;
-    /* area (at infinity: solid angle) at y_0 per steradian at z */
-    double at_light = light->kind == LIGHT_AREA ? abs_dot(at->n, w) * spread : spread;
-    /* C* = (Le / pdf) c alpha_t, c = G f: the cosine at z is in the factor [V97 10.2] */
-    rgb value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / pdf));
-    *out = (struct lit){.z = z, .at = *at, .pdf = pdf, .value = value, .pdf_z = at_z.pdf, .pdf_rev_z = at_z.pdf_rev,
-                        .at_light = at_light, .w = w, .distance = distance, .spread = spread};
-    return !rgb_is_black(value);
-}
-
-struct connection connect_lit(const struct scene *scene, const struct counts *counts, const struct lit *l)
-{
-    const struct light_set *lights = &scene->lights;
-    const struct vertex *z = l->z;
-    const struct light_point *at = &l->at;
-    bool parallel = light_at_infinity(&lights->light[at->light]);
-    if (rgb_is_black(l->value) || !(parallel ? scene_lit_from(scene, z->p, z->prim_id, at->w)
-                                             : scene_lit(scene, z->p, z->prim_id, at->p, at->prim_id)))
-        return (struct connection){.light = -1};
-    double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
-    /* mis.h (5); the light side has the strategy s = 0 alone */
-    double light = mis_side(l->pdf_z * l->at_light, at->pdf, hit, 0, 0);
-    double pdf_emit = emission_pdf(&counts->tables->emission, lights, at, z->p, neg(l->w));
-    double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
-    double eye = mis_side(pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
-    double count = n_direct(counts, z->region, z->eye_end, at->cell);
-    struct connection c = {.value = l->value, .light = at->light};
-    pass_media(scene, z, l->w, l->distance, at->prim_id, &c, &eye, &light);
-    c.weight = mis_weight(count, light, eye); /* mis.h (7) */
-    return c;
-}
-
-struct connection connect_direct(const struct scene *scene, const struct counts *counts, const struct vertex *z,
-                                 struct sampler *sampler, int i, int n, struct light_point *y0)
-{
-    struct lit l;
+    struct light_point at;
+    rgb sent = rgb_black();
     double pdf;
-    struct connection c = {.light = -1};
-    if (connect_light_draw(scene, counts, z, sampler, i, n, y0, &pdf) && connect_light(scene, z, y0, pdf, &l))
-        c = connect_lit(scene, counts, &l);
-    return c;
-}
-
-bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *out)
-{
-    vec3 d = sub(y->p, z->p);
-    double d2 = length2(d);
-    out->value = rgb_black();
-    if (!vertex_connectible(y) || !vertex_connectible(z) || !(d2 > 0))
+    if (!light_draw(scene, counts, z, sampler, i, n, &at, &pdf))
         return false;
-    if (!bsdf_may_scatter(&z->bsdf, z->wo, d) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
-        return false;
-    double distance = sqrt(d2);
-    vec3 w = mul(d, 1 / distance);
-    struct scatter at_z = scatter_towards(z, w, RADIANCE);
-    if (rgb_is_black(at_z.factor))
-        return false;
-    struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
-    /* C* = alpha_s c alpha_t, c = f G f: both cosines are in the factors [V97 10.2] */
-    rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), 1 / d2));
-    *out = (struct joint){.y = y, .z = z, .value = value, .pdf_y = at_y.pdf, .pdf_z = at_z.pdf,
-                          .pdf_rev_y = at_y.pdf_rev, .pdf_rev_z = at_z.pdf_rev, .length = distance, .w = w,
-                          .area_y = vertex_cosine(y, w) / d2, .area_z = vertex_cosine(z, w) / d2};
-    return !rgb_is_black(value);
+    if (pdf > 0) {
+        vec3 w = light_at_infinity(&lights->light[at.light]) ? neg(at.w) : normalize(sub(z->p, at.p));
+        sent = rgb_scale(light_Le(lights, &at, w), 1 / pdf);
+    }
+    vertex_light(scene, &at, sent, counts->hit[z->eye_end], y);
+    return true;
 }
 
-struct connection connect_joint(const struct scene *scene, const struct counts *counts, const struct joint *j)
+bool lens_point(const struct scene *scene, const struct vertex *y, struct sampler *sampler, struct vertex *z,
+                double raster[2])
 {
-    const struct vertex *y = j->y, *z = j->z;
-    struct connection c = {.light = -1};
-    if (rgb_is_black(j->value) || !scene_visible(scene, z->p, z->prim_id, y->p, y->prim_id))
-        return c;
-    /* mis.h (5), of both sides */
-    double light = mis_side(j->pdf_z * j->area_y, y->pdf_fwd, y->mis_c, j->pdf_rev_y, y->mis);
-    double eye = mis_side(j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
-    c.value = j->value;
-    double n = n_pair(counts, z->region, z->eye_end, y->region);
-    pass_media(scene, z, j->w, j->length, y->prim_id, &c, &eye, &light);
-    c.weight = mis_weight(n, light, eye); /* mis.h (7) */
-    return c;
-}
-
-struct connection connect_pair(const struct scene *scene, const struct counts *counts, const struct vertex *y,
-                               const struct vertex *z)
-{
-    struct joint j;
-    return connect_join(y, z, &j) ? connect_joint(scene, counts, &j) : (struct connection){.light = -1};
-}
-
-struct connection connect_lens(const struct scene *scene, const struct counts *counts, const struct vertex *light,
-                               int s, struct sampler *sampler)
-{
-    const struct vertex *y = &light[s - 1];
+    const struct camera *camera = &scene->camera;
+    const double *radius = scene->filter.radius;
     double u[2] = {0, 0};
-    if (scene->camera.lens_radius > 0)
+    if (camera->lens_radius > 0)
         sampler_pair(sampler, DRAW_LENS_POINT, u);
-    if (!vertex_connectible(y))
-        return (struct connection){.light = -1};
-    vec3 lens = camera_sample_lens(&scene->camera, y->p, u[0], u[1]);
-    vec3 d = sub(y->p, lens);
-    double d2 = length2(d);
-    if (!(d2 > 0) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
-        return (struct connection){.light = -1};
-    double distance = sqrt(d2);
-    vec3 w = mul(d, 1 / distance);
-    struct connection c = {.light = -1};
-    double J = camera_project(&scene->camera, lens, w, &c.px, &c.py);
-    const double rx = scene->filter.radius[0], ry = scene->filter.radius[1];
-    if (J == 0 || c.px < -rx || c.py < -ry || c.px > scene->width + rx || c.py > scene->height + ry)
-        return (struct connection){.light = -1};
-    struct scatter at_y = scatter_towards(y, neg(w), IMPORTANCE);
-    /* C* = alpha_s f (We cos / lens density) [V97 10.2], and We cos / (lens density) = J, see camera.h. */
-    double density = J * camera_spread(&scene->camera, d2);
-    c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, density));
-    if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->prim_id))
-        return (struct connection){.light = -1};
-    /* The light walk counted y as a later hit. Next to the lens it is the first hit, so c_e differs from y->mis_c. If
-     * s = 2, the count of s = 0 in y->mis differs, too. */
-    double c_e = c_light(counts, &light[s - 2], y, FIRST_HIT);
-    double mis = y->mis, eye_side = 0;
-    if (s == 2 && !light_is_delta(&scene->lights.light[light[0].light]))
-        mis = mis_step(counts->hit[FIRST_HIT], 0, 0, light[0].pdf_fwd, y->back);
-    double light_side = mis_side(density * vertex_cosine(y, w), y->pdf_fwd, c_e, at_y.pdf_rev, mis);
-    pass_media(scene, y, neg(w), distance, 0, &c, &light_side, &eye_side);
-    c.weight = mis_weight(counts->lens, light_side, eye_side); /* mis.h (7) */
-    return c;
+    vec3 p = camera_sample_lens(camera, y->p, u[0], u[1]), d = sub(y->p, p);
+    if (!vertex_connectible(y) || !(length2(d) > 0) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
+        return false;
+    double J = camera_project(camera, p, normalize(d), &raster[0], &raster[1]);
+    if (J == 0 || raster[0] < -radius[0] || raster[1] < -radius[1] || raster[0] > scene->width + radius[0] ||
+        raster[1] > scene->height + radius[1])
+        return false;
+    vertex_lens(camera, p, rgb_grey(J), z);
+    return true;
 }

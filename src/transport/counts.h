@@ -23,13 +23,8 @@
 #ifndef ASBDPT_COUNTS_H
 #define ASBDPT_COUNTS_H
 
-#include <stdbool.h>
-
 #include "tables/tables.h"
-
-/* Where the eye sub-path of a strategy with t >= 2 ends: at a vertex that the camera sees directly or through delta
- * lobes alone, or at a later vertex. */
-enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
+#include "transport/vertex.h"
 
 /* For methods that have them. */
 enum { DIRECT_CREDIT = 4, PAIR_CREDIT = 2 };
@@ -49,7 +44,7 @@ struct numbers {
 /* What they count as; 0: the method does not use the strategy.
  *
  * A light walk cannot know which kind of eye vertex it is at, and takes every vertex for a later hit. This is wrong
- * only at its last vertex if the lens is next (connect_lens). Between any other first hit and the lens there are delta
+ * only at its last vertex if the lens is next (connect_vertices). Between any other first hit and the lens there are delta
  * lobes, where no strategy ends. */
 struct counts {
     double hit[EYE_ENDS];    /* t >= 3; by the kind of z_{t-2} */
@@ -66,8 +61,10 @@ struct counts {
  *   pixels  number of pixels of the film; a light sub-path may reach each of them */
 struct counts counts_of(struct numbers n, double direct, double pair, double pixels, const struct tables *tables);
 
-/* n_direct: n of the strategy s = 1 that joins an eye vertex in a region to a point of a light cell.
- * n_pair: n of the strategy that joins an eye vertex in region e to a light vertex in region l. */
+/* n_of: n of the strategy that connects light vertex y and eye vertex z. It is a function of both alone.
+ * n_if: the same as if z were the other kind of eye end.
+ * n_direct: n of s = 1, of an eye vertex in a region and a point of a light cell.
+ * n_pair: n of s >= 2, t >= 2, of an eye vertex in region e and a light vertex in region l. */
 static inline double n_direct(const struct counts *c, int region, enum eye_end end, int cell)
 {
     return c->direct[end] * table_ratio(&c->tables->direct, region, cell);
@@ -76,6 +73,16 @@ static inline double n_pair(const struct counts *c, int e, enum eye_end end, int
 {
     double ratio = table_ratio(&c->tables->pairs, e, l);
     return c->pair[end] * ratio / (1 + c->again[end] * ratio);
+}
+static inline double n_if(const struct counts *c, const struct vertex *y, const struct vertex *z, enum eye_end end)
+{
+    return z->kind == VERTEX_LENS    ? c->lens
+           : y->kind == VERTEX_LIGHT ? n_direct(c, z->region, end, y->cell)
+                                     : n_pair(c, z->region, end, y->region);
+}
+static inline double n_of(const struct counts *c, const struct vertex *y, const struct vertex *z)
+{
+    return n_if(c, y, z, z->eye_end);
 }
 
 #endif

@@ -16,14 +16,14 @@ struct sample;
 /* One strategy (s,t) that was tried: a path, or nothing if the value is black. */
 struct joined {
     int s, t;
-    const struct vertex *light;  /* [s] the light sub-path; NULL if s <= 1 */
+    const struct vertex *light;  /* [s] the light sub-path, or s = 1: the light point that was drawn; NULL: there is none */
     const struct vertex *z;      /* z_{t-1}; the vertices before it are in front of it in memory. NULL if t = 1, or if
                                   * it is not the sample's own vertex */
     const struct connection *c;  /* value C*, weight, light */
-    const struct light_point *y0; /* s = 1: the light point that was drawn; else NULL */
+    double px, py;               /* t = 1: the raster point where it arrives */
     double pmf;                  /* probability with which it was chosen; 1: there was no choice */
     double scale;                /* other factors of C*: 1/number of samples, 1/pmf, filter */
-    rgb added;                   /* C* times scale times weight; t = 1: at raster point (c->px, c->py) */
+    rgb added;                   /* C* times scale times weight; t = 1: at that point */
 };
 
 /* Each function may be NULL. Its arguments are valid only during the call. */

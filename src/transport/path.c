@@ -5,21 +5,6 @@
 
 #include "tables/emission.h"
 
-double c_light(const struct counts *c, const struct vertex *prev, const struct vertex *y, enum eye_end end)
-{
-    if (y->prev_delta)
-        return 0;
-    return prev->kind == VERTEX_LIGHT ? n_direct(c, y->region, end, prev->cell)
-                                      : n_pair(c, y->region, end, prev->region);
-}
-
-double c_eye(const struct counts *c, const struct vertex *prev, const struct vertex *z)
-{
-    if (z->prev_delta)
-        return 0;
-    return prev->kind == VERTEX_LENS ? c->lens : n_pair(c, prev->region, prev->eye_end, z->region);
-}
-
 /* The density per area is F_e of mis.h: the density per steradian times the cosine over distance^2 [PBRT3 5.5.3]. The
  * vertex's `mis` is equation (6) there. */
 void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
@@ -118,10 +103,9 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     bool first =
         prev->kind == VERTEX_LENS || (prev->kind == VERTEX_SURFACE && prev->eye_end == FIRST_HIT && from->delta);
     v->eye_end = mode == RADIANCE && first ? FIRST_HIT : LATER_HIT;
-    v->material = at->material;
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
     v->region = region_at(&w->counts->tables->regions, v->p, vertex_side(v));
-    v->mis_c = mode == RADIANCE ? c_eye(w->counts, prev, v) : c_light(w->counts, prev, v, LATER_HIT);
+    v->mis_c = n_before(w->counts, prev, v, mode);
     return true;
 }
 
@@ -206,13 +190,7 @@ int path_eye(const struct walk *w, double px, double py, struct vertex *path, in
     if (camera->lens_radius > 0)
         sampler_pair(w->sampler, DRAW_LENS_POINT, u);
     struct departure from = {.ray = camera_ray(camera, px, py, u[0], u[1]), .beta = rgb_grey(1)};
-    memset(&path[0], 0, sizeof path[0]);
-    path[0].kind = VERTEX_LENS;
-    path[0].light = path[0].cell = -1;
-    path[0].p = from.ray.o;
-    path[0].beta = rgb_grey(1);
-    path[0].medium = camera->medium;
-    path[0].pdf_fwd = 1; /* never enters a weight: no strategy samples the lens from the light */
+    vertex_lens(camera, from.ray.o, rgb_grey(1), &path[0]);
     /* Eye rays have density 1 per raster area, J per steradian (or per m^2); We J^-1 = 1, so beta stays 1 (camera.h).
      * [PBRT3 16.1.1] */
     double x, y;
@@ -241,8 +219,7 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
                                   &from.ray, &from.pdf);
     if (max_vertices < 1 || !(from.pdf > 0) || rgb_is_black(emitted))
         return 0;
-    vertex_light_end(w->scene, w->counts, &at, &path[0]);
-    path[0].beta = light_Le(&w->scene->lights, &at, from.ray.d);
+    vertex_light(w->scene, &at, light_Le(&w->scene->lights, &at, from.ray.d), w->counts->hit[LATER_HIT], &path[0]);
     from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf)); /* alpha_2 of [V97 eq. 10.6] */
     from.ray.tmin = ray_margin(from.ray.o) * (at.prim_id != 0 ? -GRAZING : 1);
     return walk_on(w, from, path, 1, max_vertices, IMPORTANCE);

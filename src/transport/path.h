@@ -21,8 +21,8 @@
 
 #include "base/mem.h"
 #include "base/sampler.h"
+#include "transport/counts.h"
 #include "transport/mis.h"
-#include "transport/vertex.h"
 
 enum { PATH_MAX_DEPTH = 1000 }; /* largest maxdepth accepted */
 
@@ -60,11 +60,13 @@ static inline double path_throughput(const struct vertex *light, int n)
  * light sub-path: how much of it the camera can use. */
 double path_use(const struct tables *tables, const struct vertex *light, int n);
 
-/* c_light: c_e of mis.h (3) for vertex y of a light sub-path: n of the strategy that connects prev, the vertex before,
- * to y, which then is an eye vertex of kind `end`; 0 if prev was left by a delta lobe.
- * c_eye: the same for vertex z of an eye sub-path, which then is the light vertex that is connected to prev. */
-double c_light(const struct counts *c, const struct vertex *prev, const struct vertex *y, enum eye_end end);
-double c_eye(const struct counts *c, const struct vertex *prev, const struct vertex *z);
+/* n_before: c_e of mis.h (3) for vertex v of a walk, and prev, the vertex before: n of the strategy that connects
+ * these two; 0 if prev was left by a delta lobe. */
+static inline double n_before(const struct counts *c, const struct vertex *prev, const struct vertex *v,
+                              enum transport mode)
+{
+    return v->prev_delta ? 0 : mode == RADIANCE ? n_of(c, v, prev) : n_of(c, prev, v);
+}
 
 /* --- the walk itself, step by step -------------------------------------------------------------------- */
 

@@ -73,7 +73,7 @@ void sample_hit(struct sample *sample, const struct vertex *eye, int t)
 {
     if (t > 2 && !(sample->counts->hit[eye[t - 2].eye_end] > 0))
         return;
-    struct connection c = connect_hit(sample->pass->job->scene, sample->counts, &eye[t - 2], &eye[t - 1], t);
+    struct connection c = connect_hit(sample->pass->job->scene, sample->counts, &eye[t - 2], &eye[t - 1]);
     sample_add(sample, (struct joined){.s = 0, .t = t, .z = &eye[t - 1], .c = &c, .pmf = 1, .scale = 1});
 }
 
@@ -84,9 +84,13 @@ void sample_direct(struct sample *sample, const struct vertex *z, int t)
     if (z->kind == VERTEX_ESCAPED || t > job->max_depth + 1 || !(sample->counts->direct[z->eye_end] > 0))
         return;
     for (int i = 0; i < n; i++) {
-        struct light_point y0;
-        struct connection c = connect_direct(job->scene, sample->counts, z, &sample->sampler, i, n, &y0);
-        sample_add(sample, (struct joined){.s = 1, .t = t, .z = z, .c = &c, .y0 = &y0, .pmf = 1, .scale = 1.0 / n});
+        struct vertex y;
+        struct connection c = {.light = -1};
+        bool found = light_point(job->scene, sample->counts, z, &sample->sampler, i, n, &y);
+        if (found)
+            c = connect_vertices(job->scene, sample->counts, &y, z);
+        sample_add(sample, (struct joined){.s = 1, .t = t, .light = found ? &y : NULL, .z = z, .c = &c, .pmf = 1,
+                                           .scale = 1.0 / n});
     }
 }
 
@@ -94,7 +98,7 @@ void sample_pairs(struct sample *sample, const struct drawn *drawn, const struct
 {
     const struct render_job *job = sample->pass->job;
     for (int i = drawn->first; i < drawn->end && i + 1 + t <= job->max_depth + 2; i++) {
-        struct connection c = connect_pair(job->scene, sample->counts, &drawn->light[i], z);
+        struct connection c = connect_vertices(job->scene, sample->counts, &drawn->light[i], z);
         sample_add(sample, (struct joined){.s = i + 1, .t = t, .light = drawn->light, .z = z, .c = &c,
                                            .pmf = drawn->pmf, .scale = scale});
     }
@@ -107,18 +111,16 @@ void sample_splat(struct sample *sample, struct joined j)
     bool seen = !rgb_is_black(j.c->value);
     if (!seen && sample->pass->observer == NULL)
         return;
-    struct connection image = *j.c;
-    j.added = seen ? rgb_scale(j.c->value, j.scale * j.c->weight) : rgb_black();
+    struct joined image = j;
+    image.added = seen ? rgb_scale(j.c->value, j.scale * j.c->weight) : rgb_black();
     for (int i = 0, n = seen ? camera_images(&scene->camera, radius) : 1; i < n; i++) {
-        image.px = j.c->px;
-        image.py = j.c->py;
+        image.px = j.px;
+        image.py = j.py;
         if (seen)
             camera_image(&scene->camera, radius, i, &image.px, &image.py);
-        struct joined path = j;
-        path.c = &image;
-        tell_joined(sample, &path);
+        tell_joined(sample, &image);
         if (seen)
-            tile_add_splat(sample->pass->tile, image.px, image.py, j.added);
+            tile_add_splat(sample->pass->tile, image.px, image.py, image.added);
     }
 }
 
@@ -127,8 +129,12 @@ void sample_lens(struct sample *sample, const struct vertex *light, int n_light,
     const struct render_job *job = sample->pass->job;
     tell_walked(sample, IMPORTANCE, light, n_light);
     for (int s = 2; s <= n_light && s <= job->max_depth + 1; s++) {
-        struct connection c = connect_lens(job->scene, sample->counts, light, s, &sample->sampler);
-        sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .pmf = 1,
-                                             .scale = scale / sample->counts->lens});
+        struct vertex z;
+        struct connection c = {.light = -1};
+        double raster[2] = {0, 0};
+        if (lens_point(job->scene, &light[s - 1], &sample->sampler, &z, raster))
+            c = connect_vertices(job->scene, sample->counts, &light[s - 1], &z);
+        sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .px = raster[0], .py = raster[1],
+                                             .pmf = 1, .scale = scale / sample->counts->lens});
     }
 }

@@ -5,9 +5,11 @@
 #define ASBDPT_VERTEX_H
 
 #include "material/bsdf.h"
-#include "scene/light.h"
 #include "scene/scene.h"
-#include "transport/counts.h"
+
+/* Where an eye sub-path ends: at a vertex that the camera sees directly or through delta lobes alone, or at a later
+ * one. */
+enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
 
 enum vertex_kind {
     VERTEX_LENS,    /* z_0 */
@@ -26,8 +28,7 @@ enum vertex_kind {
  *   ng           0            area light: its normal; else 0    geometric normal             0
  *   prim_id      0            area light: see shape.h; else 0   see shape.h                  0
  *   wo           0            at infinity: towards the light    towards the previous vertex  inwards
- *   beta         1            radiance or intensity emitted     throughput on arrival        throughput on arrival
- *                             towards y_1 (no throughput)
+ *   beta         1 (below)    emitted towards y_1 (below)       throughput on arrival        throughput on arrival
  *   pdf_fwd      1            1/m^2; at infinity 1/sr           1/m^2                        1/sr
  *   pdf_origin   -            -                                 eye walk, on a light:        1/sr, of y_0 in this
  *                                                               density of y_0 here, 1/m^2   direction
@@ -37,6 +38,9 @@ enum vertex_kind {
  *
  * A vertex within a medium (scene/medium.h) has the fields of a SURFACE, with ng 0, prim_id WITHIN_MEDIUM and pdf_fwd
  * per volume, 1/m^3.
+ *
+ * beta of a LIGHT or LENS is what it sends to the next vertex. Of a point that is drawn anew for one vertex of another
+ * walk (connect.h) that is over the point's density: Le / pdf, or J of camera_project.
  *
  * A see-through light is an area light without a material (scene.h). Walks may start on it, and pass it without a
  * vertex. The first such light that an eye walk passes on an edge is the `lamp` of the vertex at the edge's end. It is
@@ -53,7 +57,6 @@ struct vertex {
     vec3 wo; /* unit */
     rgb beta;
     double pdf_fwd, pdf_origin;
-    int material; /* of the surface, index into scene->material */
     int medium;   /* of the edge that ends here; LENS, LIGHT: of the place */
     double back;  /* g of mis.h: turns a density per steradian here into one per area at the previous vertex */
     double mis;   /* mis_e of mis.h */
@@ -63,9 +66,11 @@ struct vertex {
     const struct vertex *lamp; /* see above; NULL: none */
 };
 
-/* vertex_light_end: fill in the y_0 of a point drawn on a light (light.h), without beta. */
-void vertex_light_end(const struct scene *scene, const struct counts *counts, const struct light_point *at,
-                      struct vertex *out);
+/* vertex_light: the y_0 of a point of a light (light.h).
+ *   hit  count of s = 0, which a delta light does not have
+ * vertex_lens: the z_0 of a point of the lens. */
+void vertex_light(const struct scene *scene, const struct light_point *at, rgb beta, double hit, struct vertex *out);
+void vertex_lens(const struct camera *camera, vec3 p, rgb beta, struct vertex *out);
 
 /* vertex_light_point: the light_point of a y_0, of a surface on an area light, or of an escaped vertex. */
 struct light_point vertex_light_point(const struct vertex *v);

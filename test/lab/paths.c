@@ -28,7 +28,7 @@ static void joined(void *context, const struct sample *sample, const struct join
     if (rgb_is_black(value) || !rgb_fits_float(value) || !rgb_fits_float(p->added) || !fits_float(p->c->weight))
         return;
     list->item = mem_grow(list->item, &list->capacity, list->n + 1, sizeof *list->item);
-    const struct path_told told = {p->s, p->t, sample->x, sample->y, p->c->px, p->c->py,
+    const struct path_told told = {p->s, p->t, sample->x, sample->y, p->px, p->py,
                                    {(float)value.r, (float)value.g, (float)value.b}, (float)p->c->weight,
                                    path_length(sample->pass->job->scene, p)};
     list->item[list->n++] = told;

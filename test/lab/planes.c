@@ -68,15 +68,15 @@ static void add_path(void *context, const struct sample *sample, const struct jo
     const struct planes *p = slot->planes;
     if (rgb_is_black(path->c->value))
         return;
-    int light = path->s > 1 ? path->light[0].light : path->c->light;
+    int light = path->light != NULL ? path->light[0].light : path->c->light;
     struct tile *of_light = p->n_groups > 0 ? &slot->tile[p->lights->light[light].group] : NULL;
     struct tile *square = p->variance ? &slot->tile[square_plane(p)] : NULL;
     rgb after = term(rgb_add(sample->value, path->added)), before = term(sample->value);
     if (path->t == 1) {
         if (of_light != NULL)
-            tile_add_splat(of_light, path->c->px, path->c->py, path->added);
+            tile_add_splat(of_light, path->px, path->py, path->added);
         if (square != NULL)
-            tile_add_splat(square, path->c->px, path->c->py, path->added);
+            tile_add_splat(square, path->px, path->py, path->added);
         return;
     }
     if (of_light != NULL)

@@ -89,9 +89,9 @@ static vec3 end_of(const struct trace *trace, const struct scene *scene, const s
 {
     if (p->t == 1)
         return lens_end(trace, &scene->camera, p);
-    if (p->s != 1 || p->y0->light < 0)
+    if (p->s != 1 || p->light == NULL)
         return vec(0, 0, 0);
-    return light_at_infinity(&scene->lights.light[p->y0->light]) ? p->y0->w : p->y0->p;
+    return vertex_at_infinity(scene, p->light) ? p->light->wo : p->light->p;
 }
 
 static void joined(void *context, const struct sample *sample, const struct joined *p)
@@ -101,7 +101,7 @@ static void joined(void *context, const struct sample *sample, const struct join
         return;
     int light = p->s > 1 ? light_path(trace, p->light, p->s) : -1;
     const struct scene *scene = sample->pass->job->scene;
-    struct trace_connection made = {p->s, p->t, light, p->pmf, *p->c, end_of(trace, scene, p), p->scale, p->added};
+    struct trace_connection made = {p->s, p->t, light, p->pmf, *p->c, p->px, p->py, end_of(trace, scene, p), p->scale, p->added};
     size_t n = (size_t)trace->n_connections + 1;
     trace->connection = mem_grow(trace->connection, &trace->connection_capacity, n, sizeof *trace->connection);
     trace->connection[trace->n_connections++] = made;

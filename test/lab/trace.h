@@ -24,10 +24,11 @@ struct trace_connection {
     int s, t;
     int light;           /* number of the light sub-path; -1: none (s <= 1) */
     double pmf;          /* probability with which it was chosen; 1: there was no choice */
-    struct connection c; /* value C*, weight, raster point, light */
+    struct connection c; /* value C*, weight, light */
+    double px, py;       /* t = 1: the raster point */
     vec3 end;            /* s = 1: the point on the light; at infinity, its direction. t = 1: on the lens */
     double scale;        /* what else C* is multiplied by: numbers of samples, filter, 1/probabilities of a choice */
-    rgb added;           /* C* times scale times weight, as it was added; t = 1: at raster point (c.px, c.py) */
+    rgb added;           /* C* times scale times weight, as it was added; t = 1: at the raster point */
 };
 
 enum { TRACE_BRIGHTEST = -1 };

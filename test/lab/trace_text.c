@@ -1,6 +1,7 @@
 /* trace_text.c: a pixel sample as a page to read; see trace_report.h. */
 #include <stdio.h>
 
+#include "caustics/derived.h"
 #include "lab/trace_report.h"
 
 /* --- words ------------------------------------------------------------------------------------------- */
@@ -13,7 +14,7 @@ const char *trace_what(const struct scene *scene, const struct vertex *v)
     switch (v->kind) {
     case VERTEX_LENS: return "lens";
     case VERTEX_LIGHT: return lights[scene->lights.light[v->light].kind];
-    case VERTEX_SURFACE: return v->light >= 0 ? "area light" : scene->material[v->material]->row->name;
+    case VERTEX_SURFACE: return v->light >= 0 ? "area light" : vertex_material(scene, v);
     case VERTEX_MEDIUM: return "medium";
     case VERTEX_ESCAPED: return "escaped";
     }
@@ -138,7 +139,7 @@ static void print_connection(FILE *f, const struct trace *t, const struct trace_
     fprintf(f, " %9.4g %9.4g %9.4g  %9.4g  %7.5f  %9.4g %9.4g %9.4g", c->c.value.r, c->c.value.g, c->c.value.b,
             c->scale, c->c.weight, c->added.r, c->added.g, c->added.b);
     if (c->t == 1)
-        fprintf(f, "  at %.2f, %.2f", c->c.px, c->c.py);
+        fprintf(f, "  at %.2f, %.2f", c->px, c->py);
     fprintf(f, "\n");
 }
 

@@ -283,7 +283,7 @@ static void gate_joined(void *context, const struct sample *sample, const struct
     if (rgb_is_black(path->added) || !(length >= g->gate.begin && length < g->gate.end))
         return;
     if (path->t == 1)
-        tile_add_splat(&g->tile, path->c->px, path->c->py, path->added);
+        tile_add_splat(&g->tile, path->px, path->py, path->added);
     else
         tile_add(&g->tile, sample->x, sample->y, path->added);
 }

@@ -276,8 +276,8 @@ static void told_begin(struct told *p, const struct filter *filter, struct scene
 static void tell(struct told *p, int x, int y, int t, rgb before, rgb value)
 {
     const struct sample sample = {.x = x, .y = y, .value = before};
-    const struct connection c = {.value = rgb_grey(1), .px = x + 0.5, .py = y + 0.5};
-    const struct joined path = {.s = 1, .t = t, .c = &c, .added = value};
+    const struct connection c = {.value = rgb_grey(1)};
+    const struct joined path = {.s = 1, .t = t, .c = &c, .px = x + 0.5, .py = y + 0.5, .added = value};
     p->of_pass.joined(p->of_pass.context, &sample, &path);
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "caustics/joint.h"
 #include "caustics/lamp.h"
 #include "chains/mlt.h"
 #include "bench.h"
@@ -76,13 +77,14 @@ static double contribution(struct chain *c, const struct mlt_path *path, enum ml
     struct light_point at = vertex_light_point(&path->x[0].v);
     at.pdf = path->x[0].v.pdf_fwd;
     if (which == LENS_PERTURBATION) {
-        struct connection c2 = s == 0   ? connect_hit(scene, counts, &eye[n - 2], &eye[n - 1], n)
+        struct connection c2 = s == 0   ? connect_hit(scene, counts, &eye[n - 2], &eye[n - 1])
                                : s == 1 ? lamp_connect(scene, counts, &eye[n - 1], &at, at.pdf)
-                                        : connect_pair(scene, counts, &light[s - 1], &eye[n - 1]);
+                                        : connect_vertices(scene, counts, &light[s - 1], &eye[n - 1]);
         return rgb_luminance(c2.value);
     }
     p->state->number[LENS_NUMBERS].at = 0;
-    struct connection c1 = connect_lens(scene, counts, light, s, &p->sampler[LENS_NUMBERS]);
+    double raster[2];
+    struct connection c1 = connect_lens(scene, counts, &light[s - 1], &p->sampler[LENS_NUMBERS], raster);
     return rgb_luminance(c1.value) * (path->l == 0 ? light_pdf_emission(&scene->lights, &at, move->wi)
                                                    : bsdf_eval(&x->bsdf, x->wo, move->wi, IMPORTANCE).pdf);
 }

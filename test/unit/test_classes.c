@@ -20,6 +20,7 @@
 #include <string.h>
 
 #include "bench.h"
+#include "caustics/derived.h"
 #include "helpers.h"
 #include "lab/numbers.h"
 #include "lab/stats.h"
@@ -39,7 +40,7 @@ static char letter_of(const struct scene *scene, const struct vertex *v, const s
         return 'M';
     if (next != NULL && next->prev_delta)
         return dot(v->wo, v->ng) * dot(w, v->ng) > 0 ? 'S' : 'T';
-    return strcmp(scene->material[v->material]->row->name, "metal") == 0 ? 'G' : 'D';
+    return strcmp(vertex_material(scene, v), "metal") == 0 ? 'G' : 'D';
 }
 
 static void word_of(const struct scene *scene, const struct joined *p, char *word)

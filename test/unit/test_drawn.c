@@ -357,7 +357,7 @@ static void check_lights(struct test *t, const struct scene *scene, const struct
         struct light_point at;
         double pdf;
         c.collects = k < DRAWS;
-        if (!connect_light_draw(scene, &b->prepared.counts, z, &sampler, (int)(k % 2), 2, &at, &pdf))
+        if (!light_draw(scene, &b->prepared.counts, z, &sampler, (int)(k % 2), 2, &at, &pdf) || pdf == 0)
             continue;
         const struct light *light = &lights->light[at.light];
         if (light->kind == LIGHT_INFINITE)

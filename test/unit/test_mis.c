@@ -185,8 +185,7 @@ static void compare_value(struct comparison *c, rgb got, const struct vertex *li
 static void compare_length(struct comparison *c, const struct vertex *light, int s, const struct vertex *eye, int t)
 {
     const struct camera *camera = &c->scene->camera;
-    const struct light_point y0 = vertex_light_point(s == 1 ? light : eye);
-    const struct joined j = {.s = s, .t = t, .light = light, .z = t > 1 ? &eye[t - 1] : NULL, .y0 = &y0};
+    const struct joined j = {.s = s, .t = t, .light = light, .z = t > 1 ? &eye[t - 1] : NULL};
     const struct vertex *next = t > 1 ? &eye[1] : &light[s - 1];
     struct vertex path[16];
     memcpy(path, eye, (size_t)t * sizeof *path);
@@ -219,7 +218,7 @@ static void compare_hit(struct comparison *c, const struct vertex *eye, int t)
     memcpy(path, eye, (size_t)t * sizeof *path);
     if (lamp != NULL)
         path[t - 1] = *lamp;
-    compare(c, connect_hit(c->scene, c->counts, &eye[t - 2], &eye[t - 1], t), NULL, 0, path, t);
+    compare(c, connect_hit(c->scene, c->counts, &eye[t - 2], &eye[t - 1]), NULL, 0, path, t);
     c->lamps += lamp != NULL ? c->compared - before : 0;
 }
 
@@ -227,30 +226,22 @@ static void compare_hit(struct comparison *c, const struct vertex *eye, int t)
 static void compare_direct(struct comparison *c, const struct vertex *eye, int t, struct sampler *sampler)
 {
     const struct light_set *lights = &c->scene->lights;
-    struct light_point at;
-    struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler, 0, 1, &at);
     struct vertex y;
     int cell;
-    if (at.light < 0)
+    if (!light_point(c->scene, c->counts, &eye[t - 1], sampler, 0, 1, &y))
         return;
-    vertex_light_end(c->scene, c->counts, &at, &y);
-    if (lights->light[at.light].kind == LIGHT_INFINITE)
-        CHECK(c->t, fabs(light_pdf_sky(lights, at.w, &cell) / at.pdf - 1) < 1e-9 && cell == at.cell,
-              "%s: a direction of cell %d, drawn with %g, is of cell %d", c->name, at.cell, at.pdf, cell);
-    compare(c, got, &y, 1, eye, t);
+    if (lights->light[y.light].kind == LIGHT_INFINITE)
+        CHECK(c->t, fabs(light_pdf_sky(lights, y.wo, &cell) / y.pdf_fwd - 1) < 1e-9 && cell == y.cell,
+              "%s: a direction of cell %d, drawn with %g, is of cell %d", c->name, y.cell, y.pdf_fwd, cell);
+    compare(c, connect_vertices(c->scene, c->counts, &y, &eye[t - 1]), &y, 1, eye, t);
 }
 
 static void compare_lens(struct comparison *c, const struct vertex *light, int s, struct sampler *sampler)
 {
-    struct sampler same = *sampler;
-    struct connection got = connect_lens(c->scene, c->counts, light, s, sampler);
-    double u[2];
-    sampler_pair(&same, DRAW_LENS_POINT, u);
     struct vertex z;
-    memset(&z, 0, sizeof z);
-    z.kind = VERTEX_LENS;
-    z.p = camera_sample_lens(&c->scene->camera, light[s - 1].p, u[0], u[1]);
-    compare(c, got, light, s, &z, 1);
+    double raster[2];
+    if (lens_point(c->scene, &light[s - 1], sampler, &z, raster))
+        compare(c, connect_vertices(c->scene, c->counts, &light[s - 1], &z), light, s, &z, 1);
 }
 
 static void compare_paths(struct comparison *c, int n_paths)
@@ -274,7 +265,7 @@ static void compare_paths(struct comparison *c, int n_paths)
             if (eye[t - 1].kind != VERTEX_ESCAPED)
                 compare_direct(c, eye, t, &d);
             for (int s = 2; s <= n_light; s++)
-                compare(c, connect_pair(c->scene, c->counts, &light[s - 1], &eye[t - 1]), light, s, eye, t);
+                compare(c, connect_vertices(c->scene, c->counts, &light[s - 1], &eye[t - 1]), light, s, eye, t);
         }
         for (int s = 2; s <= n_light; s++)
             compare_lens(c, light, s, &d);

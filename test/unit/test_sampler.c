@@ -242,7 +242,7 @@ static void note_connections(struct usage *all, const struct trace *trace, int s
         if (c->s == 1)
             lamp_inverse(c->end, place(all, "light point of try", k, sample));
         else if (c->t == 1)
-            lens_inverse_through(&all->scene->camera, trace->light[c->light].vertex[c->s - 1].p, c->c.px, c->c.py,
+            lens_inverse_through(&all->scene->camera, trace->light[c->light].vertex[c->s - 1].p, c->px, c->py,
                                  place(all, "lens point of try", k, sample));
     }
 }

@@ -1,4 +1,4 @@
-/* test_steps.c: walks, joints and weights by hand, one step at a time, in matte rooms where every number is known.
+/* test_steps.c: walks, connections and weights by hand, one step at a time, in matte rooms where every number is known.
  * Other tests see more; these are quick and say which step is wrong. (The course's grader asks them first.) */
 #include <math.h>
 #include <string.h>
@@ -221,35 +221,35 @@ void test_walk(struct test *t)
     light_passes(t);
 }
 
-/* --- the joint --------------------------------------------------------------------------------------- */
+/* --- two vertices joined ----------------------------------------------------------------------------- */
 
 static bool close_to(double a, double b) { return fabs(a - b) <= 1e-9 * (fabs(a) + fabs(b)); }
 
-/* Of two matte vertices that face each other. */
-static void check_joint(struct test *t, const struct vertex *y, const struct vertex *z, const struct joint *j)
+/* Of two matte vertices that face each other: the value, and the weight with one side of strategies and with both. A
+ * side is heard alone where the other vertex has no strategies behind it. */
+static void check_joint(struct test *t, const struct scene *scene, const struct vertex *y, const struct vertex *z)
 {
     vec3 d = sub(y->p, z->p), w = normalize(d);
     double d2 = length2(d), at_y = fabs(dot(y->ng, w)), at_z = fabs(dot(z->ng, w)), a = ALBEDO_PERCENT / 100.0;
-    double value = y->beta.g * z->beta.g * sqr(a * INV_PI) * at_y * at_z / d2;
-    CHECK(t, close_to(j->value.g, value), "value: %g, not %g", j->value.g, value);
-    CHECK(t, close_to(j->pdf_y, at_y * INV_PI) && close_to(j->pdf_z, at_z * INV_PI), "pdf_y %g, pdf_z %g, not %g, %g",
-          j->pdf_y, j->pdf_z, at_y * INV_PI, at_z * INV_PI);
-    CHECK(t, close_to(j->pdf_rev_y, fabs(dot(y->ng, y->wo)) * INV_PI) &&
-          close_to(j->pdf_rev_z, fabs(dot(z->ng, z->wo)) * INV_PI), "pdf_rev_y %g, pdf_rev_z %g", j->pdf_rev_y,
-          j->pdf_rev_z);
-    CHECK(t, close_to(j->area_y, at_y / d2) && close_to(j->area_z, at_z / d2), "area_y %g, area_z %g, not %g, %g",
-          j->area_y, j->area_z, at_y / d2, at_z / d2);
-    CHECK(t, close_to(j->length, sqrt(d2)), "length: %g, not %g", j->length, sqrt(d2));
-    CHECK(t, length(sub(j->w, w)) < 1e-9, "w: not the direction from z to y");
-    CHECK(t, j->y == y && j->z == z, "value: of other vertices");
+    double value = y->beta.g * z->beta.g * sqr(a * INV_PI) * at_y * at_z / d2, geometry = at_y * at_z * INV_PI / d2;
+    double light = geometry / y->pdf_fwd * (y->mis_c + fabs(dot(y->ng, y->wo)) * INV_PI * y->mis);
+    double eye = geometry / z->pdf_fwd * (z->mis_c + fabs(dot(z->ng, z->wo)) * INV_PI * z->mis);
+    struct vertex y_alone = *y, z_alone = *z;
+    y_alone.mis = y_alone.mis_c = z_alone.mis = z_alone.mis_c = 0;
+    struct connection c = connect_vertices(scene, &ALL, y, z);
+    struct connection light_alone = connect_vertices(scene, &ALL, y, &z_alone);
+    struct connection eye_alone = connect_vertices(scene, &ALL, &y_alone, z);
+    CHECK(t, c.value.g > 0, "refused: two that face each other are not joined");
+    CHECK(t, close_to(c.value.g, value), "value: %g, not %g", c.value.g, value);
+    CHECK(t, close_to(light_alone.weight, 1 / (1 + light)), "light side: %g, not %g", 1 / light_alone.weight - 1, light);
+    CHECK(t, close_to(eye_alone.weight, 1 / (1 + eye)), "eye side: %g, not %g", 1 / eye_alone.weight - 1, eye);
+    CHECK(t, close_to(c.weight, 1 / (1 + light + eye)), "weight: %g, not %g", c.weight, 1 / (1 + light + eye));
 }
 
-static void refused(struct test *t, const struct vertex *y, const struct vertex *z, const char *why)
+static void refused(struct test *t, const struct scene *scene, const struct vertex *y, const struct vertex *z,
+                    const char *why)
 {
-    struct joint j = {.value = {7, 7, 7}};
-    bool joined = connect_join(y, z, &j);
-    CHECK(t, !joined, "%s: such vertices are joined", why);
-    CHECK(t, rgb_is_black(j.value), "stale: the value is not black after a refusal (%s)", why);
+    CHECK(t, rgb_is_black(connect_vertices(scene, &ALL, y, z).value), "%s: such vertices are joined", why);
 }
 
 static void joints_in_a_box(struct test *t, const char *scale)
@@ -268,24 +268,44 @@ static void joints_in_a_box(struct test *t, const char *scale)
             light[s - 1].beta = rgb_scale(light[s - 1].beta, i % 2 == 0 ? 1 : 1e9); /* a light of any brightness */
         for (int s = 2; s <= m; s++)
             for (int k = 2; k <= n; k++) {
-                struct joint j = {.value = {7, 7, 7}};
                 const struct vertex *y = &light[s - 1], *z = &eye[k - 1];
                 if (dot(y->ng, sub(z->p, y->p)) * dot(y->ng, y->wo) <= 1e-9) /* one side of the box has both */
                     continue;
-                if (CHECK(t, connect_join(y, z, &j), "refused: two that face each other are not joined"))
-                    check_joint(t, y, z, &j);
+                check_joint(t, &r.scene, y, z);
                 struct vertex dark = *y;
                 dark.beta = rgb_black();
-                refused(t, &dark, z, "black");
+                refused(t, &r.scene, &dark, z, "black");
                 joined++;
             }
-        refused(t, &eye[1], &eye[1], "same point");
+        refused(t, &r.scene, &eye[1], &eye[1], "same point");
         struct vertex outside = eye[1];
         outside.p = add(outside.p, mul(outside.wo, -1)); /* behind the other's surface */
-        refused(t, &outside, &eye[1], "behind");
+        refused(t, &r.scene, &outside, &eye[1], "behind");
     }
     CHECK(t, joined > 100, "only %d pairs", joined);
     tear_down(&r);
+}
+
+/* Through a ball no light comes. */
+static void blocked(struct test *t, struct room *r)
+{
+    struct vertex eye[MAX], light[MAX];
+    int n_blocked = 0;
+    for (uint64_t i = 0; i < 40; i++) {
+        int n = walk_eye(t, r, i, 0, eye, 5);
+        struct sampler other = sampler_start(test_seed(t), RNG_LIGHT, 1, i);
+        struct walk w = {&r->scene, &ALL, &r->arena, &other, 0};
+        int m = path_light(&w, light, 5);
+        for (int s = 2; s <= m; s++)
+            for (int k = 2; k <= n; k++) {
+                const struct vertex *y = &light[s - 1], *z = &eye[k - 1];
+                if (scene_visible(&r->scene, z->p, z->prim_id, y->p, y->prim_id))
+                    continue;
+                refused(t, &r->scene, y, z, "blocked");
+                n_blocked++;
+            }
+    }
+    CHECK(t, n_blocked > 10, "only %d pairs do not see each other", n_blocked);
 }
 
 void test_joint(struct test *t)
@@ -298,9 +318,10 @@ void test_joint(struct test *t)
               "AttributeEnd\n", &r)) {
         int n = walk_eye(t, &r, 1, 0, eye, 5);
         if (CHECK(t, n > 2 && eye[2].prev_delta, "the ball is not met")) {
-            refused(t, &eye[2], &eye[1], "mirror");
-            refused(t, &eye[1], &eye[2], "mirror");
+            refused(t, &r.scene, &eye[2], &eye[1], "mirror");
+            refused(t, &r.scene, &eye[1], &eye[2], "mirror");
         }
+        blocked(t, &r);
         tear_down(&r);
     }
 }

@@ -92,18 +92,16 @@ static void bridge(void *context, const struct sample *sample, const struct join
 {
     struct bridges *b = context;
     const struct camera *camera = &b->scene->camera;
-    struct vertex lens = {.kind = VERTEX_LENS, .medium = camera->medium}, y0;
+    struct vertex lens = {.kind = VERTEX_LENS, .medium = camera->medium};
     double w[VERTICES + 1], brought = rgb_luminance(j->c->value) * j->scale;
     (void)sample;
-    bool outside = j->t == 1 && !(j->c->px >= 0 && j->c->px < b->scene->width && j->c->py >= 0 &&
-                                  j->c->py < b->scene->height);
+    bool outside = j->t == 1 && !(j->px >= 0 && j->px < b->scene->width && j->py >= 0 &&
+                                  j->py < b->scene->height);
     if (j->s + j->t < 3 || !(brought > 0) || outside)
         return;
-    if (j->s == 1)
-        vertex_light_end(b->scene, b->counts, j->y0, &y0);
     if (j->t == 1) /* pinholes */
         lens.p = camera_sample_lens(camera, j->light[j->s - 1].p, 0.5, 0.5);
-    const struct vertex *light = j->s == 0 ? NULL : j->s == 1 ? &y0 : j->light;
+    const struct vertex *light = j->light;
     const struct vertex *eye = j->t == 1 ? &lens : j->z + 1 - j->t;
     double wanted = oracle_length(b->scene, light, j->s, eye, j->t);
     b->off = fmax(b->off, fabs(path_length(b->scene, j) / wanted - 1));

@@ -51,7 +51,7 @@ static void add_trace(const struct scene *scene, const struct trace *trace, stru
     for (int i = 0; i < trace->n_connections; i++) {
         const struct trace_connection *k = &trace->connection[i];
         if (k->t == 1)
-            tile_add_splat(&tile, k->c.px, k->c.py, k->added);
+            tile_add_splat(&tile, k->px, k->py, k->added);
     }
     film_merge_tile(film, &tile);
     tile_free(&tile);

@@ -39,11 +39,7 @@ double path_length(const struct scene *scene, const struct joined *j)
     const struct vertex *eye = j->z + 1 - j->t, *z = j->z;
     if (j->s == 0)
         return subpath_length(scene, eye, j->t - 1) + edge_length(scene, z - 1, z->lamp != NULL ? z->lamp : z);
-    double sum = light + subpath_length(scene, eye, j->t);
-    if (j->s > 1)
-        return sum + length(sub(j->light[j->s - 1].p, z->p));
-    return sum + (light_at_infinity(&scene->lights.light[j->y0->light])
-                      ? light_distance(&scene->lights, z->p, j->y0->w) : length(sub(j->y0->p, z->p)));
+    return light + subpath_length(scene, eye, j->t) + edge_length(scene, &j->light[j->s - 1], z);
 }
 
 vec3 lens_drawn(const struct camera *camera, vec3 p, struct sampler sampler)
@@ -52,4 +48,9 @@ vec3 lens_drawn(const struct camera *camera, vec3 p, struct sampler sampler)
     if (camera->lens_radius > 0)
         sampler_pair(&sampler, DRAW_LENS_POINT, u);
     return camera_sample_lens(camera, p, u[0], u[1]);
+}
+
+const char *vertex_material(const struct scene *scene, const struct vertex *v)
+{
+    return scene->material[shape_group_of(&scene->geo, shape_prim(v->prim_id))->material]->row->name;
 }

@@ -22,6 +22,9 @@ double light_distance(const struct light_set *set, vec3 p, vec3 w);
 double subpath_length(const struct scene *scene, const struct vertex *path, int n);
 double path_length(const struct scene *scene, const struct joined *j);
 
+/* vertex_material: the name of the material of a surface vertex. */
+const char *vertex_material(const struct scene *scene, const struct vertex *v);
+
 /* lens_drawn: the point of the lens that connect_lens draws with this sampler for a vertex at p. */
 vec3 lens_drawn(const struct camera *camera, vec3 p, struct sampler sampler);
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "caustics/derived.h"
+#include "caustics/joint.h"
 #include "integrators/prepare.h"
 #include "render/job.h"
 
@@ -39,8 +40,9 @@ static void sum_more(struct sample *sample, const struct one_more *more, const s
         int length = t + m->n_passed;
         bool told = m->n_passed > 0 && sample->pass->observer != NULL;
         const struct vertex *path = told ? whole(sample, eye, t, m) : eye;
-        sample_add(sample, (struct joined){.s = 1, .t = length, .z = told ? &path[length - 1] : &eye[t - 1],
-                                           .c = &m->c, .y0 = &m->y0, .pmf = 1, .scale = 1});
+        const struct vertex y = light_vertex(sample->pass->job->scene, sample->counts, &m->y0);
+        sample_add(sample, (struct joined){.s = 1, .t = length, .light = &y, .z = told ? &path[length - 1] : &eye[t - 1],
+                                           .c = &m->c, .pmf = 1, .scale = 1});
     }
 }
 
@@ -49,9 +51,9 @@ static void sum_direct(struct sample *sample, const struct one_more *more, const
     const struct vertex *z = &eye[t - 1];
     int n = z->eye_end == FIRST_HIT ? sample->light_points : 1;
     for (int i = 0; i < n; i++) {
-        struct light_point y0;
-        struct connection c = connect_direct(sample->pass->job->scene, sample->counts, z, &sample->sampler, i, n, &y0);
-        struct joined j = {.s = 1, .t = t, .z = z, .y0 = &y0, .pmf = 1, .scale = 1.0 / n};
+        struct vertex y;
+        struct connection c = connect_direct(sample->pass->job->scene, sample->counts, z, &sample->sampler, i, n, &y);
+        struct joined j = {.s = 1, .t = t, .light = y.light < 0 ? NULL : &y, .z = z, .pmf = 1, .scale = 1.0 / n};
         weigh_again(more, sample, &j, z->p, &c);
         sample_add(sample, j);
     }
@@ -62,7 +64,7 @@ void one_more_sum_eye(struct sample *sample, const struct one_more *more, const 
     const struct render_job *job = sample->pass->job;
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
-        struct connection c = connect_hit(job->scene, sample->counts, z - 1, z, t);
+        struct connection c = connect_hit(job->scene, sample->counts, z - 1, z);
         struct joined j = {.t = t, .z = z, .pmf = 1, .scale = 1};
         weigh_again(more, sample, &j, z->p, &c);
         sample_add(sample, j);
@@ -80,8 +82,10 @@ static void sum_lens(struct sample *sample, const struct one_more *more, const s
     const struct render_job *job = sample->pass->job;
     for (int s = 2; s <= n && s <= job->max_depth + 1; s++) {
         vec3 lens = lens_drawn(&job->scene->camera, light[s - 1].p, sample->sampler);
-        struct connection c = connect_lens(job->scene, sample->counts, light, s, &sample->sampler);
-        struct joined j = {.s = s, .t = 1, .light = light, .pmf = 1, .scale = scale / sample->counts->lens};
+        double raster[2];
+        struct connection c = connect_lens(job->scene, sample->counts, &light[s - 1], &sample->sampler, raster);
+        struct joined j = {.s = s, .t = 1, .light = light, .px = raster[0], .py = raster[1], .pmf = 1,
+                           .scale = scale / sample->counts->lens};
         weigh_again(more, sample, &j, lens, &c);
         sample_splat(sample, j);
     }

@@ -41,7 +41,7 @@ int follow_light(const struct walk *w, const struct path_stop *stop, int n, stru
         v->beta = from.beta;
         walk_measure(w, v, prev, &from, d2);
         v->eye_end = LATER_HIT;
-        v->mis_c = c_light(w->counts, prev, v, LATER_HIT);
+        v->mis_c = n_before(w->counts, prev, v, IMPORTANCE);
     }
     return n;
 }

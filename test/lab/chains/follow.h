@@ -15,7 +15,7 @@ struct path_stop {
 };
 
 /* follow_light: the light sub-path of n >= 1 vertices on these places, with throughput, densities and weights as
- * if a walk had come there. Visibility is not asked. stop[0] is as vertex_light_end fills it in; of delta lobes the
+ * if a walk had come there. Visibility is not asked. stop[0] is as vertex_light fills it in; of delta lobes the
  * numbers come from the sampler. Returns how many vertices light comes to.
  * follow_on: go on from n vertices, leaving the last (y_0, no light at infinity, or a surface by a lobe that is
  * not delta) in direction wi, *pdf being that direction's density, 1/sr. Returns the number of vertices. */

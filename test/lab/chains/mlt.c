@@ -26,6 +26,7 @@
 #include "base/vec.h"
 #include "base/maths.h"
 #include "base/number.h"
+#include "caustics/joint.h"
 #include "caustics/lamp.h"
 #include "caustics/surfaces.h"
 
@@ -73,7 +74,7 @@ static void light_end(const struct chain *c, const struct vertex *z, const doubl
         at = vertex_light_point(z);
         at.pdf = z->pdf_origin;
     }
-    vertex_light_end(scene, &c->all->counts, &at, out);
+    *out = light_vertex(scene, &c->all->counts, &at);
 }
 
 /* m, l and what can be done, from which vertices are left by delta lobes. */
@@ -157,14 +158,14 @@ static bool remake_lens(struct primary *p, const struct mlt_path *path, const st
         return false;
     z = &p->chain->work->eye[t - 1];
     if (s == 0) {
-        *out = connect_hit(scene, counts, z - 1, z, t);
+        *out = connect_hit(scene, counts, z - 1, z);
         return true;
     }
     if (z->kind != VERTEX_SURFACE || follow_light(&w, path->x, s, light) < s)
         return false;
     struct light_point at = vertex_light_point(&path->x[0].v);
     at.pdf = path->x[0].v.pdf_fwd;
-    *out = s == 1 ? lamp_connect(scene, counts, z, &at, at.pdf) : connect_pair(scene, counts, &light[s - 1], z);
+    *out = s == 1 ? lamp_connect(scene, counts, z, &at, at.pdf) : connect_vertices(scene, counts, &light[s - 1], z);
     return true;
 }
 
@@ -180,7 +181,7 @@ static bool remake_caustic(struct primary *p, const struct mlt_path *path, const
     if (follow_light(&w, path->x, n, light) < n || follow_on(&w, light, n, move->wi, k, pdf) < k ||
         !all_delta(light, n + 1, k))
         return false;
-    *out = connect_lens(p->chain->job->scene, &p->chain->all->counts, light, k, &p->sampler[LENS_NUMBERS]);
+    *out = primary_lens(p, &light[k - 1], to);
     return true;
 }
 

@@ -10,7 +10,7 @@ enum mlt_perturbation { LENS_PERTURBATION, CAUSTIC_PERTURBATION, MLT_PERTURBATIO
 /* x_0 .. x_k, x_k being the lens. */
 struct mlt_path {
     struct arena arena; /* holds the rest */
-    struct path_stop *x; /* [k]; x_0 as vertex_light_end fills it in; those of an eye walk may be out of date */
+    struct path_stop *x; /* [k]; x_0 as vertex_light fills it in; those of an eye walk may be out of date */
     int k, m, l;         /* see mlt.c; l is used where can[CAUSTIC_PERTURBATION] */
     bool can[MLT_PERTURBATIONS];
     double L[MLT_PERTURBATIONS]; /* below 0: not known yet */

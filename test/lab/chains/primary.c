@@ -1,6 +1,8 @@
 /* primary.c: see primary.h. */
 #include "chains/primary.h"
 
+#include "caustics/joint.h"
+
 #include <stddef.h>
 
 #include "base/maths.h"
@@ -107,23 +109,34 @@ int primary_light(struct primary *p, int n)
     return path_light(&w, p->chain->light, n);
 }
 
-/* Join sub-paths of s and t vertices. */
-static struct connection join(struct primary *p, int s, int t)
+struct connection primary_lens(struct primary *p, const struct vertex *y, struct strategy *of)
 {
+    double raster[2];
+    struct connection c =
+        connect_lens(p->chain->job->scene, &p->chain->all->counts, y, &p->sampler[LENS_NUMBERS], raster);
+    of->px = raster[0];
+    of->py = raster[1];
+    return c;
+}
+
+/* Join sub-paths of s and t vertices. */
+static struct connection join(struct primary *p, struct strategy *of)
+{
+    int s = of->s, t = of->t;
     const struct scene *scene = p->chain->job->scene;
     const struct counts *counts = &p->chain->all->counts;
     const struct vertex *y = &p->chain->light[s - 1], *z = &p->chain->work->eye[t - 1];
     static const struct connection NOTHING = {.light = -1};
-    struct light_point y0;
+    struct vertex y0;
     if (s == 0)
-        return connect_hit(scene, counts, z - 1, z, t);
+        return connect_hit(scene, counts, z - 1, z);
     if (s == 1)
         return z->kind == VERTEX_ESCAPED
                    ? NOTHING
                    : connect_direct(scene, counts, z, &p->sampler[POINT_NUMBERS], 0, 1, &y0);
     if (t == 1)
-        return connect_lens(scene, counts, p->chain->light, s, &p->sampler[LENS_NUMBERS]);
-    return connect_pair(scene, counts, y, z);
+        return primary_lens(p, y, of);
+    return connect_vertices(scene, counts, y, z);
 }
 
 /* What arrives from the light (t = 1) does so at every raster point that is the same ray. */
@@ -135,10 +148,6 @@ bool primary_bring(struct primary *p, const struct connection *c, struct strateg
     if (rgb_is_black(c->value))
         return false;
     out->value = rgb_scale(c->value, c->weight * out->n * each);
-    if (out->t == 1) {
-        out->px = c->px;
-        out->py = c->py;
-    }
     for (int i = 0; i < (out->t > 1 ? 1 : camera_images(&scene->camera, radius)); i++) {
         double px = out->px, py = out->py;
         if (out->t == 1)
@@ -156,6 +165,6 @@ bool primary_strategy(struct primary *p, struct strategy *out)
     out->t = length - out->s;
     if (primary_eye(p, out->t, &out->px, &out->py) < out->t || (out->s > 1 && primary_light(p, out->s) < out->s))
         return false;
-    struct connection c = join(p, out->s, out->t);
+    struct connection c = join(p, out);
     return primary_bring(p, &c, out);
 }

@@ -46,7 +46,9 @@ struct strategy {
  * and with bdpt's weight, and hear what it contributes. Returns false if that is nothing. */
 bool primary_strategy(struct primary *p, struct strategy *out);
 
-/* primary_bring: hear what a connection contributes to out->px, py, or of t = 1 to where it arrives, which it sets. */
+/* primary_lens: connect y to the lens, and set px, py: where it arrives.
+ * primary_bring: hear what a connection contributes to out->px, py. */
+struct connection primary_lens(struct primary *p, const struct vertex *y, struct strategy *of);
 bool primary_bring(struct primary *p, const struct connection *c, struct strategy *out);
 
 #endif

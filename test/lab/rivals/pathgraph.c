@@ -106,7 +106,7 @@ static void aggregate_light(struct node **member, int n, const struct node *from
 static void aggregate_next(const struct sample *sample, struct node **member, int n, struct node *from)
 {
     const struct vertex *next = from->z + 1;
-    const struct connection hit = reuse_hit(sample, from->z, next, 3, rgb_grey(1));
+    const struct connection hit = reuse_hit(sample, from->z, next, rgb_grey(1));
     int able;
     double roulette, sum = ask(member, n, neg(next->wo), &able);
     double all = sum + able * from->p * reuse_hit_density(next);

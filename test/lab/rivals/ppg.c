@@ -122,15 +122,19 @@ static int walk_guided(const struct sdtree *tree, const struct walk *w, struct v
 /* s = 1, as sample_direct. */
 static void sum_direct(struct sample *sample, const struct vertex *z, int t, const struct sd_leaf *guide)
 {
-    struct light_point y0;
+    struct light_point at;
+    struct vertex y;
     struct lit l;
     struct connection c = {.light = -1};
-    if (lit_draw(sample, z, &sample->sampler, 0, 1, &y0, &l)) {
+    if (lit_draw(sample, z, &sample->sampler, 0, 1, &at, &l)) {
         if (guide != NULL)
             l.pdf_z = mixed(guide, l.pdf_z, quadtree_pdf(&guide->known, l.w));
         c = connect_lit(sample->pass->job->scene, sample->counts, &l);
     }
-    sample_add(sample, (struct joined){.s = 1, .t = t, .z = z, .c = &c, .y0 = &y0, .pmf = 1, .scale = 1});
+    if (at.light >= 0)
+        y = light_vertex(sample->pass->job->scene, sample->counts, &at);
+    sample_add(sample, (struct joined){.s = 1, .t = t, .light = at.light >= 0 ? &y : NULL, .z = z, .c = &c, .pmf = 1,
+                                       .scale = 1});
 }
 
 /* A sample of a pixel, not ended, times `share`. Its vertices are in the workspace; returns their number, and of each

@@ -86,7 +86,8 @@ static void reuse(struct pixel *pixel, const struct reservoir *all, const int *n
     }
     double m = value_at(scene, &pixel[near[from]].eye[1], &all[near[from]], &l) / others;
     struct connection made = connect_lit(scene, c->sample.counts, &kept);
-    sample_add(&c->sample, (struct joined){.s = 1, .t = 2, .z = &c->eye[1], .c = &made, .y0 = &kept.at, .pmf = 1,
+    const struct vertex y = light_vertex(scene, c->sample.counts, &kept.at);
+    sample_add(&c->sample, (struct joined){.s = 1, .t = 2, .light = &y, .z = &c->eye[1], .c = &made, .pmf = 1,
                                            .scale = m * sum / own});
 }
 

@@ -38,7 +38,7 @@ struct tail {
     double light; /* density, 1/sr, with which w is drawn on lights; LATER: the weight, which is known */
     int s, t;     /* of the whole path: its eye vertices go on behind z2 in memory */
     int ends_on;  /* number of a light */
-    struct light_point y0; /* s = 1 */
+    struct vertex y; /* s = 1 */
 };
 
 struct reservoir {
@@ -95,13 +95,15 @@ static void offer_point(struct pixel *p, struct reservoir *r, const struct verte
     const struct render_job *job = p->sample.pass->job;
     const struct scene *scene = job->scene;
     struct tail x = {.z = z, .s = 1, .t = 3};
+    struct light_point at;
     struct lit l;
-    if (job->max_depth < 2 || !lit_draw(&p->sample, z, &p->sample.sampler, 0, 1, &x.y0, &l) || !reuse_sees(scene, &l))
+    if (job->max_depth < 2 || !lit_draw(&p->sample, z, &p->sample.sampler, 0, 1, &at, &l) || !reuse_sees(scene, &l))
         return;
     bool delta = light_is_delta(&scene->lights.light[l.at.light]);
     double density = l.pdf / l.at_light;
     x.kind = delta ? LATER : POINT;
     x.w = l.w;
+    x.y = light_vertex(scene, p->sample.counts, &at);
     x.L = light_Le(&scene->lights, &l.at, neg(l.w));
     x.light = delta ? 1 : density;
     x.ends_on = l.at.light;
@@ -124,15 +126,15 @@ static void offer_later(struct pixel *p, struct reservoir *r, const struct verte
         at.beta = beta;
         for (x.s = 0; x.s <= (at.kind == VERTEX_SURFACE && x.t <= job->max_depth + 1); x.s++) {
             struct connection c =
-                x.s == 0 ? reuse_hit(sample, &p->eye[x.t - 2], &p->eye[x.t - 1], x.t, beta)
-                         : connect_direct(job->scene, sample->counts, &at, &sample->sampler, 0, 1, &x.y0);
+                x.s == 0 ? reuse_hit(sample, &p->eye[x.t - 2], &p->eye[x.t - 1], beta)
+                         : connect_direct(job->scene, sample->counts, &at, &sample->sampler, 0, 1, &x.y);
             x.kind = x.s == 0 && x.t == 4 ? HIT : LATER;
             x.light = x.kind == HIT ? pdf * reuse_hit_density(&z[1]) : c.weight;
             x.L = c.value;
             x.ends_on = c.light;
             if (own)
                 sample_add(sample, (struct joined){.s = x.s, .t = x.t, .z = &p->eye[x.t - 1], .c = &c,
-                                                   .y0 = x.s == 1 ? &x.y0 : NULL, .pmf = 1, .scale = 1});
+                                                   .light = x.s == 1 ? &x.y : NULL, .pmf = 1, .scale = 1});
             else if (!rgb_is_black(c.value))
                 offer(p, r, &x, density, sum);
         }
@@ -170,7 +172,7 @@ static void add_made(struct pixel *c, const struct tail *x, const struct connect
 {
     const struct tile_pass *pass = c->sample.pass;
     size_t t = (size_t)x->t, size = sizeof *c->eye;
-    struct joined j = {.s = x->s, .t = x->t, .c = made, .y0 = x->s == 1 ? &x->y0 : NULL, .pmf = 1, .scale = scale};
+    struct joined j = {.s = x->s, .t = x->t, .c = made, .light = x->s == 1 ? &x->y : NULL, .pmf = 1, .scale = scale};
     if (pass->observer != NULL) {
         struct vertex *path = arena_alloc(&pass->work->arena, t * size);
         memcpy(path, c->eye, 2 * size);

@@ -210,7 +210,7 @@ static double weigh(struct index *r, int s, double n, const struct path_end *y, 
 
 struct connection ris_hit(struct index *r, const struct vertex *prev, const struct vertex *z, int t)
 {
-    struct connection c = connect_hit(r->scene, r->counts, prev, z, t);
+    struct connection c = connect_hit(r->scene, r->counts, prev, z);
     if (t == 2 || rgb_is_black(c.value))
         return c;
     const struct vertex *end = z->lamp != NULL ? z->lamp : z;
@@ -226,10 +226,9 @@ struct connection ris_lit(struct index *r, const struct lit *l)
 {
     const struct vertex *z = l->z;
     struct connection c = connect_lit(r->scene, r->counts, l);
-    struct vertex y;
     if (rgb_is_black(c.value))
         return c;
-    vertex_light_end(r->scene, r->counts, &l->at, &y);
+    struct vertex y = light_vertex(r->scene, r->counts, &l->at);
     y.mis_c = y.mis_c > 0 ? r->counts->hit[z->eye_end] : 0;
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &l->at, z->p, neg(l->w));
     double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
@@ -397,12 +396,15 @@ static void sum_eye(struct index *r, struct sample *sample, const struct vertex 
             continue;
         for (int i = 0; i < points; i++) {
             struct connection direct = {.weight = 0};
-            struct light_point y0;
+            struct light_point at;
+            struct vertex y;
             struct lit l;
-            if (lit_draw(sample, z, &sample->sampler, i, points, &y0, &l))
+            if (lit_draw(sample, z, &sample->sampler, i, points, &at, &l))
                 direct = ris_lit(r, &l);
-            sample_add(sample, (struct joined){.s = 1, .t = t, .z = z, .c = &direct, .y0 = &y0, .pmf = 1,
-                                               .scale = 1.0 / points});
+            if (at.light >= 0)
+                y = light_vertex(r->scene, r->counts, &at);
+            sample_add(sample, (struct joined){.s = 1, .t = t, .light = at.light >= 0 ? &y : NULL, .z = z,
+                                               .c = &direct, .pmf = 1, .scale = 1.0 / points});
         }
     }
 }

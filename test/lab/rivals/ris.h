@@ -2,6 +2,7 @@
 #ifndef ASBDPT_RIS_H
 #define ASBDPT_RIS_H
 
+#include "caustics/joint.h"
 #include "rivals/records.h"
 
 /* The `own` of these methods. */

@@ -106,7 +106,7 @@ static void note_hit(struct trainer *r, const struct vertex *eye, int t)
 {
     const struct scene *scene = r->job->scene;
     const struct vertex *z = &eye[t - 2], *x = eye[t - 1].lamp != NULL ? eye[t - 1].lamp : &eye[t - 1];
-    struct connection c = connect_hit(scene, r->counts, z, x, t);
+    struct connection c = connect_hit(scene, r->counts, z, x);
     struct light_point y0 = vertex_light_point(x);
     if (t == 2 || rgb_is_black(c.value))
         return;
@@ -124,7 +124,7 @@ static void note_lit(struct trainer *r, const struct vertex *z, struct sampler *
     struct light_point at;
     struct lit l;
     double pdf;
-    if (!connect_light_draw(scene, r->counts, z, sampler, 0, 1, &at, &pdf) || !connect_light(scene, z, &at, pdf, &l))
+    if (!light_draw(scene, r->counts, z, sampler, 0, 1, &at, &pdf) || pdf == 0 || !connect_light(scene, z, &at, pdf, &l))
         return;
     bool hit = !light_is_delta(&scene->lights.light[at.light]);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &at, z->p, neg(l.w));
@@ -278,7 +278,7 @@ static void classify(const struct prepared *p, struct vertex *path, int n, struc
         if (v->kind != VERTEX_SURFACE)
             continue;
         v->region = tree_find(own->tree[mode == RADIANCE], place_of(v));
-        v->mis_c = mode == RADIANCE ? c_eye(counts, x, v) : c_light(counts, x, v, LATER_HIT);
+        v->mis_c = n_before(counts, x, v, mode);
         v->region = tree_find(own->tree[mode == IMPORTANCE], place_of(v));
     }
 }
@@ -353,10 +353,11 @@ static void splat(const struct prepared *p, struct sample *sample, struct vertex
         struct vertex *y = &light[s - 1];
         int region = y->region;
         y->region = tree_find(own->tree[0], place_of(y));
-        struct connection c = connect_lens(sample->pass->job->scene, &p->counts, light, s, &sample->sampler);
+        double raster[2];
+        struct connection c = connect_lens(sample->pass->job->scene, &p->counts, y, &sample->sampler, raster);
         y->region = region;
-        sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .pmf = 1,
-                                             .scale = scale / p->counts.lens});
+        sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .px = raster[0], .py = raster[1],
+                                             .pmf = 1, .scale = scale / p->counts.lens});
     }
 }
 

@@ -97,13 +97,12 @@ rgb reuse_step(const struct vertex *z, const struct vertex *next, double *roulet
     return rgb_scale(factor, *roulette);
 }
 
-struct connection reuse_hit(const struct sample *sample, const struct vertex *prev, const struct vertex *z, int t,
-                            rgb beta)
+struct connection reuse_hit(const struct sample *sample, const struct vertex *prev, const struct vertex *z, rgb beta)
 {
     struct vertex at = z->lamp != NULL ? *z->lamp : *z;
     at.lamp = NULL;
     at.beta = beta;
-    return connect_hit(sample->pass->job->scene, sample->counts, prev, &at, t);
+    return connect_hit(sample->pass->job->scene, sample->counts, prev, &at);
 }
 
 void reuse_prepare(const struct render_job *job, struct prepared *p)

@@ -6,6 +6,7 @@
 #ifndef ASBDPT_TOGETHER_H
 #define ASBDPT_TOGETHER_H
 
+#include "caustics/joint.h"
 #include "caustics/lamp.h"
 #include "integrators/loop.h"
 
@@ -25,13 +26,14 @@ typedef void connect_all_fn(const struct prepared *p, const struct tile_pass *pa
 struct pixel together_begin(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration);
 void together_render(const struct prepared *p, const struct tile_pass *pass, connect_all_fn *connect_all);
 
-/* lit_draw: connect_light to a point that connect_light_draw draws, number i of n. */
+/* lit_draw: connect_light to a point that light_draw draws, number i of n. */
 static inline bool lit_draw(const struct sample *sample, const struct vertex *z, struct sampler *sampler, int i, int n,
                             struct light_point *at, struct lit *out)
 {
     const struct scene *scene = sample->pass->job->scene;
     double pdf;
-    return connect_light_draw(scene, sample->counts, z, sampler, i, n, at, &pdf) &&
+    at->light = -1;
+    return light_draw(scene, sample->counts, z, sampler, i, n, at, &pdf) && pdf > 0 &&
            connect_light(scene, z, at, pdf, out);
 }
 
@@ -49,9 +51,8 @@ int reuse_neighbours(struct pixel *pixel, int n, int i, int tries, int *near);
  * in which it was 0; *roulette: the part of it that roulette is, unless a delta lobe was taken. */
 rgb reuse_step(const struct vertex *z, const struct vertex *next, double *roulette);
 
-/* reuse_hit: s = 0 for the last, z, of t eye vertices as if that throughput had come there. */
-struct connection reuse_hit(const struct sample *sample, const struct vertex *prev, const struct vertex *z, int t,
-                            rgb beta);
+/* reuse_hit: s = 0 for the last of some eye vertices, z, as if that throughput had come there. */
+struct connection reuse_hit(const struct sample *sample, const struct vertex *prev, const struct vertex *z, rgb beta);
 
 /* reuse_hit_density: where s = 1 draws what s = 0 hits at z: density there over that of the walk. */
 static inline double reuse_hit_density(const struct vertex *z)

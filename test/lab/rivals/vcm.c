@@ -92,18 +92,19 @@ static void splat(const struct index *m, struct sample *sample, const struct ver
 {
     const struct scene *scene = sample->pass->job->scene;
     const struct camera *camera = &scene->camera;
-    double S = sample->counts->lens, px, py;
+    double S = sample->counts->lens, px, py, raster[2];
     for (int s = 2; s <= n && s <= sample->pass->job->max_depth + 1; s++) {
         const struct vertex *y = &light[s - 1];
         vec3 lens = lens_drawn(camera, y->p, sample->sampler), d = sub(y->p, lens);
-        struct connection c = connect_lens(scene, sample->counts, light, s, &sample->sampler);
+        struct connection c = connect_lens(scene, sample->counts, y, &sample->sampler, raster);
         if (!rgb_is_black(c.value)) {
             vec3 w = normalize(d);
             double R = camera_project(camera, lens, w, &px, &py) * camera_spread(camera, length2(d)) *
                        abs_dot(y->ng, w); /* density of y in the eye walk */
             c.weight = 1 / (1 / c.weight + R * m->eta / S);
         }
-        sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .pmf = 1, .scale = 1 / S});
+        sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .px = raster[0], .py = raster[1],
+                                             .pmf = 1, .scale = 1 / S});
     }
 }
 
