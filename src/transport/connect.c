@@ -71,8 +71,8 @@ struct scatter {
     double pdf, pdf_rev;
 };
 
-/* Of a light or the lens beta has what it sends there, except for the cosine at an area light. The density of a light
- * is that of emission, which is asked for last. */
+/* Of a light or the lens beta has what it sends there, except for the cosine at an area light. For the density of a light
+ * see emitted_pdf, which costs more than the rest. */
 static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum transport mode)
 {
     if (v->kind == VERTEX_LENS)
@@ -86,10 +86,19 @@ static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, en
     return s;
 }
 
+/* With what density a light sub-path that begins in y goes in direction w, to p: 1/sr, at infinity 1/m^2. */
+static double emitted_pdf(const struct scene *scene, const struct counts *counts, const struct vertex *y, vec3 p,
+                          vec3 w)
+{
+    const struct light_point at = vertex_light_point(y);
+    return emission_pdf(&counts->tables->emission, &scene->lights, &at, p, w);
+}
+
 /* Can anything go on from v in direction w, as far as one sees at once? */
 static inline bool may_leave(const struct vertex *v, vec3 w)
 {
-    return v->kind == VERTEX_LIGHT || v->kind == VERTEX_LENS || (v->bsdf.n_smooth > 0 && bsdf_may_scatter(&v->bsdf, v->wo, w));
+    return v->kind == VERTEX_LIGHT || v->kind == VERTEX_LENS ||
+           (v->bsdf.n_smooth > 0 && bsdf_may_scatter(&v->bsdf, v->wo, w));
 }
 
 /* A_light of mis.h (5). A light walk counts y as a later hit. Next to the lens it is the first hit, so its c_e differs
@@ -117,20 +126,17 @@ struct connection connect_vertices(const struct scene *scene, const struct count
     const vec3 back = neg(e.w);
     if (!(e.distance > 0) || rgb_is_black(y->beta) || !may_leave(z, e.w) || !may_leave(y, back))
         return c;
-    struct scatter at_z = scatter_towards(z, e.w, RADIANCE);
+    const struct scatter at_z = scatter_towards(z, e.w, RADIANCE);
     if (rgb_is_black(at_z.factor))
         return c;
-    struct scatter at_y = scatter_towards(y, back, IMPORTANCE);
+    const struct scatter at_y = scatter_towards(y, back, IMPORTANCE);
     /* C* = alpha_s c alpha_t, c = f G f: both cosines are in the factors [V97 10.2] */
     rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), e.spread));
     if (rgb_is_black(value) || !edge_passes(scene, y, z, &e, &way))
         return c;
-    if (y->kind == VERTEX_LIGHT) {
-        struct light_point at = vertex_light_point(y);
-        at_y.pdf = emission_pdf(&counts->tables->emission, &scene->lights, &at, z->p, back);
-    }
+    double pdf_y = y->kind == VERTEX_LIGHT ? emitted_pdf(scene, counts, y, z->p, back) : at_y.pdf;
     double R_y = at_z.pdf * vertex_cosine(y, e.w) * e.spread * way.density[1];
-    double R_z = at_y.pdf * vertex_cosine(z, e.w) * e.spread * way.density[0];
+    double R_z = pdf_y * vertex_cosine(z, e.w) * e.spread * way.density[0];
     double eye_side = mis_side(R_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis); /* mis.h (5) */
     c.value = rgb_mul(value, way.left);
     c.weight = mis_weight(n_of(counts, y, z), light_side(scene, counts, y, z, R_y, at_y.pdf_rev), eye_side); /* (7) */
