@@ -147,7 +147,7 @@ bool kd_has(enum kd_of kind, const struct shape_group *group)
 {
     if (kind == KD_SURFACES || group->material >= 0)
         return kind == KD_SURFACES && group->material >= 0;
-    return kind == KD_LAMPS ? group->first_light >= 0 : group->medium[0] != group->medium[1];
+    return kind == KD_LAMPS ? group->first_light >= 0 : shape_is_interface(group);
 }
 
 /* Add primitives to the cell of everything. */

@@ -37,12 +37,10 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
                     double d2)
 {
     walk_measure(w, v, prev, from, d2);
-    if (w->scene->media.n > 0) {
-        v->back *= from->way->density[0];
-        v->pdf_fwd *= from->way->density[1];
-        v->mis *= mis_raise(w->counts, from->way->density[0]);
-        v->medium = from->way->medium;
-    }
+    v->back *= from->edge.density[0];
+    v->pdf_fwd *= from->edge.density[1];
+    v->mis *= mis_raise(w->counts, from->edge.density[0]);
+    v->medium = from->edge.medium;
 }
 
 /* The ray met no surface. If there is a sky, or if it passed a see-through light, the eye sub-path ends there. Its
@@ -86,6 +84,9 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     return true;
 }
 
+/* The throughput after an edge, which media make less likely as well as darker. */
+static rgb flown(rgb beta, const struct edge *e) { return rgb_mul(beta, rgb_scale(e->left, 1 / e->density[1])); }
+
 /* The first see-through light on the ray before the surface or scattering point *end (NULL: none), as a vertex; NULL if
  * there is none. The edge ends there, so media count as far as that alone.
  *   beta  the walk's throughput before it flew to *end */
@@ -93,17 +94,13 @@ static const struct vertex *meet_lamp(const struct walk *w, const struct vertex 
                                       rgb beta, const struct surface *end)
 {
     struct surface at;
-    struct passage way;
     if (!scene_lamp(w->scene, &from->ray, prev->kind == VERTEX_LENS, end, &at))
         return NULL;
     struct departure to = *from;
-    if (w->scene->media.n > 0) {
-        to.ray.tmax = length(sub(at.p, to.ray.o));
-        to.ray.to = at.prim_id;
-        way = medium_pass(&w->scene->media, &to.ray, prev->ng, prev->medium);
-        to.way = &way;
-        to.beta = rgb_mul(beta, rgb_scale(way.left, 1 / way.density[1]));
-    }
+    to.ray.tmax = length(sub(at.p, to.ray.o));
+    to.ray.to = at.prim_id;
+    to.edge = scene_pass(w->scene, &to.ray, prev->ng, prev->medium);
+    to.beta = flown(beta, &to.edge);
     struct vertex *v = arena_alloc(w->arena, sizeof *v);
     memset(v, 0, sizeof *v);
     return meet(w, v, prev, &to, &at, RADIANCE) ? v : NULL;
@@ -123,17 +120,6 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     v->region = region_at(&w->counts->tables->regions, v->p, vertex_side(v));
     v->mis_c = mode == RADIANCE ? c_eye(w->counts, prev, v) : c_light(w->counts, prev, v, LATER_HIT);
     return true;
-}
-
-/* Walk through media as far as the next scattering. If that is before the surface, *at becomes the scattering point.
- * False if the walk meets nothing. */
-static bool fly(const struct walk *w, const struct vertex *prev, struct departure *from, bool meets,
-                struct surface *at)
-{
-    from->way = arena_alloc(w->arena, sizeof *from->way);
-    meets = medium_fly(&w->scene->media, &from->ray, prev->ng, prev->medium, w->sampler, meets, at, from->way);
-    from->beta = rgb_mul(from->beta, rgb_scale(from->way->left, 1 / from->way->density[1]));
-    return meets;
 }
 
 /* Russian roulette: `left` is the fraction of its first throughput that the walk has kept. False if the walk ends.
@@ -173,21 +159,20 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
     double first = rgb_max(from.beta);
     while (n < max_vertices) {
         struct surface at;
-        const struct vertex *lamp = NULL;
+        const struct vertex *prev = &path[n - 1], *lamp = NULL;
         const rgb beta = from.beta;
-        bool met = scene_intersect(w->scene, &from.ray, &at);
-        if (w->scene->media.n > 0)
-            met = fly(w, &path[n - 1], &from, met, &at);
+        bool met = scene_fly(w->scene, &from.ray, prev->ng, prev->medium, w->sampler, &at, &from.edge);
+        from.beta = flown(beta, &from.edge);
         if (mode == RADIANCE)
-            lamp = meet_lamp(w, &path[n - 1], &from, beta, met ? &at : NULL);
+            lamp = meet_lamp(w, prev, &from, beta, met ? &at : NULL);
         else if (n == 1 && met && scene_lamp_stops(w->scene, &from.ray, &at))
             break; /* emitted light does not pass see-through lights, or is not there at all */
         if (!met) {
-            if (mode == RADIANCE && escape(w, &path[n], &path[n - 1], &from, lamp))
+            if (mode == RADIANCE && escape(w, &path[n], prev, &from, lamp))
                 n++;
             break;
         }
-        if (!arrive(w, &path[n], &path[n - 1], &from, &at, mode))
+        if (!arrive(w, &path[n], prev, &from, &at, mode))
             break;
         path[n].lamp = lamp;
         n++;

@@ -11,6 +11,7 @@
 #include "integrators/prepare.h"
 #include "lab/aov.h"
 #include "lab/methods.h"
+#include "lab/visible.h"
 
 enum { LIGHT_PATHS = 64 * 1024, GAP = 8, LABEL = 24, TEXT = 2, WIDE = 320 };
 

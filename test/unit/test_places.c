@@ -12,6 +12,7 @@
 #include "base/rng.h"
 #include "lab/numbers.h"
 #include "lab/stats.h"
+#include "lab/visible.h"
 #include "helpers.h"
 #include "random_scene.h"
 #include "suites.h"
