@@ -63,16 +63,12 @@ int medium_outermost(const struct space *space, const struct kdtree *surfaces, v
 
 /* --- edges -------------------------------------------------------------------------------------------- */
 
-/* Nothing has happened to it yet. */
-static struct edge begin(const struct space *space, const struct ray *ray, vec3 ng, int around)
+int medium_towards(const struct space *space, uint64_t prim_id, vec3 ng, vec3 d, int around)
 {
-    struct edge e = EMPTY_EDGE;
-    e.medium = around;
-    if (ray->from != 0 && ray->from != WITHIN_MEDIUM) {
-        const struct shape_group *group = shape_group_of(space->geo, shape_prim(ray->from));
-        e.medium = shape_is_interface(group) ? group->medium[dot(ng, ray->d) > 0] : around;
-    }
-    return e;
+    if (prim_id == 0 || prim_id == WITHIN_MEDIUM)
+        return around;
+    const struct shape_group *group = shape_group_of(space->geo, shape_prim(prim_id));
+    return shape_is_interface(group) ? group->medium[dot(ng, d) > 0] : around;
 }
 
 /* How far until a walk is scattered. */
@@ -194,20 +190,21 @@ static double pass(const struct space *space, const struct ray *ray, struct samp
     return scattered ? done : INFINITY;
 }
 
-struct edge medium_pass(const struct space *space, const struct ray *ray, vec3 ng, int around)
+void medium_pass(const struct space *space, const struct ray *ray, int medium, struct edge *out)
 {
-    struct edge out = begin(space, ray, ng, around);
-    pass(space, ray, NULL, &out);
-    return out;
+    *out = EMPTY_EDGE;
+    out->medium = medium;
+    pass(space, ray, NULL, out);
 }
 
-bool medium_fly(const struct space *space, const struct ray *ray, vec3 ng, int around, struct sampler *sampler,
-                bool meets, struct surface *at, struct edge *out)
+bool medium_fly(const struct space *space, const struct ray *ray, int medium, struct sampler *sampler, bool meets,
+                struct surface *at, struct edge *out)
 {
-    *out = begin(space, ray, ng, around);
     struct ray free = *ray;
     if (meets)
         free.tmax = length(sub(at->p, ray->o));
+    *out = EMPTY_EDGE;
+    out->medium = medium;
     double d = pass(space, &free, sampler, out);
     if (d == INFINITY)
         return meets;

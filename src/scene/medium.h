@@ -67,15 +67,16 @@ struct edge {
 
 static const struct edge EMPTY_EDGE = {{1, 1, 1}, {1, 1}, 0};
 
-/* medium_pass: the edge from ray->o to ray->tmax.
- *   ng      normal of the primitive ray->from
- *   around  the medium that is there, unless the primitive bounds media */
-struct edge medium_pass(const struct space *space, const struct ray *ray, vec3 ng, int around);
+/* medium_towards: the medium into which direction d leads from a point of a primitive of normal ng: `around` unless
+ * that bounds media. */
+int medium_towards(const struct space *space, uint64_t prim_id, vec3 ng, vec3 d, int around);
 
-/* medium_fly: the same of a walk towards the surface *at, if it is about to meet one.
+/* medium_pass: the edge from ray->o to ray->tmax, which begins in this medium.
+ * medium_fly: the same of a walk towards the surface *at, if it is about to meet one.
  *   at  in-out: where it is scattered, if that is before
  * Returns whether it comes to anything. */
-bool medium_fly(const struct space *space, const struct ray *ray, vec3 ng, int around, struct sampler *sampler,
-                bool meets, struct surface *at, struct edge *out);
+void medium_pass(const struct space *space, const struct ray *ray, int medium, struct edge *out);
+bool medium_fly(const struct space *space, const struct ray *ray, int medium, struct sampler *sampler, bool meets,
+                struct surface *at, struct edge *out);
 
 #endif

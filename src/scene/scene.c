@@ -206,18 +206,21 @@ bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct
     return kd_occluded(&s->kd_lamps, &s->geo, &before, INFINITY);
 }
 
-bool scene_edge(const struct scene *s, const struct ray *edge, vec3 ng, int around, bool emitted, struct edge *out)
+bool scene_edge(const struct scene *s, struct ray *ray, int medium, bool emitted, struct edge *out)
 {
-    struct ray ray = *edge;
-    bool on_light = emitted && ray.to != 0;
-    double margin = ray.tmax < INFINITY ? end_margin(add(ray.o, mul(ray.d, ray.tmax)), ray.to) : 0;
-    ray.tmin = end_margin(ray.o, ray.from);
-    ray.tmax += (on_light ? GRAZING : -1) * margin;
-    double light = on_light ? ray.tmax - (GRAZING + 1) * margin : INFINITY;
-    if (ray.tmin < (on_light ? light : ray.tmax) &&
-        (kd_occluded(&s->kd, &s->geo, &ray, light) ||
-         (emitted && s->kd_lamps.n_nodes > 0 && kd_occluded(&s->kd_lamps, &s->geo, &ray, light))))
-        return false;
-    *out = scene_pass(s, edge, ng, around);
+    const double length = ray->tmax;
+    double margin = length < INFINITY ? end_margin(add(ray->o, mul(ray->d, length)), ray->to) : 0;
+    double end = length - margin;
+    ray->tmin = end_margin(ray->o, ray->from);
+    if (ray->tmin < end) {
+        bool on_light = emitted && ray->to != 0;
+        double light = on_light ? end : INFINITY;
+        ray->tmax = on_light ? length + GRAZING * margin : end;
+        if (kd_occluded(&s->kd, &s->geo, ray, light) ||
+            (emitted && s->kd_lamps.n_nodes > 0 && kd_occluded(&s->kd_lamps, &s->geo, ray, light)))
+            return false;
+        ray->tmax = length;
+    }
+    scene_pass(s, ray, medium, out);
     return true;
 }

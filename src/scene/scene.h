@@ -103,26 +103,28 @@ bool scene_lamp(const struct scene *s, const struct ray *ray, bool from_lens, co
 bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end);
 
 /* scene_pass: what media do on an edge along a ray, which surfaces leave free.
- *   ng, around  see medium_pass */
-static inline struct edge scene_pass(const struct scene *s, const struct ray *ray, vec3 ng, int around)
+ *   medium  that it begins in */
+static inline void scene_pass(const struct scene *s, const struct ray *ray, int medium, struct edge *out)
 {
-    return s->space == NULL ? EMPTY_EDGE : medium_pass(s->space, ray, ng, around);
+    *out = EMPTY_EDGE;
+    if (s->space != NULL)
+        medium_pass(s->space, ray, medium, out);
 }
 
 /* scene_edge: the same; false if surfaces stop light that comes from the end of the edge to its start. Those next to
  * either do not count, except another light in the place of the one that emits it.
- *   edge     from its start, as long as it is; tmin is of no use
+ *   ray      from its start, as long as it is; tmin and tmax change
  *   emitted  light is emitted at its end, and not scattered */
-bool scene_edge(const struct scene *s, const struct ray *edge, vec3 ng, int around, bool emitted, struct edge *out);
+bool scene_edge(const struct scene *s, struct ray *ray, int medium, bool emitted, struct edge *out);
 
 /* scene_fly: how far does a walk get: to the first surface along the ray, or to where media scatter it before? False if
  * it leaves the scene. */
-static inline bool scene_fly(const struct scene *s, const struct ray *ray, vec3 ng, int around,
-                             struct sampler *sampler, struct surface *at, struct edge *out)
+static inline bool scene_fly(const struct scene *s, const struct ray *ray, int medium, struct sampler *sampler,
+                             struct surface *at, struct edge *out)
 {
     bool meets = scene_intersect(s, ray, at);
     *out = EMPTY_EDGE;
-    return s->space == NULL ? meets : medium_fly(s->space, ray, ng, around, sampler, meets, at, out);
+    return s->space == NULL ? meets : medium_fly(s->space, ray, medium, sampler, meets, at, out);
 }
 
 #endif

@@ -25,8 +25,8 @@ static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, en
 static inline bool see(const struct scene *scene, const struct vertex *a, vec3 w, double distance, uint64_t to,
                        bool emitted, struct edge *out)
 {
-    const struct ray ray = {a->p, w, 0, distance, a->prim_id, to};
-    return scene_edge(scene, &ray, a->ng, a->medium, emitted, out);
+    struct ray ray = {a->p, w, 0, distance, a->prim_id, to};
+    return scene_edge(scene, &ray, vertex_medium(scene, a, w), emitted, out);
 }
 
 struct connection connect_hit(const struct scene *scene, const struct counts *counts, const struct vertex *prev,

@@ -21,32 +21,25 @@ double c_eye(const struct counts *c, const struct vertex *prev, const struct ver
 }
 
 /* The density per area is F_e of mis.h: the density per steradian times the cosine over distance^2 [PBRT3 5.5.3]. The
- * vertex's `mis` is equation (6) there. */
+ * vertex's `mis` is equation (6) there. Media on the edge are a factor of each, and of the throughput. */
 void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                  double d2)
+                  const struct edge *edge, double d2)
 {
     bool parallel = vertex_at_infinity(w->scene, prev); /* rays of a light at infinity do not spread */
     double spread = prev->kind == VERTEX_LENS ? camera_spread(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
-    v->back = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * spread;
-    v->pdf_fwd = from->pdf * vertex_cosine(v, from->ray.d) * spread;
-    v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, v->back);
-}
-
-/* The same with the factors of media on the edge. */
-static void measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                    double d2)
-{
-    walk_measure(w, v, prev, from, d2);
-    v->back *= from->edge.density[0];
-    v->pdf_fwd *= from->edge.density[1];
-    v->mis *= mis_raise(w->counts, from->edge.density[0]);
-    v->medium = from->edge.medium;
+    double back = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * spread;
+    double mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, back);
+    v->back = back * edge->density[0];
+    v->pdf_fwd = from->pdf * vertex_cosine(v, from->ray.d) * spread * edge->density[1];
+    v->mis = mis * mis_raise(w->counts, edge->density[0]);
+    v->beta = rgb_mul(from->beta, rgb_scale(edge->left, 1 / edge->density[1]));
+    v->medium = edge->medium;
 }
 
 /* The ray met no surface. If there is a sky, or if it passed a see-through light, the eye sub-path ends there. Its
  * density is that of the direction. [PBRT3 16.3.5] */
 static bool escape(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                   const struct vertex *lamp)
+                   const struct edge *edge, const struct vertex *lamp)
 {
     const struct light_set *lights = &w->scene->lights;
     if (lights->n_layers == 0 && lamp == NULL)
@@ -58,14 +51,13 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
     v->lamp = lamp;
     v->prev_delta = from->delta;
     v->wo = neg(from->ray.d);
-    v->beta = from->beta;
-    measure(w, v, prev, from, 1); /* per steradian, as if at distance 1 */
+    walk_measure(w, v, prev, from, edge, 1); /* per steradian, as if at distance 1 */
     return true;
 }
 
 /* Make the vertex where the ray met a surface, except its scattering. False if the surface is edge-on. */
 static bool meet(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                 const struct surface *at, enum transport mode)
+                 const struct edge *edge, const struct surface *at, enum transport mode)
 {
     double d2 = length2(sub(at->p, from->ray.o));
     if (d2 == 0 || (dot(at->ng, from->ray.d) == 0 && at->prim_id != WITHIN_MEDIUM))
@@ -78,39 +70,34 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->p = at->p;
     v->prim_id = at->prim_id;
     v->wo = neg(from->ray.d);
-    v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
-    measure(w, v, prev, from, d2);
+    walk_measure(w, v, prev, from, edge, d2);
     return true;
 }
 
-/* The throughput after an edge, which media make less likely as well as darker. */
-static rgb flown(rgb beta, const struct edge *e) { return rgb_mul(beta, rgb_scale(e->left, 1 / e->density[1])); }
-
 /* The first see-through light on the ray before the surface or scattering point *end (NULL: none), as a vertex; NULL if
- * there is none. The edge ends there, so media count as far as that alone.
- *   beta  the walk's throughput before it flew to *end */
+ * there is none. The edge ends there, so media count as far as that alone. */
 static const struct vertex *meet_lamp(const struct walk *w, const struct vertex *prev, const struct departure *from,
-                                      rgb beta, const struct surface *end)
+                                      const struct surface *end)
 {
     struct surface at;
     if (!scene_lamp(w->scene, &from->ray, prev->kind == VERTEX_LENS, end, &at))
         return NULL;
-    struct departure to = *from;
-    to.ray.tmax = length(sub(at.p, to.ray.o));
-    to.ray.to = at.prim_id;
-    to.edge = scene_pass(w->scene, &to.ray, prev->ng, prev->medium);
-    to.beta = flown(beta, &to.edge);
+    struct edge edge;
+    struct ray ray = from->ray;
+    ray.tmax = length(sub(at.p, ray.o));
+    ray.to = at.prim_id;
+    scene_pass(w->scene, &ray, vertex_medium(w->scene, prev, ray.d), &edge);
     struct vertex *v = arena_alloc(w->arena, sizeof *v);
     memset(v, 0, sizeof *v);
-    return meet(w, v, prev, &to, &at, RADIANCE) ? v : NULL;
+    return meet(w, v, prev, from, &edge, &at, RADIANCE) ? v : NULL;
 }
 
 /* Make the whole vertex where the ray met a surface. False if the surface is edge-on. */
 static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                   const struct surface *at, enum transport mode)
+                   const struct edge *edge, const struct surface *at, enum transport mode)
 {
-    if (!meet(w, v, prev, from, at, mode))
+    if (!meet(w, v, prev, from, edge, at, mode))
         return false;
     bool first =
         prev->kind == VERTEX_LENS || (prev->kind == VERTEX_SURFACE && prev->eye_end == FIRST_HIT && from->delta);
@@ -159,20 +146,20 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
     double first = rgb_max(from.beta);
     while (n < max_vertices) {
         struct surface at;
+        struct edge edge;
         const struct vertex *prev = &path[n - 1], *lamp = NULL;
-        const rgb beta = from.beta;
-        bool met = scene_fly(w->scene, &from.ray, prev->ng, prev->medium, w->sampler, &at, &from.edge);
-        from.beta = flown(beta, &from.edge);
+        int medium = vertex_medium(w->scene, prev, from.ray.d);
+        bool met = scene_fly(w->scene, &from.ray, medium, w->sampler, &at, &edge);
         if (mode == RADIANCE)
-            lamp = meet_lamp(w, prev, &from, beta, met ? &at : NULL);
+            lamp = meet_lamp(w, prev, &from, met ? &at : NULL);
         else if (n == 1 && met && scene_lamp_stops(w->scene, &from.ray, &at))
             break; /* emitted light does not pass see-through lights, or is not there at all */
         if (!met) {
-            if (mode == RADIANCE && escape(w, &path[n], prev, &from, lamp))
+            if (mode == RADIANCE && escape(w, &path[n], prev, &from, &edge, lamp))
                 n++;
             break;
         }
-        if (!arrive(w, &path[n], prev, &from, &at, mode))
+        if (!arrive(w, &path[n], prev, &from, &edge, &at, mode))
             break;
         path[n].lamp = lamp;
         n++;

@@ -75,7 +75,6 @@ struct departure {
     double pdf;     /* of the direction, 1/sr; of parallel rays from a light or the lens: of the origin, 1/m^2 */
     double pdf_rev; /* 1/sr, of the reverse move: from that vertex to the vertex before it */
     bool delta;
-    struct edge edge; /* to the next vertex: what media do on it; set by walk_on */
 };
 
 /* walk_on: continue a walk of n vertices, whose last vertex has been left. Returns the number of vertices. */
@@ -86,8 +85,8 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
  * walk is absorbed. */
 bool walk_leave(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out);
 
-/* walk_measure: pdf_fwd, back and mis (mis.h) of a vertex at distance^2 d2 from `prev`. */
+/* walk_measure: beta, pdf_fwd, back and mis (mis.h) of a vertex at distance^2 d2 from `prev`, and its medium. */
 void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                  double d2);
+                  const struct edge *edge, double d2);
 
 #endif

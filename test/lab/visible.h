@@ -8,18 +8,18 @@
 /* scene_lit_from: does light from infinity, in unit direction w, reach a? */
 static inline bool scene_lit_from(const struct scene *s, vec3 a, uint64_t from, vec3 w)
 {
-    const struct ray ray = {a, w, 0, INFINITY, from, 0};
+    struct ray ray = {a, w, 0, INFINITY, from, 0};
     struct edge edge;
-    return scene_edge(s, &ray, vec(0, 0, 0), 0, true, &edge);
+    return scene_edge(s, &ray, 0, true, &edge);
 }
 
 static inline bool scene_reaches(const struct scene *s, vec3 a, uint64_t from, vec3 b, uint64_t to, bool emitted)
 {
     vec3 d = sub(b, a);
     double distance = length(d);
-    const struct ray ray = {a, mul(d, 1 / distance), 0, distance, from, to};
+    struct ray ray = {a, mul(d, 1 / distance), 0, distance, from, to};
     struct edge edge;
-    return scene_edge(s, &ray, vec(0, 0, 0), 0, emitted, &edge);
+    return scene_edge(s, &ray, 0, emitted, &edge);
 }
 
 /* scene_lit: does light that is emitted at b reach a? scene_visible: the same of light that is scattered there. */
