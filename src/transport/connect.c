@@ -20,13 +20,18 @@ static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, en
 }
 
 /* The edge from vertex a over a distance in direction w to a point on primitive `to`, where light is emitted or
- * scattered; false if surfaces stop it. What media leave is a factor of the connection's value. The densities are
- * factors of those of both ends, and so of the sums (5) of mis.h. */
+ * scattered; false if surfaces stop it. What media leave is a factor of the connection's value. */
 static inline bool see(const struct scene *scene, const struct vertex *a, vec3 w, double distance, uint64_t to,
                        bool emitted, struct edge *out)
 {
     struct ray ray = {a->p, w, 0, distance, a->prim_id, to};
     return scene_edge(scene, &ray, vertex_medium(scene, a, w), emitted, out);
+}
+
+/* The weight (7) of mis.h, of the sums (5) at the start and the end of an edge, whose densities are factors of theirs. */
+static inline double weigh(const struct counts *counts, double n, const struct edge *e, double start, double end)
+{
+    return mis_weight(counts, n, end * mis_raise(counts, e->density[1]), start * mis_raise(counts, e->density[0]));
 }
 
 struct connection connect_hit(const struct scene *scene, const struct counts *counts, const struct vertex *prev,
@@ -116,9 +121,7 @@ struct connection connect_lit(const struct scene *scene, const struct counts *co
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
     double count = n_direct(counts, z->region, z->eye_end, at->cell);
     struct connection c = {.value = rgb_mul(l->value, edge.left), .light = at->light};
-    eye *= mis_raise(counts, edge.density[0]);
-    light *= mis_raise(counts, edge.density[1]);
-    c.weight = mis_weight(counts, count, light, eye); /* mis.h (7) */
+    c.weight = weigh(counts, count, &edge, eye, light);
     return c;
 }
 
@@ -168,9 +171,7 @@ struct connection connect_joint(const struct scene *scene, const struct counts *
     double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
     c.value = rgb_mul(j->value, edge.left);
     double n = n_pair(counts, z->region, z->eye_end, y->region);
-    eye *= mis_raise(counts, edge.density[0]);
-    light *= mis_raise(counts, edge.density[1]);
-    c.weight = mis_weight(counts, n, light, eye); /* mis.h (7) */
+    c.weight = weigh(counts, n, &edge, eye, light);
     return c;
 }
 
@@ -217,7 +218,6 @@ struct connection connect_lens(const struct scene *scene, const struct counts *c
     if (s == 2 && !light_is_delta(&scene->lights.light[light[0].light]))
         mis = mis_step(counts, counts->hit[FIRST_HIT], 0, 0, light[0].pdf_fwd, y->back);
     double light_side = mis_side(counts, density * vertex_cosine(y, w), y->pdf_fwd, c_e, at_y.pdf_rev, mis);
-    light_side *= mis_raise(counts, edge.density[0]);
-    c.weight = mis_weight(counts, counts->lens, light_side, 0); /* mis.h (7) */
+    c.weight = weigh(counts, counts->lens, &edge, light_side, 0);
     return c;
 }

@@ -21,17 +21,25 @@ double c_eye(const struct counts *c, const struct vertex *prev, const struct ver
 }
 
 /* The density per area is F_e of mis.h: the density per steradian times the cosine over distance^2 [PBRT3 5.5.3]. The
- * vertex's `mis` is equation (6) there. Media on the edge are a factor of each, and of the throughput. */
+ * vertex's `mis` is equation (6) there. */
 void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                  const struct edge *edge, double d2)
+                  double d2)
 {
     bool parallel = vertex_at_infinity(w->scene, prev); /* rays of a light at infinity do not spread */
     double spread = prev->kind == VERTEX_LENS ? camera_spread(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
-    double back = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * spread;
-    double mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, back);
-    v->back = back * edge->density[0];
-    v->pdf_fwd = from->pdf * vertex_cosine(v, from->ray.d) * spread * edge->density[1];
-    v->mis = mis * mis_raise(w->counts, edge->density[0]);
+    v->back = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * spread;
+    v->pdf_fwd = from->pdf * vertex_cosine(v, from->ray.d) * spread;
+    v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, v->back);
+}
+
+/* The same with the factors of media on the edge, and the throughput with theirs. */
+static void measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
+                    const struct edge *edge, double d2)
+{
+    walk_measure(w, v, prev, from, d2);
+    v->back *= edge->density[0];
+    v->pdf_fwd *= edge->density[1];
+    v->mis *= mis_raise(w->counts, edge->density[0]);
     v->beta = rgb_mul(from->beta, rgb_scale(edge->left, 1 / edge->density[1]));
     v->medium = edge->medium;
 }
@@ -51,7 +59,7 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
     v->lamp = lamp;
     v->prev_delta = from->delta;
     v->wo = neg(from->ray.d);
-    walk_measure(w, v, prev, from, edge, 1); /* per steradian, as if at distance 1 */
+    measure(w, v, prev, from, edge, 1); /* per steradian, as if at distance 1 */
     return true;
 }
 
@@ -71,7 +79,7 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->prim_id = at->prim_id;
     v->wo = neg(from->ray.d);
     v->pdf_origin = mode == RADIANCE ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
-    walk_measure(w, v, prev, from, edge, d2);
+    measure(w, v, prev, from, edge, d2);
     return true;
 }
 

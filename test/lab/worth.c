@@ -8,10 +8,10 @@
 #include "base/maths.h"
 #include "base/mem.h"
 #include "base/number.h"
+#include "caustics/visible.h"
 #include "integrators/prepare.h"
 #include "lab/aov.h"
 #include "lab/methods.h"
-#include "lab/visible.h"
 
 enum { LIGHT_PATHS = 64 * 1024, GAP = 8, LABEL = 24, TEXT = 2, WIDE = 320 };
 

@@ -10,9 +10,9 @@
 
 #include "base/number.h"
 #include "base/rng.h"
+#include "caustics/visible.h"
 #include "lab/numbers.h"
 #include "lab/stats.h"
-#include "lab/visible.h"
 #include "helpers.h"
 #include "random_scene.h"
 #include "suites.h"

@@ -38,7 +38,8 @@ int follow_light(const struct walk *w, const struct path_stop *stop, int n, stru
         *v = stop[i].v;
         v->prev_delta = from.delta;
         v->wo = neg(d);
-        walk_measure(w, v, prev, &from, &EMPTY_EDGE, d2);
+        v->beta = from.beta;
+        walk_measure(w, v, prev, &from, d2);
         v->eye_end = LATER_HIT;
         v->mis_c = c_light(w->counts, prev, v, LATER_HIT);
     }

@@ -1,7 +1,7 @@
 /* visible.h: visibility alone, between two points, by scene_edge. Primitives as shape_prim_id numbers them; 0: none.
  */
-#ifndef ASBDPT_LAB_VISIBLE_H
-#define ASBDPT_LAB_VISIBLE_H
+#ifndef CAUSTICS_VISIBLE_H
+#define CAUSTICS_VISIBLE_H
 
 #include "scene/scene.h"
 
