@@ -78,8 +78,7 @@ static rgb facet_fresnel(const struct lobe *l, double cos_h)
     case FRESNEL_NONE: break;
     case FRESNEL_DIELECTRIC: return rgb_grey(fresnel_dielectric(cos_h, l->eta_a, l->eta_b));
     case FRESNEL_CONDUCTOR: return fresnel_conductor(cos_h, l->of.conductor.eta, l->of.conductor.k);
-    case FRESNEL_DISNEY:
-        return disney_fresnel(cos_h, l->of.tinted.normal, l->of.tinted.metallic, l->eta_a, l->eta_b);
+    case FRESNEL_DISNEY: return disney_fresnel(l, cos_h);
     }
     return rgb_grey(1);
 }
@@ -188,26 +187,6 @@ static struct bsdf_value substrate(const struct lobe *l, vec3 wo, vec3 wi, bool 
     return v;
 }
 
-/* --- clear coat -------------------------------------------------------------------------------------- */
-
-/* Normals are drawn as there are facets, seen or not: pdf = D cos_h / (4 wo.wh). */
-static struct bsdf_value clearcoat(const struct lobe *l, vec3 wo, vec3 wi, bool reflect)
-{
-    if (!(wo.z * wi.z > 0))
-        return NO_SCATTERING;
-    vec3 wh = normalize(add(wo, wi));
-    double pdf = disney_coat_d(wh, l->of.gloss) * fabs(wh.z) / (4 * dot(wo, wh));
-    double value = reflect ? disney_coat(l->of.gloss, wo, wi, wh) : 0;
-    return (struct bsdf_value){rgb_scale(l->R, value), pdf, pdf};
-}
-
-static bool sample_clearcoat(const struct lobe *l, vec3 wo, double u1, double u2, vec3 *wi)
-{
-    vec3 wh = disney_coat_sample(l->of.gloss, u1, u2);
-    *wi = sub(mul(wh, 2 * dot(wo, wh)), wo);
-    return wo.z * wi->z > 0;
-}
-
 /* --- media -------------------------------------------------------------------------------------------- */
 
 /* [PBRT3 11.2] [PBRT3 15.2]; wo and wi point away, so that straight on is -1. */
@@ -239,16 +218,9 @@ struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect
     case LOBE_MICROFACET_REFLECTION: v = microfacet_reflection(l, wo, wi, reflect); break;
     case LOBE_MICROFACET_TRANSMISSION: v = microfacet_transmission(l, wo, wi, reflect, mode); break;
     case LOBE_FRESNEL_BLEND: v = substrate(l, wo, wi, reflect); break;
-    case LOBE_DISNEY_DIFFUSE:
-        v = diffuse(reflect, disney_diffuse(l->R, l->of.disney.flat, l->of.disney.retro, l->of.disney.sheen,
-                                            l->of.disney.roughness, wo, wi), wo, wi);
-        break;
-    case LOBE_CLEARCOAT: v = clearcoat(l, wo, wi, reflect); break;
-    case LOBE_FOURIER:
-        v.f = mode == RADIANCE ? fourier_eval(l->of.table, wo, wi) : fourier_eval(l->of.table, wi, wo);
-        v.pdf = fourier_pdf(l->of.table, wo, wi);
-        v.pdf_rev = fourier_pdf(l->of.table, wi, wo);
-        break;
+    case LOBE_DISNEY_DIFFUSE: v = diffuse(reflect, disney_diffuse(l, wo, wi), wo, wi); break;
+    case LOBE_CLEARCOAT: v = disney_coat(l, wo, wi, reflect); break;
+    case LOBE_FOURIER: v = fourier_eval(l->of.table, wo, wi, mode); break;
     case LOBE_PHASE: v = phase(l->of.g, dot(wo, wi)); break;
     case LOBE_SPECULAR_REFLECTION:
     case LOBE_SPECULAR_TRANSMISSION:
@@ -268,7 +240,7 @@ bool lobe_sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3
     case LOBE_MICROFACET_REFLECTION: return sample_microfacet_reflection(l, wo, u[1], u[2], wi);
     case LOBE_FOURIER: return fourier_sample(l->of.table, wo, u, wi);
     case LOBE_PHASE: *wi = sample_phase(l->of.g, wo, u[1], u[2]); return true;
-    case LOBE_CLEARCOAT: return sample_clearcoat(l, wo, u[1], u[2], wi);
+    case LOBE_CLEARCOAT: return disney_coat_sample(l, wo, u[1], u[2], wi);
     case LOBE_MICROFACET_TRANSMISSION: return sample_microfacet_transmission(l, wo, u[1], u[2], wi);
     case LOBE_FRESNEL_BLEND:
         if (u[0] >= 0.5)
