@@ -129,8 +129,10 @@ static void make_row(const struct fourier_table *t, int o)
 }
 
 /* Whose cosine counts is drawn by where in its interval wo's is. */
-bool fourier_sample(const struct fourier_table *t, vec3 wo, const double u[3], vec3 *wi)
+static bool sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3 *wi)
 {
+    (void)ng;
+    const struct fourier_table *t = l->of.table;
     double where, choice = (u[0] - EVEN) / (1 - EVEN);
     if (choice < 0) {
         *wi = warp_cos_hemisphere(u[1], u[2]);
@@ -169,11 +171,18 @@ static double density(const struct fourier_table *t, vec3 wo, vec3 wi)
     return pdf + (1 - EVEN) * mass * FOURIER_AZIMUTHS / (2 * PI * (t->mu[i + 1] - t->mu[i]));
 }
 
-struct bsdf_value fourier_eval(const struct fourier_table *t, vec3 wo, vec3 wi, enum transport mode)
+/* Of importance as of radiance with wo and wi exchanged: files are reciprocal only as well as their splines are. */
+static struct bsdf_value eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode)
 {
+    (void)reflect;
+    const struct fourier_table *t = l->of.table;
     rgb f = mode == RADIANCE ? value(t, wo, wi) : value(t, wi, wo);
     return (struct bsdf_value){f, density(t, wo, wi), density(t, wi, wo)};
 }
+
+static double guess(const struct lobe *l) { return 0.5 * rgb_mean(rgb_mul(l->scale, l->R)); }
+
+const struct lobe_form form_fourier = {guess, eval, sample, true};
 
 /* --- files ------------------------------------------------------------------------------------------- */
 

@@ -35,10 +35,7 @@ enum { FOURIER_AZIMUTHS = 32 };
 bool fourier_read(const char *path, struct fourier_table *out, struct error *err);
 void fourier_free(struct fourier_table *t);
 
-/* fourier_eval, fourier_sample: lobe_eval and lobe_sample of LOBE_FOURIER, without its scale. wi is drawn about as
- * radiance goes from there to wo, nowhere with density 0; false where nothing is scattered. Importance goes as radiance
- * does with wo and wi exchanged: files are reciprocal only as well as their splines are. */
-struct bsdf_value fourier_eval(const struct fourier_table *t, vec3 wo, vec3 wi, enum transport mode);
-bool fourier_sample(const struct fourier_table *t, vec3 wo, const double u[3], vec3 *wi);
+/* form_fourier: wi is drawn about as radiance goes from there to wo, nowhere with density 0. */
+extern const struct lobe_form form_fourier;
 
 #endif
