@@ -10,8 +10,9 @@ static double mix(double t, double a, double b) { return (1 - t) * a + t * b; }
 /* Darker at grazing angles; what retro-reflection adds there on rough surfaces; a flat look, as if light was scattered
  * beneath; the sheen of cloth. The angle between wi and half way to wo has the cosine
  * sqrt((1 + wo.wi)/2). [Burley 2012 5.3] [Burley 2015 3] */
-static rgb diffuse(const struct lobe *l, vec3 wo, vec3 wi)
+static struct bsdf_value diffuse_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode)
 {
+    (void)mode;
     double cos2_d = fmax(0, 0.5 * (1 + dot(wo, wi)));
     double cos_o = fabs(wo.z), cos_i = fabs(wi.z), fo = fresnel_schlick(cos_o), fi = fresnel_schlick(cos_i);
     double grazing = l->of.disney.roughness * cos2_d, back = 2 * grazing;
@@ -19,13 +20,8 @@ static rgb diffuse(const struct lobe *l, vec3 wo, vec3 wi)
     rgb f = rgb_scale(l->R, INV_PI * (1 - 0.5 * fo) * (1 - 0.5 * fi));
     f = rgb_add(f, rgb_scale(l->of.disney.flat, INV_PI * 1.25 * (beneath * (1 / (cos_o + cos_i) - 0.5) + 0.5)));
     f = rgb_add(f, rgb_scale(l->of.disney.retro, INV_PI * back * (fo + fi + fo * fi * (back - 1))));
-    return rgb_add(f, rgb_scale(l->of.disney.sheen, fresnel_schlick(sqrt(cos2_d))));
-}
-
-static struct bsdf_value diffuse_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode)
-{
-    (void)mode;
-    return lobe_diffuse(reflect, diffuse(l, wo, wi), wo, wi);
+    f = rgb_add(f, rgb_scale(l->of.disney.sheen, fresnel_schlick(sqrt(cos2_d))));
+    return lobe_diffuse(reflect, f, wo, wi);
 }
 
 static bool diffuse_sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3 *wi)

@@ -16,13 +16,6 @@ int space_add(struct space **space, struct medium m)
     return ++s->n;
 }
 
-void space_prepare(struct space *space, const struct geometry *geo, const struct light_set *lights)
-{
-    space->geo = geo;
-    space->lights = lights;
-    kd_build(&space->interfaces, geo, KD_INTERFACES);
-}
-
 void space_free(struct space *space)
 {
     if (space == NULL)
@@ -192,7 +185,6 @@ static double pass(const struct space *space, const struct ray *ray, struct samp
 
 void medium_pass(const struct space *space, const struct ray *ray, int medium, struct edge *out)
 {
-    *out = EMPTY_EDGE;
     out->medium = medium;
     pass(space, ray, NULL, out);
 }
@@ -203,7 +195,6 @@ bool medium_fly(const struct space *space, const struct ray *ray, int medium, st
     struct ray free = *ray;
     if (meets)
         free.tmax = length(sub(at->p, ray->o));
-    *out = EMPTY_EDGE;
     out->medium = medium;
     double d = pass(space, &free, sampler, out);
     if (d == INFINITY)

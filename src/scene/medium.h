@@ -42,7 +42,6 @@ struct space {
 
 /* space_add: one more medium, in a space that is made for the first; returns its number. */
 int space_add(struct space **space, struct medium m);
-void space_prepare(struct space *space, const struct geometry *geo, const struct light_set *lights);
 void space_free(struct space *space);
 
 /* medium_before: the medium before a surface that a ray of direction d comes to; -1 if its shape does not bound any. */
@@ -73,7 +72,8 @@ int medium_towards(const struct space *space, uint64_t prim_id, vec3 ng, vec3 d,
 
 /* medium_pass: the edge from ray->o to ray->tmax, which begins in this medium.
  * medium_fly: the same of a walk towards the surface *at, if it is about to meet one.
- *   at  in-out: where it is scattered, if that is before
+ *   at   in-out: where it is scattered, if that is before
+ *   out  in-out: EMPTY_EDGE so far
  * Returns whether it comes to anything. */
 void medium_pass(const struct space *space, const struct ray *ray, int medium, struct edge *out);
 bool medium_fly(const struct space *space, const struct ray *ray, int medium, struct sampler *sampler, bool meets,

@@ -106,10 +106,15 @@ void scene_resize(struct scene *s, int width, int height)
     s->width = width;
 }
 
-/* Does what is about the scene end on the scene's sphere? That then reaches as far as the lens. */
+/* The tree of its interfaces. Does what is about the scene end on the scene's sphere? That then reaches as far as the
+ * lens. */
 static void settle_space(struct scene *s, vec3 *lo, vec3 *hi)
 {
     struct space *space = s->space;
+    space->geo = &s->geo;
+    space->lights = &s->lights;
+    kd_build(&space->interfaces, &s->geo, KD_INTERFACES);
+    scene_bounds(s, lo, hi);
     const vec3 lens = s->camera.position;
     double far = 2 * (length(sub(*hi, *lo)) + length(sub(lens, *lo)));
     space->outer = medium_outermost(space, &s->kd, lens, s->camera.medium, far);
@@ -137,8 +142,6 @@ void scene_prepare(struct scene *s)
     }
     kd_build(&s->kd, &s->geo, KD_SURFACES);
     kd_build(&s->kd_lamps, &s->geo, KD_LAMPS);
-    if (s->space != NULL)
-        space_prepare(s->space, &s->geo, &s->lights);
     camera_prepare(&s->camera, s->width, s->height);
     vec3 lo, hi;
     scene_bounds(s, &lo, &hi);
