@@ -32,36 +32,21 @@ struct connection connect_hit(const struct scene *scene, const struct counts *co
 
 /* --- two vertices ------------------------------------------------------------------------------------ */
 
-/* The straight edge between both ends. */
-struct edge {
-    vec3 w;          /* from z to y, unit */
-    double distance; /* infinite if y is at infinity */
-    double spread;   /* of rays: area across w at one end per steradian at the other, 1/distance^2; parallel rays: 1 */
+/* The straight line between both ends. */
+struct line {
+    vec3 w;        /* from z to y, unit */
+    double length; /* infinite if y is at infinity */
+    double spread; /* of rays: area across w at one end per steradian at the other, 1/length^2; parallel rays: 1 */
 };
 
-static struct edge edge_between(const struct scene *scene, const struct vertex *y, const struct vertex *z)
+static struct line line_between(const struct scene *scene, const struct vertex *y, const struct vertex *z)
 {
     if (vertex_at_infinity(scene, y))
-        return (struct edge){y->wo, INFINITY, 1};
+        return (struct line){y->wo, INFINITY, 1};
     vec3 d = sub(y->p, z->p);
-    double d2 = length2(d), distance = sqrt(d2);
+    double d2 = length2(d), length = sqrt(d2);
     double spread = z->kind == VERTEX_LENS ? camera_spread(&scene->camera, d2) : 1 / d2;
-    return (struct edge){mul(d, 1 / distance), distance, spread};
-}
-
-/* Does light pass the edge? What media leave of it, and how far they let walks come, is in *way. */
-static bool edge_passes(const struct scene *scene, const struct vertex *y, const struct vertex *z,
-                        const struct edge *e, struct passage *way)
-{
-    bool passes = y->kind != VERTEX_LIGHT    ? scene_visible(scene, z->p, z->prim_id, y->p, y->prim_id)
-                  : e->distance < INFINITY ? scene_lit(scene, z->p, z->prim_id, y->p, y->prim_id)
-                                             : scene_lit_from(scene, z->p, z->prim_id, e->w);
-    *way = (struct passage){.left = rgb_grey(1), .density = {1, 1}};
-    if (passes && scene->media.n > 0) {
-        const struct ray ray = {z->p, e->w, 0, e->distance, z->prim_id, y->prim_id};
-        *way = medium_pass(&scene->media, &ray, z->ng, z->medium);
-    }
-    return passes;
+    return (struct line){mul(d, 1 / length), length, spread};
 }
 
 /* What an end makes of light, or of importance, that goes on in direction wi: the factor of the throughput, and the
@@ -121,24 +106,26 @@ struct connection connect_vertices(const struct scene *scene, const struct count
                                    const struct vertex *z)
 {
     struct connection c = {.light = y->kind == VERTEX_LIGHT ? y->light : -1};
-    struct passage way;
-    const struct edge e = edge_between(scene, y, z);
-    const vec3 back = neg(e.w);
-    if (!(e.distance > 0) || rgb_is_black(y->beta) || !may_leave(z, e.w) || !may_leave(y, back))
+    const struct line l = line_between(scene, y, z);
+    const vec3 back = neg(l.w);
+    if (!(l.length > 0) || rgb_is_black(y->beta) || !may_leave(z, l.w) || !may_leave(y, back))
         return c;
-    const struct scatter at_z = scatter_towards(z, e.w, RADIANCE);
+    const struct scatter at_z = scatter_towards(z, l.w, RADIANCE);
     if (rgb_is_black(at_z.factor))
         return c;
     const struct scatter at_y = scatter_towards(y, back, IMPORTANCE);
     /* C* = alpha_s c alpha_t, c = f G f: both cosines are in the factors [V97 10.2] */
-    rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), e.spread));
-    if (rgb_is_black(value) || !edge_passes(scene, y, z, &e, &way))
+    rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), l.spread));
+    struct ray ray = {z->p, l.w, 0, l.length, z->prim_id, y->prim_id};
+    struct edge edge;
+    if (rgb_is_black(value) ||
+        !scene_edge(scene, &ray, vertex_medium(scene, z, l.w), y->kind == VERTEX_LIGHT, &edge))
         return c;
     double pdf_y = y->kind == VERTEX_LIGHT ? emitted_pdf(scene, counts, y, z->p, back) : at_y.pdf;
-    double R_y = at_z.pdf * vertex_cosine(y, e.w) * e.spread * way.density[1];
-    double R_z = pdf_y * vertex_cosine(z, e.w) * e.spread * way.density[0];
+    double R_y = at_z.pdf * vertex_cosine(y, l.w) * l.spread * edge.density[1];
+    double R_z = pdf_y * vertex_cosine(z, l.w) * l.spread * edge.density[0];
     double eye_side = mis_side(R_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis); /* mis.h (5) */
-    c.value = rgb_mul(value, way.left);
+    c.value = rgb_mul(value, edge.left);
     c.weight = mis_weight(n_of(counts, y, z), light_side(scene, counts, y, z, R_y, at_y.pdf_rev), eye_side); /* (7) */
     return c;
 }

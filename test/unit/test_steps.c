@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "caustics/visible.h"
 #include "helpers.h"
 #include "lab/stats.h"
 #include "suites.h"

@@ -18,19 +18,13 @@ static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, en
     return s;
 }
 
-/* Media between vertex a and a point on primitive `to`, at a distance in direction w. Their transmittance is a factor
- * of c's value. The densities of the passage are factors of the densities of both ends, and so of the sums (5) of
- * mis.h. */
-static inline void pass_media(const struct scene *scene, const struct vertex *a, vec3 w, double distance, uint64_t to,
-                              struct connection *c, double *side_a, double *side_b)
+/* The edge from vertex a over a distance in direction w to a point on primitive `to`, where light is emitted or
+ * scattered; false if surfaces stop it. What media leave is a factor of the connection's value. */
+static inline bool see(const struct scene *scene, const struct vertex *a, vec3 w, double distance, uint64_t to,
+                       bool emitted, struct edge *out)
 {
-    if (scene->media.n == 0)
-        return;
-    const struct ray ray = {a->p, w, 0, distance, a->prim_id, to};
-    struct passage way = medium_pass(&scene->media, &ray, a->ng, a->medium);
-    c->value = rgb_mul(c->value, way.left);
-    *side_a *= way.density[0];
-    *side_b *= way.density[1];
+    struct ray ray = {a->p, w, 0, distance, a->prim_id, to};
+    return scene_edge(scene, &ray, vertex_medium(scene, a, w), emitted, out);
 }
 
 bool connect_light(const struct scene *scene, const struct vertex *z, const struct light_point *at, double pdf,
@@ -65,9 +59,8 @@ struct connection connect_lit(const struct scene *scene, const struct counts *co
     const struct light_set *lights = &scene->lights;
     const struct vertex *z = l->z;
     const struct light_point *at = &l->at;
-    bool parallel = light_at_infinity(&lights->light[at->light]);
-    if (rgb_is_black(l->value) || !(parallel ? scene_lit_from(scene, z->p, z->prim_id, at->w)
-                                             : scene_lit(scene, z->p, z->prim_id, at->p, at->prim_id)))
+    struct edge edge;
+    if (rgb_is_black(l->value) || !see(scene, z, l->w, l->distance, at->prim_id, true, &edge))
         return (struct connection){.light = -1};
     double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
     /* mis.h (5); the light side has the strategy s = 0 alone */
@@ -76,9 +69,8 @@ struct connection connect_lit(const struct scene *scene, const struct counts *co
     double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
     double eye = mis_side(pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
     double count = n_direct(counts, z->region, z->eye_end, at->cell);
-    struct connection c = {.value = l->value, .light = at->light};
-    pass_media(scene, z, l->w, l->distance, at->prim_id, &c, &eye, &light);
-    c.weight = mis_weight(count, light, eye); /* mis.h (7) */
+    struct connection c = {.value = rgb_mul(l->value, edge.left), .light = at->light};
+    c.weight = mis_weight(count, light * edge.density[1], eye * edge.density[0]); /* mis.h (7) */
     return c;
 }
 
@@ -109,14 +101,14 @@ struct connection connect_joint(const struct scene *scene, const struct counts *
 {
     const struct vertex *y = j->y, *z = j->z;
     struct connection c = {.light = -1};
-    if (rgb_is_black(j->value) || !scene_visible(scene, z->p, z->prim_id, y->p, y->prim_id))
+    struct edge edge;
+    if (rgb_is_black(j->value) || !see(scene, z, j->w, j->length, y->prim_id, false, &edge))
         return c;
     /* mis.h (5), of both sides */
     double light = mis_side(j->pdf_z * j->area_y, y->pdf_fwd, y->mis_c, j->pdf_rev_y, y->mis);
     double eye = mis_side(j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
-    c.value = j->value;
+    c.value = rgb_mul(j->value, edge.left);
     double n = n_pair(counts, z->region, z->eye_end, y->region);
-    pass_media(scene, z, j->w, j->length, y->prim_id, &c, &eye, &light);
-    c.weight = mis_weight(n, light, eye); /* mis.h (7) */
+    c.weight = mis_weight(n, light * edge.density[1], eye * edge.density[0]); /* mis.h (7) */
     return c;
 }

@@ -2,6 +2,7 @@
 #include "caustics/lamp.h"
 
 #include "caustics/joint.h"
+#include "caustics/visible.h"
 
 bool lamp_point(const struct light_set *lights, const struct geometry *geo, const double u[3], struct light_point *out)
 {
