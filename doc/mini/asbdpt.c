@@ -513,7 +513,7 @@ static void fill(struct work *w, struct table *t)
     table_make(t, SIZE, w->scratch);
 }
 
-/* A table over all vertices of the row's sub-paths, by what they are worth to z. (vertices.c, subspaces.c) */
+/* A table over all vertices of the row's sub-paths, by what they are worth to z. (vertices.c, asbdpt.c) */
 static void fill_vertices(struct work *w, struct table *t, const struct counts *n, const struct vertex *z)
 {
     for (int v = 0; v < TABLE; v++) {

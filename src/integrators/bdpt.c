@@ -1,24 +1,56 @@
 /* bdpt.c: Veach's bidirectional path tracing, and its two halves, path tracing and light tracing.           [V97 10]
  *
- * A pixel has an eye sub-path, a light sub-path and all their connections. The halves trace the same sub-paths. They
- * use different strategies, so they differ in their numbers of samples (counts.h). Light tracing uses the eye sub-path
- * only for lights that the camera sees directly (s = 0, t = 2). Where a scene has several lights, s = 1 chooses them by
- * the guide unless the user says otherwise; without it they are chosen by power.
+ * A pixel has an eye sub-path, a light sub-path and all their connections. The halves trace one of the two. Light
+ * tracing uses the eye sub-path only for lights that the camera sees directly (s = 0, t = 2). What a method does follows
+ * from its numbers of samples (counts.h). Where a scene has several lights, s = 1 chooses them by the guide unless the
+ * user says otherwise; without it they are chosen by power.
  *
  * Tests: test_render.c (they agree with each other and with analytic scenes).
  */
-#include "integrators/loop.h"
+#include "integrators/method.h"
+
+static void render_pixel(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration)
+{
+    const struct numbers *numbers = &p->numbers;
+    const int longest = pass->job->max_depth + 1; /* vertices of a light sub-path */
+    struct arena *arena = &pass->work->arena;
+    struct vertex *eye = pass->work->eye, *light = NULL;
+    arena_reset(arena);
+    struct sample sample = sample_begin(pass, &p->counts, numbers->light_points, x, y, iteration);
+    int n_eye = sample_eye_path(&sample, eye, numbers->light_points > 0 ? longest + 1 : 2), n_light = 0;
+    if (numbers->path_pixels > 0) {
+        light = arena_alloc(arena, (size_t)longest * sizeof *light);
+        n_light = sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, arena, light);
+    }
+    for (int t = 2; t <= n_eye; t++) {
+        const struct vertex *z = &eye[t - 1];
+        sample_hit(&sample, eye, t);        /* s = 0 */
+        sample_direct(&sample, z, t);       /* s = 1 */
+        if (numbers->draws[z->eye_end] > 0) /* s >= 2 */
+            sample_pairs(&sample, &(struct drawn){light, 1, n_light, 1}, z, t, 1);
+    }
+    if (numbers->path_pixels > 0) /* t = 1 */
+        sample_lens(&sample, light, n_light, 1);
+    sample_end(&sample);
+}
+
+static void render(const struct prepared *p, const struct tile_pass *pass)
+{
+    for (long iteration = pass->first; iteration < pass->end; iteration++)
+        for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
+            render_pixel(p, pass, x, y, iteration);
+}
 
 static const struct field PARAMETERS[] = {PARAMETER_GUIDE(true), {.name = NULL}};
 
 const struct method method_pt = {
     .name = "pt", .help = "path tracing: light found by chance (s = 0) or sampled (s = 1)", .parameters = PARAMETERS,
-    .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = loop_render};
+    .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render};
 
 const struct method method_lt = {
     .name = "lt", .help = "light tracing: light sub-paths connected to the lens (t = 1); cannot see mirrors",
-    .numbers = {.path_pixels = 1}, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = loop_render};
+    .numbers = {.path_pixels = 1}, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render};
 
 const struct method method_bdpt = {
     .name = "bdpt", .help = "bidirectional path tracing [Veach 1997]: all strategies", .parameters = PARAMETERS,
-    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = loop_render, .draw = loop_own};
+    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render};

@@ -1,23 +1,6 @@
 /* loop.c: see loop.h. */
 #include "integrators/loop.h"
 
-/* --- the pool ---------------------------------------------------------------------------------------- */
-
-/* Trace the light sub-path of pixel (x,y). */
-static void add_light_path(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration)
-{
-    struct pool *pool = &pass->work->pool;
-    struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
-    pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, &pool->arena, path));
-}
-
-void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration)
-{
-    pool_clear(&pass->work->pool);
-    for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i += p->numbers.path_pixels)
-        add_light_path(p, pass, x, y, iteration);
-}
-
 /* Fisher and Yates, from the inside out. [Durstenfeld 1964] */
 void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long iteration, int *order)
 {
@@ -31,25 +14,24 @@ void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long it
     }
 }
 
-bool loop_own(const struct prepared *p, const struct index *index, struct sample *sample, int number,
-              const struct vertex *z, int i, int n, struct drawn *out)
+void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    const struct pool *pool = &sample->pass->work->pool;
-    (void)p, (void)index, (void)number, (void)z, (void)i, (void)n;
-    *out = (struct drawn){pool_path(pool, 0), 1, pool->length[0], 1};
-    return true;
+    struct pool *pool = &pass->work->pool;
+    pool_clear(pool);
+    for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i += p->numbers.path_pixels) {
+        struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
+        pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, &pool->arena, path));
+    }
 }
 
-/* --- the loop ---------------------------------------------------------------------------------------- */
-
-int loop_begin(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration,
+int loop_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y, long iteration,
                struct sample *sample, struct vertex *eye)
 {
-    bool pairs = p->numbers.path_pixels > 0 && p->method->draw != NULL;
     *sample = sample_begin(pass, &p->counts, p->numbers.light_points, x, y, iteration);
-    if (p->method->build != NULL)
+    sample->number = number;
+    if (p->method->selector != NULL)
         sample->choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
-    return sample_eye_path(sample, eye, p->numbers.light_points > 0 || pairs ? pass->job->max_depth + 2 : 2);
+    return sample_eye_path(sample, eye, pass->job->max_depth + 2);
 }
 
 void loop_eye(struct sample *sample, const struct vertex *eye, int n)
@@ -60,59 +42,47 @@ void loop_eye(struct sample *sample, const struct vertex *eye, int n)
     }
 }
 
-/* Add what z = z_{t-1} draws from the pool. */
-static void join(const struct prepared *p, const struct index *index, struct sample *sample, int number,
-                 const struct vertex *z, int t)
+void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *eye,
+               int n)
 {
-    int C = p->numbers.draws[z->eye_end];
-    for (int i = 0; i < C && vertex_connectible(z); i++) {
-        struct drawn drawn;
-        if (p->method->draw(p, index, sample, number, z, i, C, &drawn))
-            sample_pairs(sample, &drawn, z, t, 1.0 / (C * sample->pass->work->pool.n) / drawn.pmf);
+    const int K = sample->pass->work->pool.n, most = sample->pass->job->max_depth;
+    for (int t = 2; t <= n && t <= most && p->numbers.path_pixels > 0; t++) {
+        const struct vertex *z = &eye[t - 1];
+        int C = p->numbers.draws[z->eye_end];
+        struct drawn y;
+        for (int i = 0; i < C && vertex_connectible(z); i++)
+            if (p->method->selector->draw(p, index, sample, z, i, C, &y))
+                sample_pairs(sample, &y, z, t, 1.0 / (C * K) / y.pmf);
     }
-}
-
-void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, int number,
-               const struct vertex *eye, int n)
-{
-    if (p->numbers.path_pixels > 0 && p->method->build == NULL) {
-        pool_clear(&sample->pass->work->pool);
-        add_light_path(p, sample->pass, sample->x, sample->y, sample->iteration);
-    }
-    int most = sample->pass->job->max_depth;
-    for (int t = 2; t <= n && t <= most && p->numbers.path_pixels > 0 && p->method->draw != NULL; t++)
-        join(p, index, sample, number, &eye[t - 1], t);
 }
 
 /* The weights count one sub-path per path_pixels pixels of the film. A tile has K, which is rounded up: `scale` makes
  * up for the difference. */
-void loop_splat(const struct prepared *p, struct sample *sample, int number)
+void loop_splat(const struct prepared *p, struct sample *sample)
 {
     const struct pool *pool = &sample->pass->work->pool;
-    bool shared = p->method->build != NULL;
-    int each = p->numbers.path_pixels;
-    if (each == 0 || number % each != 0)
-        return;
-    int k = shared ? number / each : 0;
-    double pixels = shared ? sample->pass->tile->n_pixels : 1;
-    sample_lens(sample, pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * each));
+    const int each = p->numbers.path_pixels, k = each > 0 ? sample->number / each : 0;
+    if (each > 0 && sample->number == k * each)
+        sample_lens(sample, pool_path(pool, k), pool->length[k],
+                    sample->pass->tile->n_pixels / ((double)pool->n * each));
 }
 
 void loop_render(const struct prepared *p, const struct tile_pass *pass)
 {
+    struct vertex *eye = pass->work->eye;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         const struct index *index = NULL;
-        if (p->numbers.path_pixels > 0 && p->method->build != NULL) {
+        if (p->numbers.path_pixels > 0) {
             loop_fill(p, pass, iteration);
-            index = p->method->build(p, pass, iteration);
+            index = p->method->selector->build(p, pass, iteration);
         }
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);
-            int n = loop_begin(p, pass, x, y, iteration, &sample, pass->work->eye);
-            loop_eye(&sample, pass->work->eye, n);
-            loop_join(p, index, &sample, i, pass->work->eye, n);
-            loop_splat(p, &sample, i);
+            int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
+            loop_eye(&sample, eye, n);
+            loop_join(p, index, &sample, eye, n);
+            loop_splat(p, &sample);
             sample_end(&sample);
         }
     }

@@ -1,5 +1,4 @@
-/* loop.h: the loop over the samples of a tile pass that all methods share, except those that reuse light sub-paths in
- * later iterations.
+/* loop.h: the loop over the samples of a tile pass, for methods that choose light sub-paths by a selector, and its steps.
  *
  *     pool  = light sub-paths of the tile, one for every path_pixels of its pixels
  *     index = build(pool)
@@ -22,25 +21,22 @@
 /* loop_render: the `render` of a method. */
 void loop_render(const struct prepared *p, const struct tile_pass *pass);
 
-/* Its steps, for methods whose loop differs in one of them.
+/* Its steps.
  *
  *   loop_fill   trace the light sub-paths of an iteration into the workspace's pool
- *   loop_begin  begin a sample and trace its eye sub-path into eye [max_depth + 2]; returns the number of vertices
+ *   loop_begin  begin a sample of pixel (x,y), the tile's pixel of this number, and trace its eye sub-path into eye
+ *               [max_depth + 2]; returns the number of vertices
  *   loop_eye    add s = 0 and s = 1 for all vertices of the eye sub-path
- *   loop_join   if no light sub-paths are shared, trace that of the pixel; add what the eye vertices draw
- *   loop_splat  connect to the lens the light sub-path of the tile's pixel of this number, if it has one
+ *   loop_join   add what the eye vertices draw
+ *   loop_splat  connect to the lens the light sub-path of the pixel, if it is one of those that have one
  */
 void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration);
-int loop_begin(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration,
+int loop_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y, long iteration,
                struct sample *sample, struct vertex *eye);
 void loop_eye(struct sample *sample, const struct vertex *eye, int n);
-void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, int number,
-               const struct vertex *eye, int n);
-void loop_splat(const struct prepared *p, struct sample *sample, int number);
-
-/* loop_own: the `draw` of methods whose pixels have a light sub-path each: all its vertices. */
-bool loop_own(const struct prepared *p, const struct index *index, struct sample *sample, int number,
-              const struct vertex *z, int i, int n, struct drawn *out);
+void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *eye,
+               int n);
+void loop_splat(const struct prepared *p, struct sample *sample);
 
 /* pool_shuffle: write a random permutation of the sub-paths' numbers for one iteration to order [pool->n]. */
 void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long iteration, int *order);

@@ -101,6 +101,15 @@ struct prepared {
 /* What a selector has made of a pool, in the pool's arena; each has a struct of its own. */
 struct index;
 
+/* How eye vertices choose among the light sub-paths that the pixels of a tile share. */
+struct selector {
+    /* An index of the pool of an iteration, or NULL. */
+    struct index *(*build)(const struct prepared *p, const struct tile_pass *pass, long iteration);
+    /* Choice number i of n for eye vertex z. False if there is none. */
+    bool (*draw)(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+                 int i, int n, struct drawn *out);
+};
+
 struct method {
     const char *name;   /* --integrator NAME */
     const char *select; /* value of the parameter `select`, which tells the rows of asbdpt apart; else NULL */
@@ -111,8 +120,9 @@ struct method {
     const struct field *own;        /* parameters that this method alone has; NULL: none */
     size_t own_size;
     double rr_threshold;            /* of Russian roulette (path.h), unless the user gives another */
-    bool single;                    /* `draw` chooses single vertices, not sub-paths */
+    bool vertices;                  /* a draw is a light vertex, not a sub-path */
     bool learns_use, learns_pairs;  /* see tables.h */
+    const struct selector *selector; /* NULL: the pixels of a tile share no light sub-paths */
 
     /* Each parameter is valid by itself. Check that they fit each other and the scene; false with a message if not. May
      * be NULL. */
@@ -121,14 +131,8 @@ struct method {
     void (*prepare)(const struct render_job *job, struct prepared *p);
     void (*release)(struct prepared *p); /* release what `prepare` has added to p->own. May be NULL */
 
-    /* A tile pass: loop_render (loop.h), unless the method does not share its loop. */
+    /* A tile pass: a loop of the method's own, or that of all that have a selector (loop.h). */
     void (*render)(const struct prepared *p, const struct tile_pass *pass);
-
-    /* loop_render calls these functions. `build` makes an index of the pool of an iteration; NULL: no pixel chooses
-     * from the pool, and it has the pixel's own sub-path alone. `draw` makes choice number i of n for eye vertex z. */
-    struct index *(*build)(const struct prepared *p, const struct tile_pass *pass, long iteration);
-    bool (*draw)(const struct prepared *p, const struct index *index, struct sample *sample, int number,
-                 const struct vertex *z, int i, int n, struct drawn *out);
 };
 
 /* method_has: the parameter of that name, or NULL. `select` is a parameter of rows that share a name. */

@@ -57,11 +57,11 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     return index;
 }
 
-static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, int number,
-                 const struct vertex *z, int i, int n, struct drawn *out)
+static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+                 int i, int n, struct drawn *out)
 {
-    (void)p, (void)sample, (void)z, (void)i, (void)n;
-    *out = index->drawn[number];
+    (void)p, (void)z, (void)i, (void)n;
+    *out = index->drawn[sample->number];
     return true;
 }
 
@@ -71,8 +71,10 @@ static const struct field PARAMETERS[] = {
     PARAMETERS_SHARED(false, 1, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
+static const struct selector SELECTOR = {build, draw};
+
 const struct method method_pool = {
     .name = "asbdpt", .select = "pool",
     .help = "one alias table over the light sub-paths of a tile, weighted: unbiased", .parameters = PARAMETERS,
-    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .learns_use = true, .render = loop_render,
-    .build = build, .draw = draw};
+    .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .learns_use = true,
+    .selector = &SELECTOR, .render = loop_render};

@@ -45,7 +45,7 @@ static void learn_tables(const struct render_job *job, struct prepared *p)
     const struct learn_options options = {
         .use = p->method->learns_use || q->emission < 1, .pairs = p->method->learns_pairs,
         .direct = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
-        .emission = q->emission, .delta = q->delta, .count = p->method->single};
+        .emission = q->emission, .delta = q->delta, .count = p->method->vertices};
     if (options.use || options.pairs || options.direct || options.count)
         learn(job, &options, p->tables);
 }
@@ -61,7 +61,7 @@ void method_prepare(const struct render_job *job, struct prepared *p)
     if (p->numbers.draws[LATER_HIT] < 0)
         p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
     for (int end = 0; end < EYE_ENDS; end++) /* of single vertices, a draw is one of so many of a light sub-path */
-        p->draw[end] = m->single && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
+        p->draw[end] = m->vertices && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
     if (m->prepare != NULL)
         m->prepare(job, p);
     method_counts(job, p, true);
@@ -70,7 +70,7 @@ void method_prepare(const struct render_job *job, struct prepared *p)
         p->numbers = p->runner[p->winner].numbers;
         plain = p->runner[p->winner].plain;
     }
-    if (m->draw != NULL && p->numbers.path_pixels == 0)
+    if (m->selector != NULL && p->numbers.path_pixels == 0)
         become_path_tracer(p, plain);
     method_counts(job, p, !plain);
 }

@@ -35,11 +35,11 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     return NULL;
 }
 
-static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, int number,
-                 const struct vertex *z, int i, int n, struct drawn *out)
+static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+                 int i, int n, struct drawn *out)
 {
     const struct pool *pool = &sample->pass->work->pool;
-    (void)p, (void)index, (void)number, (void)z;
+    (void)p, (void)index, (void)z;
     if (pool->alias.n == 0)
         return false;
     double pmf, u = (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n; /* stratified over the table */
@@ -65,7 +65,9 @@ static const struct field PARAMETERS[] = {
     PARAMETERS_SHARED(false, 1, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
+static const struct selector SELECTOR = {build, draw};
+
 const struct method method_vertices = {
     .name = "asbdpt", .select = "vertices", .help = "one alias table over the light vertices of a tile",
-    .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .single = true,
-    .learns_use = true, .prepare = prepare, .render = loop_render, .build = build, .draw = draw};
+    .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true,
+    .learns_use = true, .prepare = prepare, .selector = &SELECTOR, .render = loop_render};

@@ -15,6 +15,7 @@ struct sample {
     const struct counts *counts;
     int light_points;       /* of struct numbers */
     int x, y;               /* the pixel */
+    int number;             /* of the pixel in its tile */
     long iteration;
     double filter_weight;   /* see path_eye_pixel */
     struct sampler sampler; /* for light and lens points */

@@ -104,13 +104,13 @@ static void fill_pool(const struct prepared *p, const struct tile_pass *pass, st
     }
 }
 
-static void join(const struct prepared *p, const struct index *index, struct sample *sample, int number,
-                 const struct vertex *z, int t)
+static void join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+                 int t)
 {
     int C = p->numbers.draws[z->eye_end];
     for (int i = 0; i < C && t <= sample->pass->job->max_depth && vertex_connectible(z); i++) {
         struct drawn drawn;
-        if (p->method->draw(p, index, sample, number, z, i, C, &drawn))
+        if (p->method->selector->draw(p, index, sample, z, i, C, &drawn))
             sample_pairs(sample, &drawn, z, t, 1 / (C * sample->pass->work->pool.n * drawn.pmf));
     }
 }
@@ -121,7 +121,7 @@ static void render_pixel(const struct prepared *p, const struct one_more *more, 
     struct vertex *eye = pass->work->eye;
     struct pool *pool = &pass->work->pool;
     struct tile_pixels pixels = pass->tile->pixels;
-    bool shared = p->method->build != NULL;
+    bool shared = p->method->selector != NULL;
     int each = p->numbers.path_pixels, k = 0;
     arena_reset(&pass->work->arena);
     if (!shared) {
@@ -130,12 +130,14 @@ static void render_pixel(const struct prepared *p, const struct one_more *more, 
         if (each > 0)
             fill_pool(p, pass, pixels, iteration);
     }
-    struct sample sample = sample_begin(pass, &p->counts, p->numbers.light_points, x, y, iteration);
-    sample.choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
-    int n = sample_eye_path(&sample, eye, pass->job->max_depth + 2);
+    struct sample sample;
+    int n = loop_begin(p, pass, number, x, y, iteration, &sample, eye);
     one_more_sum_eye(&sample, more, eye, n);
-    for (int t = 2; t <= n && each > 0 && p->method->draw != NULL; t++)
-        join(p, index, &sample, number, &eye[t - 1], t);
+    for (int t = 2; t <= n && each > 0; t++)
+        if (shared)
+            join(p, index, &sample, &eye[t - 1], t);
+        else if (p->numbers.draws[FIRST_HIT] > 0)
+            sample_pairs(&sample, &(struct drawn){pool_path(pool, 0), 1, pool->length[0], 1}, &eye[t - 1], t, 1);
     if (each > 0 && number % each == 0) {
         k = number / each;
         sum_lens(&sample, more, pool_path(pool, k), pool->length[k], pixels_count(pixels) / ((double)pool->n * each));
@@ -145,12 +147,12 @@ static void render_pixel(const struct prepared *p, const struct one_more *more, 
 
 void one_more_render(const struct prepared *p, const struct one_more *more, const struct tile_pass *pass)
 {
-    bool shared = p->method->build != NULL && p->numbers.path_pixels > 0;
+    bool shared = p->method->selector != NULL && p->numbers.path_pixels > 0;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         const struct index *index = NULL;
         if (shared) {
             fill_pool(p, pass, pass->tile->pixels, iteration);
-            index = p->method->build(p, pass, iteration);
+            index = p->method->selector->build(p, pass, iteration);
         }
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
             render_pixel(p, more, pass, index, i, x, y, iteration);

@@ -32,15 +32,15 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
 }
 
 /* The loop divides by n K times the probability: by the number of sub-paths that the pixel takes, n or all K. */
-static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, int number,
-                 const struct vertex *z, int i, int n, struct drawn *out)
+static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+                 int i, int n, struct drawn *out)
 {
     const struct pool *pool = &sample->pass->work->pool;
     int K = pool->n, M = n < K ? n : K;
     (void)p, (void)z;
     if (i >= M)
         return false;
-    int k = index->order[(number * M + i) % K];
+    int k = index->order[(sample->number * M + i) % K];
     *out = (struct drawn){pool_path(pool, k), 1, pool->length[k], 1.0 / (n > K ? n : K)};
     return true;
 }
@@ -54,7 +54,9 @@ static const struct field PARAMETERS[] = {
     PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
+static const struct selector SELECTOR = {build, draw};
+
 const struct method method_cbdpt = {
     .name = "cbdpt", .help = "combinatorial BDPT [Pajot 2011]: all pairs with M of a tile's light sub-paths",
     .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .render = loop_render, .build = build, .draw = draw};
+    .selector = &SELECTOR, .render = loop_render};

@@ -234,13 +234,15 @@ static void prepare(const struct render_job *job, struct prepared *p)
 
 static void release(struct prepared *p) { alias_free(&((struct ellipse *)p->own)->by_area); }
 
+extern const struct method method_pt;
+
 static void render(const struct prepared *p, const struct tile_pass *pass)
 {
     const struct ellipse *own = p->own;
     if (own->to > 0)
         one_more_render(p, &own->more, pass);
     else
-        loop_render(p, pass);
+        method_pt.render(p, pass);
 }
 
 static const struct field OWN[] = {

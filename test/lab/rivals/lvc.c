@@ -22,12 +22,12 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     return NULL;
 }
 
-static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, int number,
-                 const struct vertex *z, int i, int n, struct drawn *out)
+static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+                 int i, int n, struct drawn *out)
 {
     const struct pool *pool = &sample->pass->work->pool;
     int V = pool->n_candidates;
-    (void)p, (void)index, (void)number, (void)z;
+    (void)p, (void)index, (void)z;
     if (V == 0)
         return false;
     /* below V, since what is drawn is a multiple of 2^-32; stratified over the pool */
@@ -56,7 +56,9 @@ static const struct field PARAMETERS[] = {
     PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
+static const struct selector SELECTOR = {build, draw};
+
 const struct method method_lvc = {
     .name = "lvc", .help = "light vertex cache [Davidovic 2014]: light vertices drawn uniformly from a tile's",
-    .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .single = true,
-    .prepare = prepare, .render = loop_render, .build = build, .draw = draw};
+    .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true,
+    .prepare = prepare, .selector = &SELECTOR, .render = loop_render};

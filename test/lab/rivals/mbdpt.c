@@ -142,7 +142,7 @@ static void render_pixel(const struct prepared *p, const struct tile_pass *pass,
     arena_reset(&pass->work->arena);
     struct pixel *sample = arena_alloc(&pass->work->arena, (size_t)n * sizeof *sample);
     for (int i = 0; i < n; i++)
-        sample[i] = together_begin(p, pass, x, y, pass->first + i);
+        sample[i] = together_begin(p, pass, i, x, y, pass->first + i);
     connect_all(p, pass, index, sample, n);
     for (int i = 0; i < n; i++)
         sample_end(&sample[i].sample);
@@ -174,8 +174,10 @@ static const struct field OWN[] = {
     {"matrix", FIELD_WORD, offsetof(struct mbdpt, by_pixel), 0, 0, 0, "whose sub-paths are in one matrix", MATRICES},
     {.name = NULL}};
 
+static const struct selector SELECTOR = {build, NULL};
+
 const struct method method_mbdpt = {
     .name = "mbdpt", .help = "matrix BDPT [Chaitanya 2018]: pairs of sorted sub-paths, stratified",
     .parameters = PARAMETERS, .own = OWN, .own_size = sizeof(struct mbdpt), .numbers = NUMBERS_OF_BDPT,
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
-    .render = render, .build = build};
+    .selector = &SELECTOR, .render = render};

@@ -91,11 +91,26 @@ static void reuse(struct pixel *pixel, const struct reservoir *all, const int *n
                                            .scale = m * sum / own});
 }
 
+/* All vertices of the pixel's own light sub-path. */
+static void join_own(const struct prepared *p, struct pixel *pixel)
+{
+    struct sample *sample = &pixel->sample;
+    const struct tile_pass *pass = sample->pass;
+    struct arena *arena = &pass->work->pool.arena;
+    arena_reset(arena);
+    struct vertex *light = arena_alloc(arena, ((size_t)pass->job->max_depth + 1) * sizeof *light);
+    int n = sample_light_path(pass, &p->counts, sample->x, sample->y, (uint64_t)sample->iteration, arena, light);
+    for (int t = 2; t <= pixel->n; t++)
+        sample_pairs(sample, &(struct drawn){light, 1, n, 1}, &pixel->eye[t - 1], t, 1);
+    sample_lens(sample, light, n, 1);
+}
+
 static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
                         struct pixel *pixel, int n)
 {
     const struct restir *own = p->own;
     struct reservoir *all = arena_alloc(&pass->work->arena, (size_t)n * sizeof *all);
+    (void)index;
     for (int i = 0; i < n; i++) {
         all[i] = resample(&pixel[i], own->candidates);
         for (int t = 2; t <= pixel[i].n; t++) {
@@ -110,8 +125,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
         int near[MOST_NEIGHBOURS + 1], found = reuse_neighbours(pixel, n, i, own->neighbours, near);
         if (found > 0)
             reuse(pixel, all, near, found);
-        loop_join(p, index, &pixel[i].sample, i, pixel[i].eye, pixel[i].n);
-        loop_splat(p, &pixel[i].sample, i);
+        join_own(p, &pixel[i]);
     }
 }
 
@@ -137,4 +151,4 @@ const struct method method_restir = {
     .name = "restir", .check = surfaces_alone,
     .help = "reservoirs [Bitterli 2020]: light points resampled, and shared with pixels nearby",
     .parameters = PARAMETERS, .own = OWN, .own_size = sizeof(struct restir), .numbers = NUMBERS_OF_BDPT,
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render, .draw = loop_own};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .render = render};

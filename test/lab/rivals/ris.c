@@ -284,11 +284,11 @@ struct index *ris_build(const struct prepared *p, const struct tile_pass *pass, 
 }
 
 /* A record that met nothing has nothing to offer. */
-bool ris_draw(const struct prepared *p, const struct index *r, struct sample *sample, int number,
-              const struct vertex *z, int i, int n, struct drawn *out)
+bool ris_draw(const struct prepared *p, const struct index *r, struct sample *sample, const struct vertex *z,
+              int i, int n, struct drawn *out)
 {
     int which;
-    (void)p, (void)number;
+    (void)p;
     if (r->V == 0)
         return false;
     struct mixture m = records_mixture(&r->records, r->scene, z, r->own->normals, false, r->V);
@@ -418,12 +418,12 @@ static void render_weighed(const struct prepared *p, const struct tile_pass *pas
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);
-            int n = loop_begin(p, pass, x, y, iteration, &sample, eye);
+            int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
             sum_eye(&r, &sample, eye, n);
             for (int t = 2; t <= n && t <= pass->job->max_depth; t++)
                 if (vertex_connectible(&eye[t - 1]))
                     ris_join(&r, &sample, &eye[t - 1], t);
-            loop_splat(p, &sample, i);
+            loop_splat(p, &sample);
             sample_end(&sample);
         }
     }
@@ -456,9 +456,11 @@ static const struct field OWN[] = {
     RIS_WEIGHTS_FIELD, RIS_SUBPATHS_FIELD(50), RIS_RECORDS_FIELD,
     {.name = NULL}};
 
+const struct selector RIS_SELECTOR = {ris_build, ris_draw};
+
 const struct method method_ris = {
     .name = "ris", .check = surfaces_alone,
     .help = "resampling [Nabata 2020a]: light vertices drawn by a record nearby, with weights to suit",
     .parameters = RIS_PARAMETERS, .own = OWN, .own_size = sizeof(struct ris), .numbers = NUMBERS_OF_BDPT,
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .single = true, .prepare = ris_prepare,
-    .render = ris_render, .build = ris_build, .draw = ris_draw};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true, .prepare = ris_prepare,
+    .selector = &RIS_SELECTOR, .render = ris_render};

@@ -323,13 +323,12 @@ static const double *row_of(const struct spcbpt *own, const struct index *v, str
 }
 
 /* Draw a subspace, then a vertex; stratified over both. */
-static bool draw(const struct prepared *p, const struct index *v, struct sample *sample, int number,
-                 const struct vertex *z, int i, int n, struct drawn *out)
+static bool draw(const struct prepared *p, const struct index *v, struct sample *sample, const struct vertex *z,
+                 int i, int n, struct drawn *out)
 {
     const struct spcbpt *own = p->own;
     const double *row = row_of(own, v, &sample->pass->work->pool.arena, z->region);
     double total = row[own->subspaces];
-    (void)number;
     if (!(total > 0))
         return false;
     double target = (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n * total;
@@ -373,10 +372,10 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);
-            int n = loop_begin(p, pass, x, y, iteration, &sample, eye);
+            int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
             classify(p, eye, n, &pass->work->arena, RADIANCE);
             loop_eye(&sample, eye, n);
-            loop_join(p, index, &sample, i, eye, n);
+            loop_join(p, index, &sample, eye, n);
             if (i % each == 0)
                 splat(p, &sample, &pool->vertex[pool->start[i / each]], pool->length[i / each],
                       pixels_count(pass->tile->pixels) / ((double)pool->n * each));
@@ -412,9 +411,11 @@ static const struct field OWN[] = {
     {"steps", FIELD_INTEGER, AT(steps), 2, 0, 1000, "steps that minimise the variance", NULL},
     {.name = NULL}};
 
+static const struct selector SELECTOR = {build, draw};
+
 const struct method method_spcbpt = {
     .name = "spcbpt", .check = surfaces_alone,
     .help = "subspaces [Su 2022]: light vertices drawn by trees and a matrix for the least variance",
     .parameters = PARAMETERS, .own = OWN, .own_size = sizeof(struct spcbpt), .numbers = NUMBERS_OF_PT,
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .render = render, .build = build,
-    .draw = draw};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .selector = &SELECTOR,
+    .render = render};

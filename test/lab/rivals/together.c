@@ -5,10 +5,11 @@
 
 #include "caustics/delta.h"
 
-struct pixel together_begin(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration)
+struct pixel together_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y,
+                            long iteration)
 {
     struct pixel pixel;
-    pixel.n = loop_begin(p, pass, x, y, iteration, &pixel.sample, pass->work->eye);
+    pixel.n = loop_begin(p, pass, number, x, y, iteration, &pixel.sample, pass->work->eye);
     pixel.sample.choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
     size_t size = (size_t)pixel.n * sizeof *pixel.eye;
     pixel.eye = memcpy(arena_alloc(&pass->work->arena, size), pass->work->eye, size);
@@ -21,14 +22,14 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
     struct arena *arena = &pass->work->arena;
     const struct index *index = NULL;
     int n = 0;
-    if (p->method->build != NULL) {
+    if (p->method->selector != NULL) {
         loop_fill(p, pass, iteration);
-        index = p->method->build(p, pass, iteration);
+        index = p->method->selector->build(p, pass, iteration);
     }
     arena_reset(arena);
     struct pixel *all = arena_alloc(arena, (size_t)pixels_count(pass->tile->pixels) * sizeof *all);
     for (int x, y; pass_pixel(pass, n, &x, &y); n++)
-        all[n] = together_begin(p, pass, x, y, iteration);
+        all[n] = together_begin(p, pass, n, x, y, iteration);
     connect_all(p, pass, index, all, n);
     for (int i = 0; i < n; i++)
         sample_end(&all[i].sample);

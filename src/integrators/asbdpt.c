@@ -1,4 +1,4 @@
-/* subspaces.c: `select = subspaces`: every eye vertex draws light vertices by what they are worth to its region.
+/* asbdpt.c: `select = subspaces`, the default: every eye vertex draws light vertices by what they are worth to its region.
  *
  * As in vertices.c a light vertex represents the sub-path that ends there, and an eye vertex draws C of the light
  * vertices that the K sub-paths of a tile and iteration have. Here the probability depends on both ends. Let ratio(e,l)
@@ -100,10 +100,9 @@ static const double *row_of_region(const struct index *v, struct arena *arena, c
 }
 
 /* Draw a region, then a vertex; stratified over both. */
-static bool draw(const struct prepared *p, const struct index *v, struct sample *sample, int number,
-                 const struct vertex *z, int i, int n, struct drawn *out)
+static bool draw(const struct prepared *p, const struct index *v, struct sample *sample, const struct vertex *z, int i,
+                 int n, struct drawn *out)
 {
-    (void)number;
     if (v->n_groups == 0)
         return false;
     const double *row = row_of_region(v, &sample->pass->work->pool.arena, &p->tables->pairs, z->region);
@@ -115,6 +114,44 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
     *out = c->drawn;
     out->pmf = share / total * c->L / g->L;
     return true;
+}
+
+/* --- the loop ---------------------------------------------------------------------------------------- */
+
+/* Without light sub-paths this is a path tracer, to which a race may lead (race.h): then no vertex draws. */
+static void render_iteration(const struct prepared *p, const struct tile_pass *pass, long iteration)
+{
+    const int each = p->numbers.path_pixels, most = pass->job->max_depth;
+    const struct pool *pool = &pass->work->pool;
+    struct vertex *eye = pass->work->eye;
+    const struct index *index = NULL;
+    if (each > 0) {
+        loop_fill(p, pass, iteration);     /* K light sub-paths, */
+        index = build(p, pass, iteration); /* and their vertices by region */
+    }
+    for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
+        struct sample sample;
+        arena_reset(&pass->work->arena);
+        int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
+        for (int t = 2; t <= n; t++) {
+            const struct vertex *z = &eye[t - 1];
+            const int C = each > 0 && t <= most && vertex_connectible(z) ? p->numbers.draws[z->eye_end] : 0;
+            struct drawn light;
+            sample_hit(&sample, eye, t);  /* s = 0 */
+            sample_direct(&sample, z, t); /* s = 1 */
+            for (int j = 0; j < C; j++)   /* s >= 2 */
+                if (draw(p, index, &sample, z, j, C, &light))
+                    sample_pairs(&sample, &light, z, t, 1.0 / (C * pool->n) / light.pmf);
+        }
+        loop_splat(p, &sample); /* t = 1 */
+        sample_end(&sample);
+    }
+}
+
+static void render(const struct prepared *p, const struct tile_pass *pass)
+{
+    for (long iteration = pass->first; iteration < pass->end; iteration++)
+        render_iteration(p, pass, iteration);
 }
 
 /* --- the row ----------------------------------------------------------------------------------------- */
@@ -129,7 +166,9 @@ static const struct field PARAMETERS[] = {
     PARAMETERS_SHARED(true, 2, true, 0.2, MAX_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
+static const struct selector SELECTOR = {build, draw};
+
 const struct method method_subspaces = {
     .name = "asbdpt", .select = "subspaces", .help = "light vertices by what they are worth where the eye vertex is",
     .parameters = PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .single = true, .learns_use = true, .learns_pairs = true, .render = loop_render, .build = build, .draw = draw};
+    .vertices = true, .learns_use = true, .learns_pairs = true, .selector = &SELECTOR, .render = render};
