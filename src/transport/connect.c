@@ -28,7 +28,7 @@ static inline bool see(const struct scene *scene, const struct vertex *a, vec3 w
     return scene_edge(scene, &ray, vertex_medium(scene, a, w), emitted, out);
 }
 
-/* The weight (7) of mis.h, of the sums (5) at the start and the end of an edge, whose densities are factors of theirs. */
+/* The weight (7) of mis.h, of the sums (5) at the start and the end of an edge, whose densities are their factors. */
 static inline double weigh(const struct counts *counts, double n, const struct edge *e, double start, double end)
 {
     return mis_weight(counts, n, end * mis_raise(counts, e->density[1]), start * mis_raise(counts, e->density[0]));
