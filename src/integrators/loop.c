@@ -34,26 +34,14 @@ int loop_begin(const struct prepared *p, const struct tile_pass *pass, int numbe
     return sample_eye_path(sample, eye, pass->job->max_depth + 2);
 }
 
-void loop_eye(struct sample *sample, const struct vertex *eye, int n)
+void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+               int t)
 {
-    for (int t = 2; t <= n; t++) {
-        sample_hit(sample, eye, t);
-        sample_direct(sample, &eye[t - 1], t);
-    }
-}
-
-void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *eye,
-               int n)
-{
-    const int K = sample->pass->work->pool.n, most = sample->pass->job->max_depth;
-    for (int t = 2; t <= n && t <= most && p->numbers.path_pixels > 0; t++) {
-        const struct vertex *z = &eye[t - 1];
-        int C = p->numbers.draws[z->eye_end];
-        struct drawn y;
-        for (int i = 0; i < C && vertex_connectible(z); i++)
-            if (p->method->selector->draw(p, index, sample, z, i, C, &y))
-                sample_pairs(sample, &y, z, t, 1.0 / (C * K) / y.pmf);
-    }
+    const int K = sample->pass->work->pool.n, C = p->numbers.path_pixels > 0 ? p->numbers.draws[z->eye_end] : 0;
+    struct drawn y;
+    for (int i = 0; i < C && t <= sample->pass->job->max_depth && vertex_connectible(z); i++)
+        if (p->method->selector->draw(p, index, sample, z, i, C, &y))
+            sample_pairs(sample, &y, z, t, 1.0 / (C * K) / y.pmf);
 }
 
 /* The weights count one sub-path per path_pixels pixels of the film. A tile has K, which is rounded up: `scale` makes
@@ -80,8 +68,11 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass)
             struct sample sample;
             arena_reset(&pass->work->arena);
             int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
-            loop_eye(&sample, eye, n);
-            loop_join(p, index, &sample, eye, n);
+            for (int t = 2; t <= n; t++) {
+                sample_hit(&sample, eye, t);
+                sample_direct(&sample, &eye[t - 1], t);
+                loop_join(p, index, &sample, &eye[t - 1], t);
+            }
             loop_splat(p, &sample);
             sample_end(&sample);
         }

@@ -26,16 +26,14 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass);
  *   loop_fill   trace the light sub-paths of an iteration into the workspace's pool
  *   loop_begin  begin a sample of pixel (x,y), the tile's pixel of this number, and trace its eye sub-path into eye
  *               [max_depth + 2]; returns the number of vertices
- *   loop_eye    add s = 0 and s = 1 for all vertices of the eye sub-path
- *   loop_join   add what the eye vertices draw
+ *   loop_join   add what eye vertex z = z_{t-1} draws
  *   loop_splat  connect to the lens the light sub-path of the pixel, if it is one of those that have one
  */
 void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration);
 int loop_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y, long iteration,
                struct sample *sample, struct vertex *eye);
-void loop_eye(struct sample *sample, const struct vertex *eye, int n);
-void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *eye,
-               int n);
+void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+               int t);
 void loop_splat(const struct prepared *p, struct sample *sample);
 
 /* pool_shuffle: write a random permutation of the sub-paths' numbers for one iteration to order [pool->n]. */

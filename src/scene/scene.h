@@ -92,8 +92,8 @@ void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi);
 bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out);
 
 /* scene_lamp: first see-through light along an eye walk's ray, before the surface at *end (NULL: however far). One that
- * touches that surface shines before it, as it does for scene_edge, whose segment ends short of the light. A ray from the
- * lens passes those that are hidden from it. */
+ * touches that surface shines before it, as it does for scene_edge, whose segment ends short of the light. A ray from
+ * the lens passes those that are hidden from it. */
 bool scene_lamp(const struct scene *s, const struct ray *ray, bool from_lens, const struct surface *end,
                 struct surface *out);
 

@@ -7,6 +7,7 @@
 #define ASBDPT_JOINT_H
 
 #include "transport/connect.h"
+#include "transport/sample.h"
 
 /* Of an eye vertex and a light point. `value` is C* without visibility. */
 struct lit {
@@ -71,6 +72,15 @@ static inline struct vertex light_vertex(const struct scene *scene, const struct
     struct vertex y;
     vertex_light(scene, at, rgb_black(), counts->hit[LATER_HIT], &y);
     return y;
+}
+
+/* sample_alone: s = 0 and s = 1 for all vertices of an eye sub-path. */
+static inline void sample_alone(struct sample *sample, const struct vertex *eye, int n)
+{
+    for (int t = 2; t <= n; t++) {
+        sample_hit(sample, eye, t);
+        sample_direct(sample, &eye[t - 1], t);
+    }
 }
 
 #endif

@@ -7,7 +7,7 @@
  * Tests: test_chains.c.
  */
 #include "chains/primary.h"
-#include "integrators/loop.h"
+#include "caustics/joint.h"
 
 static void sample(struct chain *c, bool small)
 {
@@ -21,7 +21,7 @@ static void sample(struct chain *c, bool small)
                        .sampler = p.sampler[POINT_NUMBERS]};
     int n_eye = primary_eye(&p, job->max_depth + 2, &px, &py), n_light = primary_light(&p, job->max_depth + 1);
     const struct drawn all = {c->light, 1, n_light, 1};
-    loop_eye(&s, eye, n_eye);
+    sample_alone(&s, eye, n_eye);
     for (int t = 2; t <= n_eye; t++)
         sample_pairs(&s, &all, &eye[t - 1], t, 1);
     tile_add_splat(pass.tile, px, py, s.value);

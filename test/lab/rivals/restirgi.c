@@ -151,10 +151,10 @@ static struct reservoir resample(struct pixel *p, bool shares)
     struct reservoir r = {.weight = 0, .shares = shares};
     double sum = 0;
     if (!shares || p->n < 3 || z->prev_delta || z->kind != VERTEX_SURFACE || !vertex_connectible(z)) {
-        loop_eye(&p->sample, p->eye, p->n);
+        sample_alone(&p->sample, p->eye, p->n);
         return r;
     }
-    loop_eye(&p->sample, p->eye, 2);
+    sample_alone(&p->sample, p->eye, 2);
     sample_hit(&p->sample, p->eye, 3);
     offer_point(p, &r, z, &sum);
     if (p->n > 3)

@@ -384,7 +384,7 @@ void ris_join(struct index *r, struct sample *sample, const struct vertex *z, in
                                        .scale = u / (P * r->K)});
 }
 
-/* As loop_eye. */
+/* As sample_alone. */
 static void sum_eye(struct index *r, struct sample *sample, const struct vertex *eye, int n)
 {
     for (int t = 2; t <= n; t++) {

@@ -374,8 +374,11 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
             arena_reset(&pass->work->arena);
             int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
             classify(p, eye, n, &pass->work->arena, RADIANCE);
-            loop_eye(&sample, eye, n);
-            loop_join(p, index, &sample, eye, n);
+            for (int t = 2; t <= n; t++) {
+                sample_hit(&sample, eye, t);
+                sample_direct(&sample, &eye[t - 1], t);
+                loop_join(p, index, &sample, &eye[t - 1], t);
+            }
             if (i % each == 0)
                 splat(p, &sample, &pool->vertex[pool->start[i / each]], pool->length[i / each],
                       pixels_count(pass->tile->pixels) / ((double)pool->n * each));

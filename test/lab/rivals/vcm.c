@@ -186,7 +186,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
         struct vertex *eye = pixel[i].eye;
         const struct drawn light = {pool_path(pool, i), 1, pool->length[i], 1};
         know_merges(m, &pass->work->arena, eye, pixel[i].n, RADIANCE);
-        loop_eye(sample, eye, pixel[i].n);
+        sample_alone(sample, eye, pixel[i].n);
         for (int t = 2; t <= pixel[i].n; t++) {
             sample_pairs(sample, &light, &eye[t - 1], t, 1);
             if (can_merge(&eye[t - 1]))
