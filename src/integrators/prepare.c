@@ -18,7 +18,7 @@ void method_counts(const struct render_job *job, struct prepared *p, bool credit
                           (double)rect_pixels(job->film_rect), p->tables);
     for (int end = 0; end < EYE_ENDS; end++) {
         p->counts.pair[end] *= p->draw[end];
-        p->counts.again[end] = q->bound ? p->counts.pair[end] / M : 0;
+        p->counts.bound[end] = q->bound ? p->counts.pair[end] / M : 0;
     }
 }
 

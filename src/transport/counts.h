@@ -52,7 +52,7 @@ struct counts {
     double pair[EYE_ENDS];   /* times the ratio of tables->pairs: x */
     double lens;             /* light sub-paths, those of all pixels of the film */
     const struct tables *tables;
-    double again[EYE_ENDS];  /* times the ratio of tables->pairs: x / M; 0: no bound */
+    double bound[EYE_ENDS];  /* times the ratio of tables->pairs: x / M; 0: no bound */
 };
 
 /* counts_of: numbers times credits, without a bound.
@@ -72,7 +72,7 @@ static inline double n_direct(const struct counts *c, int region, enum eye_end e
 static inline double n_pair(const struct counts *c, int e, enum eye_end end, int l)
 {
     double ratio = table_ratio(&c->tables->pairs, e, l);
-    return c->pair[end] * ratio / (1 + c->again[end] * ratio);
+    return c->pair[end] * ratio / (1 + c->bound[end] * ratio);
 }
 static inline double n_if(const struct counts *c, const struct vertex *y, const struct vertex *z, enum eye_end end)
 {

@@ -44,5 +44,16 @@ if [ -x asbdpt-lab ]; then
         grep -qF -e "$line" "$dir/told" || wrong "trace does not print what page 7 has: $line"
     done <"$dir/worked"
 fi
+# heart README: files of the heart that the README does not name once under "Reading the source".
+heart() {
+    for file in $(ls src/transport/*.[ch] src/integrators/*.[ch] src/tables/*.[ch] src/learning/*.[ch] src/bins/*.c |
+        sed 's|src/||; s|\.[ch]$||' | sort -u); do
+        [ "$(sed -n '/^## Reading the source/,/^## What/p' "$1" | grep -o "\`$file\`" | grep -c .)" = 1 ] || echo "$file"
+    done
+}
+for file in $(heart README.md); do wrong "README.md does not name $file once where it says how to read the source"; done
+sed 's|`transport/path`|`transport/paths`|' README.md >"$dir/README.md"
+[ "$(heart "$dir/README.md")" = transport/path ] || wrong "a file that the README leaves out is not noticed"
+
 [ $bad -eq 0 ] && echo "pages: programs of doc/mini, code of the tour and page 7's path are what they are made of"
 exit $bad

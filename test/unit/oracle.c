@@ -218,8 +218,8 @@ static double samples(const struct full_path *f, int i)
     if (i == 1)
         return m->direct[end_of(f, i)] * learnt_direct(f);
     double ratio = table_ratio(&m->tables->pairs, region(f, i, i + 1), region(f, i - 1, i - 2));
-    double x = m->pair[end_of(f, i)] * ratio, again = m->again[end_of(f, i)] * ratio;
-    return x - x * again / (1 + again);
+    double x = m->pair[end_of(f, i)] * ratio, bound = m->bound[end_of(f, i)] * ratio;
+    return x - x * bound / (1 + bound);
 }
 
 /* A vertex whose walk goes on (not the end of a connection) passed by delta if the next vertex says so. */

@@ -206,9 +206,9 @@ static void test_bound(struct test *t)
             return;
         const struct counts *c = &b.prepared.counts;
         for (int end = 0; end < EYE_ENDS; end++)
-            CHECK(t, c->pair[end] > 0 && fabs(c->again[end] - c->pair[end] / cases[i].M) < 1e-12,
+            CHECK(t, c->pair[end] > 0 && fabs(c->bound[end] - c->pair[end] / cases[i].M) < 1e-12,
                   "%s: draws that count as %g have the bound %g, not %g", cases[i].name, c->pair[end],
-                  c->pair[end] / c->again[end], cases[i].M);
+                  c->pair[end] / c->bound[end], cases[i].M);
         bench_free(&b);
         scene_free(&scene);
     }
