@@ -118,30 +118,27 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
 
 /* --- the loop ---------------------------------------------------------------------------------------- */
 
-/* Without light sub-paths this is a path tracer, to which a race may lead (race.h): then no vertex draws. */
+/* An iteration without light sub-paths, K = 0, is one of a path tracer, to which a race may lead (race.h). */
 static void render_iteration(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    const int each = p->numbers.path_pixels, most = pass->job->max_depth;
-    const struct pool *pool = &pass->work->pool;
+    const int longest = pass->job->max_depth; /* t of a vertex that can be joined to one of s >= 2 */
     struct vertex *eye = pass->work->eye;
-    const struct index *index = NULL;
-    if (each > 0) {
-        loop_fill(p, pass, iteration);     /* K light sub-paths, */
-        index = build(p, pass, iteration); /* and their vertices by region */
-    }
+    loop_fill(p, pass, iteration); /* K light sub-paths, and their vertices by region */
+    const int K = pass->work->pool.n;
+    const struct index *index = K > 0 ? build(p, pass, iteration) : NULL;
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
         struct sample sample;
         arena_reset(&pass->work->arena);
         int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
         for (int t = 2; t <= n; t++) {
             const struct vertex *z = &eye[t - 1];
-            const int C = each > 0 && t <= most && vertex_connectible(z) ? p->numbers.draws[z->eye_end] : 0;
+            const int C = K > 0 && t <= longest && vertex_connectible(z) ? p->numbers.draws[z->eye_end] : 0;
             struct drawn light;
             sample_hit(&sample, eye, t);  /* s = 0 */
             sample_direct(&sample, z, t); /* s = 1 */
             for (int j = 0; j < C; j++)   /* s >= 2 */
                 if (draw(p, index, &sample, z, j, C, &light))
-                    sample_pairs(&sample, &light, z, t, 1.0 / (C * pool->n) / light.pmf);
+                    sample_pairs(&sample, &light, z, t, 1.0 / (C * K) / light.pmf);
         }
         loop_splat(p, &sample); /* t = 1 */
         sample_end(&sample);

@@ -18,6 +18,8 @@ void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iter
 {
     struct pool *pool = &pass->work->pool;
     pool_clear(pool);
+    if (p->numbers.path_pixels == 0)
+        return;
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i += p->numbers.path_pixels) {
         struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
         pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, &pool->arena, path));
@@ -37,7 +39,7 @@ int loop_begin(const struct prepared *p, const struct tile_pass *pass, int numbe
 void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
                int t)
 {
-    const int K = sample->pass->work->pool.n, C = p->numbers.path_pixels > 0 ? p->numbers.draws[z->eye_end] : 0;
+    const int K = sample->pass->work->pool.n, C = K > 0 ? p->numbers.draws[z->eye_end] : 0;
     struct drawn y;
     for (int i = 0; i < C && t <= sample->pass->job->max_depth && vertex_connectible(z); i++)
         if (p->method->selector->draw(p, index, sample, z, i, C, &y))
@@ -49,8 +51,8 @@ void loop_join(const struct prepared *p, const struct index *index, struct sampl
 void loop_splat(const struct prepared *p, struct sample *sample)
 {
     const struct pool *pool = &sample->pass->work->pool;
-    const int each = p->numbers.path_pixels, k = each > 0 ? sample->number / each : 0;
-    if (each > 0 && sample->number == k * each)
+    const int each = p->numbers.path_pixels, k = pool->n > 0 ? sample->number / each : 0;
+    if (pool->n > 0 && sample->number == k * each)
         sample_lens(sample, pool_path(pool, k), pool->length[k],
                     sample->pass->tile->n_pixels / ((double)pool->n * each));
 }
@@ -59,11 +61,9 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass)
 {
     struct vertex *eye = pass->work->eye;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
-        const struct index *index = NULL;
-        if (p->numbers.path_pixels > 0) {
-            loop_fill(p, pass, iteration);
-            index = p->method->selector->build(p, pass, iteration);
-        }
+        loop_fill(p, pass, iteration);
+        const struct index *index =
+            pass->work->pool.n > 0 ? p->method->selector->build(p, pass, iteration) : NULL;
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);

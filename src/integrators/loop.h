@@ -23,7 +23,7 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass);
 
 /* Its steps.
  *
- *   loop_fill   trace the light sub-paths of an iteration into the workspace's pool
+ *   loop_fill   trace the light sub-paths of an iteration into the workspace's pool; K may be 0
  *   loop_begin  begin a sample of pixel (x,y), the tile's pixel of this number, and trace its eye sub-path into eye
  *               [max_depth + 2]; returns the number of vertices
  *   loop_join   add what eye vertex z = z_{t-1} draws

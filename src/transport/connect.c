@@ -138,12 +138,12 @@ bool light_draw(const struct scene *scene, const struct counts *counts, const st
     const struct light_set *lights = &scene->lights;
     const struct table *table = &counts->tables->direct;
     double u[3], pmf;
-    double number = below_one((i + sampler_number(sampler, DRAW_LIGHT)) / n);
+    u[0] = below_one((i + sampler_number(sampler, DRAW_LIGHT)) / n);
     sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
     if (!vertex_connectible(z) || lights->choice.n == 0)
         return false;
-    int cell = table->rows > 0 ? table_draw(table, z->region, table_all(table), number, &pmf, &u[0])
-                               : alias_sample(&lights->choice, number, &pmf, &u[0]);
+    int cell = table->rows > 0 ? table_draw(table, z->region, table_all(table), u[0], &pmf, &u[0])
+                               : alias_sample(&lights->choice, u[0], &pmf, &u[0]);
     bool emits = light_sample_cell(lights, &scene->geo, cell, u, at) && at->pdf > 0;
     *pdf = emits ? pmf * at->pdf_cell : 0;
     return true;
