@@ -1,4 +1,4 @@
-/* asbdpt.c: `select = subspaces`, the default: every eye vertex draws light vertices by what they are worth to its region.
+/* asbdpt.c: the default, `select = subspaces`: eye vertices draw light vertices by their worth to the eye's region.
  *
  * As in vertices.c a light vertex represents the sub-path that ends there, and an eye vertex draws C of the light
  * vertices that the K sub-paths of a tile and iteration have. Here the probability depends on both ends. Let ratio(e,l)

@@ -1,7 +1,7 @@
 /* bdpt.c: Veach's bidirectional path tracing, and its two halves, path tracing and light tracing.           [V97 10]
  *
- * A pixel has an eye sub-path, a light sub-path and all their connections. The halves trace one of the two. Light
- * tracing uses the eye sub-path only for lights that the camera sees directly (s = 0, t = 2). What a method does follows
+ * A pixel has an eye sub-path, a light sub-path and all their connections. The halves have one of the two. Light
+ * tracing has an eye sub-path for lights alone that the camera sees directly (s = 0, t = 2). What a method does follows
  * from its numbers of samples (counts.h). Where a scene has several lights, s = 1 chooses them by the guide unless the
  * user says otherwise; without it they are chosen by power.
  *

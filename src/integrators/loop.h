@@ -1,4 +1,4 @@
-/* loop.h: the loop over the samples of a tile pass, for methods that choose light sub-paths by a selector, and its steps.
+/* loop.h: the loop over the samples of a tile pass for methods that choose light sub-paths by a selector; its steps.
  *
  *     pool  = light sub-paths of the tile, one for every path_pixels of its pixels
  *     index = build(pool)

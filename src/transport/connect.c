@@ -56,8 +56,8 @@ struct scatter {
     double pdf, pdf_rev;
 };
 
-/* Of a light or the lens beta has what it sends there, except for the cosine at an area light. For the density of a light
- * see emitted_pdf, which costs more than the rest. */
+/* Of a light or the lens beta has what it sends there, except for the cosine at an area light. For the density of a
+ * light see emitted_pdf, which costs more than the rest. */
 static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum transport mode)
 {
     if (v->kind == VERTEX_LENS)

@@ -29,14 +29,14 @@ struct connection {
 struct connection connect_hit(const struct scene *scene, const struct counts *counts, const struct vertex *prev,
                               const struct vertex *z);
 
-/* connect_vertices: y is a light vertex, z an eye vertex, not both drawn anew. The vertices of y's walk are in front of it in
- * memory. With the lens the value is for the whole film: its splat is divided by counts->lens. */
+/* connect_vertices: y is a light vertex, z an eye vertex, not both drawn anew. The vertices of y's walk are in front of
+ * it in memory. With the lens the value is for the whole film: its splat is divided by counts->lens. */
 struct connection connect_vertices(const struct scene *scene, const struct counts *counts, const struct vertex *y,
                                    const struct vertex *z);
 
-/* light_draw: draw a point of a light for eye vertex z, as number i of n whose lights are stratified: of two points on a
- * light of two triangles, each triangle has one. Its density is *pdf; 0 where nothing is emitted. False if no connection
- * can end at z, or there is no light.
+/* light_draw: draw a point of a light for eye vertex z, as number i of n whose lights are stratified: of two points on
+ * a light of two triangles, each triangle has one. Its density is *pdf; 0 where nothing is emitted. False if no
+ * connection can end at z, or there is no light.
  * light_point: the same as a vertex y_0, which may send nothing to z. */
 bool light_draw(const struct scene *scene, const struct counts *counts, const struct vertex *z, struct sampler *sampler,
                 int i, int n, struct light_point *at, double *pdf);

@@ -44,8 +44,8 @@ struct numbers {
 /* What they count as; 0: the method does not use the strategy.
  *
  * A light walk cannot know which kind of eye vertex it is at, and takes every vertex for a later hit. This is wrong
- * only at its last vertex if the lens is next (connect_vertices). Between any other first hit and the lens there are delta
- * lobes, where no strategy ends. */
+ * only at its last vertex if the lens is next (connect.c: light_side). Between any other first hit and the lens there
+ * are delta lobes, where no strategy ends. */
 struct counts {
     double hit[EYE_ENDS];    /* t >= 3; by the kind of z_{t-2} */
     double direct[EYE_ENDS]; /* times the ratio of tables->direct */

@@ -101,7 +101,8 @@ static void joined(void *context, const struct sample *sample, const struct join
         return;
     int light = p->s > 1 ? light_path(trace, p->light, p->s) : -1;
     const struct scene *scene = sample->pass->job->scene;
-    struct trace_connection made = {p->s, p->t, light, p->pmf, *p->c, p->px, p->py, end_of(trace, scene, p), p->scale, p->added};
+    struct trace_connection made = {p->s, p->t, light, p->pmf, *p->c, p->px, p->py, end_of(trace, scene, p), p->scale,
+                                    p->added};
     size_t n = (size_t)trace->n_connections + 1;
     trace->connection = mem_grow(trace->connection, &trace->connection_capacity, n, sizeof *trace->connection);
     trace->connection[trace->n_connections++] = made;

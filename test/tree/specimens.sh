@@ -105,7 +105,7 @@ mkdir "$work/src"
 for folder in material parser geometry image; do
     mkdir "$work/src/$folder"
     for file in src/$folder/*.[ch]; do
-        sed -e 's/LOBE_CLEARCOAT,/LOBE_PLANTED,/' -e 's/&material_disney,/\&material_planted,/' \
+        sed -e 's/LOBE_OREN_NAYAR,/LOBE_PLANTED,/' -e 's/&material_disney,/\&material_planted,/' \
             -e 's/{"spot", SPOT/{"planted", SPOT/' \
             -e 's/{"bilerp", BILERP, TEXTURE_BILERP/{"planted", P, TEXTURE_PLANTED/' \
             -e 's/&shape_curve,/\&shape_planted,/' -e 's/{"sinc", SINC/{"planted", SINC/' \

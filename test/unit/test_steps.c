@@ -242,7 +242,8 @@ static void check_joint(struct test *t, const struct scene *scene, const struct 
     struct connection eye_alone = connect_vertices(scene, &ALL, &y_alone, z);
     CHECK(t, c.value.g > 0, "refused: two that face each other are not joined");
     CHECK(t, close_to(c.value.g, value), "value: %g, not %g", c.value.g, value);
-    CHECK(t, close_to(light_alone.weight, 1 / (1 + light)), "light side: %g, not %g", 1 / light_alone.weight - 1, light);
+    CHECK(t, close_to(light_alone.weight, 1 / (1 + light)), "light side: %g, not %g", 1 / light_alone.weight - 1,
+          light);
     CHECK(t, close_to(eye_alone.weight, 1 / (1 + eye)), "eye side: %g, not %g", 1 / eye_alone.weight - 1, eye);
     CHECK(t, close_to(c.weight, 1 / (1 + light + eye)), "weight: %g, not %g", c.weight, 1 / (1 + light + eye));
 }

@@ -41,8 +41,8 @@ static void sum_more(struct sample *sample, const struct one_more *more, const s
         bool told = m->n_passed > 0 && sample->pass->observer != NULL;
         const struct vertex *path = told ? whole(sample, eye, t, m) : eye;
         const struct vertex y = light_vertex(sample->pass->job->scene, sample->counts, &m->y0);
-        sample_add(sample, (struct joined){.s = 1, .t = length, .light = &y, .z = told ? &path[length - 1] : &eye[t - 1],
-                                           .c = &m->c, .pmf = 1, .scale = 1});
+        sample_add(sample, (struct joined){.s = 1, .t = length, .light = &y, .c = &m->c, .pmf = 1, .scale = 1,
+                                           .z = told ? &path[length - 1] : &eye[t - 1]});
     }
 }
 

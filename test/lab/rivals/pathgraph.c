@@ -75,7 +75,8 @@ static void draw_light(struct sample *sample, struct node *node)
     node->q = delta ? 0 : density;
 }
 
-/* Ask the members for f and p towards w. Returns the sum of the p by which they could go there; *able: how many take light from there. */
+/* Ask the members for f and p towards w. Returns the sum of the p by which they could go there; *able: how many take
+ * light from there. */
 static double ask(struct node **member, int n, vec3 w, int *able)
 {
     double sum = 0;

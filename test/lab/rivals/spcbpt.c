@@ -124,7 +124,8 @@ static void note_lit(struct trainer *r, const struct vertex *z, struct sampler *
     struct light_point at;
     struct lit l;
     double pdf;
-    if (!light_draw(scene, r->counts, z, sampler, 0, 1, &at, &pdf) || pdf == 0 || !connect_light(scene, z, &at, pdf, &l))
+    if (!light_draw(scene, r->counts, z, sampler, 0, 1, &at, &pdf) || pdf == 0 ||
+        !connect_light(scene, z, &at, pdf, &l))
         return;
     bool hit = !light_is_delta(&scene->lights.light[at.light]);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &at, z->p, neg(l.w));

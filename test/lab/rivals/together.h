@@ -53,7 +53,8 @@ int reuse_neighbours(struct pixel *pixel, int n, int i, int tries, int *near);
 rgb reuse_step(const struct vertex *z, const struct vertex *next, double *roulette);
 
 /* reuse_hit: s = 0 for the last of some eye vertices, z, as if that throughput had come there. */
-struct connection reuse_hit(const struct sample *sample, const struct vertex *prev, const struct vertex *z, rgb beta);
+struct connection reuse_hit(const struct sample *sample, const struct vertex *prev, const struct vertex *z,
+                            rgb beta);
 
 /* reuse_hit_density: where s = 1 draws what s = 0 hits at z: density there over that of the walk. */
 static inline double reuse_hit_density(const struct vertex *z)
