@@ -4,10 +4,10 @@
 # Every scene is rendered by two methods, bdpt and pt, or lt where no path from the camera finds the light, each in 16
 # batches of 512 samples per pixel with seeds of their own. `asbdpt-lab verify` tests that they agree. Then are stored,
 # with one channel:
-#     ref/conform/NAME.pfm           the mean of both; where the scene has a closed form of every pixel, that
-#     ref/conform/NAME.error.pfm     its standard errors
-#     ref/conform/NAME.MISTAKE.pfm   by bdpt alone, 16 batches of 128: as a renderer with this mistake would show it (test/lab/conform.h)
-#     ref/conform/made.txt           for every scene its mean, the relative error of that, and p of the agreement
+#     ref/conform/NAME.pfm   one below the other: the mean of both, or the closed form of every pixel that the scene has; its
+#                            standard errors; and, by bdpt alone, 16 batches of 128, what a renderer with each mistake
+#                            that shows another picture would make of it (test/lab/conform.h)
+#     ref/conform/made.txt   for every scene its mean, the relative error of that, and p of the agreement
 # Renders are kept in WORK: a run that was interrupted goes on where it stopped. One thread takes 20 minutes.
 set -e
 program=${1:-./asbdpt} lab=${1:-./asbdpt}-lab work=${2:-build/conform} out=ref/conform
@@ -30,14 +30,15 @@ render() {
         mv "$work/part.pfm" "$to-$i.pfm"
     done
 }
-# variant MISTAKE FILE OPTIONS...: what bdpt makes of it with these.
+# variant MISTAKE FILE OPTIONS...: what bdpt makes of it with these, above the pictures in `below`.
 variant() {
     of=$1 changed=$2
     shift 2
+    below="$work/$name.$of.grey $below"
     render "$work/$name.$of" 3000 bdpt 128 "$changed" "$@"
     "$lab" verify "$file" --files "$work/$name.$of"-?.pfm --against "$work/$name.$of"-1?.pfm --store "$work/$name.$of" \
         >/dev/null
-    grey "$work/$name.$of.pfm" "$out/$name.$of.pfm"
+    grey "$work/$name.$of.pfm" "$work/$name.$of.grey"
 }
 # turned DEGREES: the scene's file with all its skies turned, in WORK beside their map.
 turned() {
@@ -67,10 +68,11 @@ one() {
     render "$work/$name-other" 2000 $other 512 "$file"
     "$lab" verify "$file" --files "$work/$name-bdpt"-*.pfm --against "$work/$name-other"-*.pfm --store "$work/$name" \
         >"$work/$name.said" || { cat "$work/$name.said" >&2; exit 1; }
-    grey "$work/$name.pfm" "$out/$name.pfm"
-    grey "$work/$name.error.pfm" "$out/$name.error.pfm"
+    grey "$work/$name.pfm" "$work/$name.grey"
+    grey "$work/$name.error.pfm" "$work/$name.error.grey"
+    below="$work/$name.error.grey $work/$name.grey" # the lowest first, as in PFM
     closed=$(sed -n 's/^# closed form: //p' "$file")
-    [ -z "$closed" ] || constant "$closed" "$out/$name.pfm" # of which the kit knows that it has no error
+    [ -z "$closed" ] || constant "$closed" "$work/$name.grey" # of which the kit knows that it has no error
     if [ "$depth" = 1 ]; then # at depth 0, what shines alone is seen
         dark
         variant less "$work/$name.dark.pbrt"
@@ -90,6 +92,12 @@ one() {
         turned "Scale -1 1 1"
         variant mirrored "$work/$name.turned.pbrt"
     esac
+    # shellcheck disable=SC2086
+    {
+        set -- $below
+        printf 'Pf\n32 %d\n-1\n' $((32 * $#))
+        for picture; do tail -c 4096 "$picture"; done
+    } >"$out/$name.pfm"
     awk -v name="$name" '$1 == "mean" { mean = $2 } $1 == "mean_error" { error = $2 } $1 == "agreement" { p = $3 + 0 }
         END { printf "%-14s mean %.6g  relative error %.2g  p of the agreement %.2g\n", name, mean, error, p }' "$work/$name.txt" \
         >"$work/$name.made"

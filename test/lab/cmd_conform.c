@@ -107,42 +107,23 @@ static bool read_pictures(const char *directory, struct scene_entry *s, struct e
     return ok;
 }
 
-/* The reference of a scene or of a mistake, ".less", which has more noise; a closed form has none. If there is none of
- * such a mistake *out stays empty. */
-static bool read_reference(const struct kit *kit, const struct scene_entry *s, const char *variant, struct side *out,
-                           struct error *err)
-{
-    char path[2][PATH], rest[NAME];
-    const char *const file[2] = {path[0], path[1]};
-    snprintf(rest, sizeof rest, "%s.pfm", variant);
-    path_of(path[0], kit->o->kit, s->name, rest);
-    path_of(path[1], kit->o->kit, s->name, ".error.pfm");
-    if (variant[0] != '\0' && !file_exists(path[0]))
-        return true;
-    bool ok = side_read(file, 2, true, &s->pictures, out, err);
-    for (long i = 0; ok && i < out->pixels.n; i++)
-        out->pixels.error[i] *= variant[0] != '\0' ? 3 : strstr(s->tags, " closed ") != NULL ? 0 : 1;
-    return ok;
-}
-
 /* --- judging ----------------------------------------------------------------------------------------- */
 
 static bool judge_scene(struct kit *kit, struct scene_entry *s, struct error *err)
 {
+    char path[PATH];
     struct conform_references *r = mem_alloc(1, sizeof *r);
-    bool ok = read_reference(kit, s, "", &r->right, err);
-    for (int i = 0; ok && CONFORM_MISTAKES[i].words != NULL; i++)
-        ok = CONFORM_MISTAKES[i].variant == NULL ||
-             read_reference(kit, s, CONFORM_MISTAKES[i].variant, &r->wrong[i], err);
+    bool ok = conform_read(path_of(path, kit->o->kit, s->name, ".pfm"), strstr(s->tags, " closed ") != NULL, r, err);
+    if (ok && (s->pictures.width != r->right.width || s->pictures.height != r->right.height))
+        ok = error_set(err, "%s: the pictures are %dx%d, the reference %dx%d; all must have the same size", s->name,
+                       s->pictures.width, s->pictures.height, r->right.width, r->right.height);
     if (ok) {
         s->j = conform_judge(&s->pictures, r, kit->level, kit->o->seed);
         kit->n_found[s->j.finding]++;
     }
-    for (int i = 0; CONFORM_MISTAKES[i].words != NULL; i++) {
+    for (int i = 0; CONFORM_MISTAKES[i].words != NULL; i++)
         s->fit[i] = ok && s->j.finding == FINDS_DIFFERENCE ? conform_fit_p(&s->pictures, r, i) : -1;
-        batches_free(&r->wrong[i].pixels);
-    }
-    batches_free(&r->right.pixels);
+    conform_free(r);
     free(r);
     return ok;
 }

@@ -2,6 +2,7 @@
 #include "lab/conform.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/maths.h"
@@ -15,14 +16,13 @@ static const double MOST_ERROR = 0.01;  /* of the mean, relative, that still say
 static const double MOST_SHARE = 1 / 3.0; /* of all squared noise that one tile of one picture may have */
 
 const struct mistake CONFORM_MISTAKES[] = {
-    {.words = "depth is counted one less", .variant = ".less"},
-    {.words = "depth is counted one more", .variant = ".more"},
-    {.words = "a Gaussian filter instead of a box", .variant = ".gaussian"},
-    {.words = "a box filter instead of the Gaussian", .variant = ".box"},
-    {.words = "sky map turned by 90 degrees", .variant = ".turned90"},
-    {.words = "sky map turned by 180 degrees", .variant = ".turned180"},
-    {.words = "sky map turned by 270 degrees", .variant = ".turned270"},
-    {.words = "sky map mirrored", .variant = ".mirrored"},
+    {.words = "depth is counted one less", .picture = 2},
+    {.words = "depth is counted one more", .picture = 3},
+    {.words = "a Gaussian filter instead of a box, or the reverse", .picture = 4},
+    {.words = "sky map turned by 90 degrees", .picture = 5},
+    {.words = "sky map turned by 180 degrees", .picture = 6},
+    {.words = "sky map turned by 270 degrees", .picture = 7},
+    {.words = "sky map mirrored", .picture = 8},
     {.words = "left and right exchanged", .flip_x = true},
     {.words = "upside down", .flip_y = true},
     {.words = "turned by 180 degrees", .flip_x = true, .flip_y = true},
@@ -32,6 +32,46 @@ const struct mistake CONFORM_MISTAKES[] = {
     {.words = "scaled by 2", .factor = 2},
     {.words = "scaled by 1/2", .factor = 0.5},
     {.words = NULL}};
+
+/* --- references -------------------------------------------------------------------------------------- */
+
+/* Picture k of a strip, with errors so many times those of picture 1; without pixels if the strip ends before it. */
+static struct side of_strip(const char *name, const float *strip, int width, int height, int k, double errors)
+{
+    struct side s = {.name = name, .width = width, .height = width};
+    long n = 3L * width * width;
+    if (k >= height / width)
+        return s;
+    s.pixels = batches_new(1, n, true);
+    for (long i = 0; i < n; i++) {
+        s.pixels.value[i] = (double)strip[n * k + i];
+        s.pixels.error[i] = errors * (double)strip[n + i];
+    }
+    return s;
+}
+
+bool conform_read(const char *path, bool closed, struct conform_references *out, struct error *err)
+{
+    int width, height;
+    float *strip = image_read_linear(path, &width, &height, NULL, err);
+    *out = (struct conform_references){.right = {.name = path}};
+    bool ok = strip != NULL && (height >= 2 * width || error_set(err, "%s: %dx%d is no strip of square pictures", path,
+                                                                 width, height));
+    if (ok)
+        out->right = of_strip(path, strip, width, height, 0, closed ? 0 : 1);
+    for (int i = 0; ok && CONFORM_MISTAKES[i].words != NULL; i++)
+        if (CONFORM_MISTAKES[i].picture > 0)
+            out->wrong[i] = of_strip(path, strip, width, height, CONFORM_MISTAKES[i].picture, CONFORM_WRONG);
+    free(strip);
+    return ok;
+}
+
+void conform_free(struct conform_references *r)
+{
+    batches_free(&r->right.pixels);
+    for (int i = 0; CONFORM_MISTAKES[i].words != NULL; i++)
+        batches_free(&r->wrong[i].pixels);
+}
 
 /* --- batches ----------------------------------------------------------------------------------------- */
 
@@ -210,7 +250,7 @@ static struct batches undone(const struct side *s, const struct mistake *m)
 double conform_fit_p(const struct side *pictures, const struct conform_references *r, int mistake)
 {
     const struct mistake *m = &CONFORM_MISTAKES[mistake];
-    const struct side *reference = m->variant == NULL ? &r->right : &r->wrong[mistake];
+    const struct side *reference = m->picture == 0 ? &r->right : &r->wrong[mistake];
     if (reference->pixels.n == 0)
         return -1;
     struct side mended = {pictures->name, pictures->width, pictures->height, undone(pictures, m)};
@@ -221,7 +261,7 @@ double conform_fit_p(const struct side *pictures, const struct conform_reference
     double mean_a = batches_mean(&a, &error[0]), mean_b = batches_mean(&b, &error[1]), n = a.n_batches;
     double mean = stats_welch_p(mean_a, sqr(error[0]) * n, n, mean_b, sqr(error[1]) * MANY, MANY);
     double smallest = batches_smallest_p(&a, &b); /* NaN: without noise */
-    double direction = m->variant != NULL ? direction_p(&mended, reference, &r->right) : 1;
+    double direction = m->picture > 0 ? direction_p(&mended, reference, &r->right) : 1;
     double p = isnan(smallest) ? 1 : stats_sidak(least_of(smallest, least_of(mean, direction)), 3);
     batches_free(&mended.pixels);
     batches_free(&a);

@@ -38,9 +38,10 @@ struct judgement {
     const char *why; /* of doubt and of what was found without a test; else "" */
 };
 
-/* A usual mistake: it shows another picture, of which NAMEvariant.pfm is the reference, or changes what it shows. */
+/* A usual mistake: it shows another picture, which the scene's strip has, or changes what it shows. */
 struct mistake {
-    const char *words, *variant; /* ".less"; NULL for NAME.pfm itself */
+    const char *words;
+    int picture; /* of the strip, which conform_read tells; 0: the right one */
     bool flip_x, flip_y, srgb;
     double factor; /* 0: none */
 };
@@ -51,6 +52,15 @@ enum { CONFORM_MOST = 20 };
 struct conform_references {
     struct side right, wrong[CONFORM_MOST]; /* of every mistake; without pixels where it has none in this scene */
 };
+
+/* conform_read: what is known of a scene, from its strip of square pictures one below the other: the right one, its
+ * standard errors, and one for each mistake that shows another; those at the end may be missing. Pictures of mistakes
+ * have the same standard errors times CONFORM_WRONG.
+ *   closed  the right one has no errors
+ * conform_free releases it, also when reading failed. Returns false with a message. */
+enum { CONFORM_WRONG = 3 };
+bool conform_read(const char *path, bool closed, struct conform_references *out, struct error *err);
+void conform_free(struct conform_references *r);
 
 /* conform_judge: at this level of false alarms. */
 struct judgement conform_judge(const struct side *pictures, const struct conform_references *r, double level,

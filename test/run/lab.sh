@@ -47,6 +47,11 @@ expect 1 'deep: not judged: kit/deep: there are .pfm and .exr' "$lab" conform ki
 rm kit/deep.exr && cp one.pfm kit/deep-2.pfm
 expect 1 'deep: not judged: kit/deep-2.pfm is 1x1, the picture before it' "$lab" conform kit --kit "$top/ref/conform"
 
+# What other renderers read of the kit's scenes: 30 of pbrt-v4, 26 of Mitsuba 3, always the same bytes.
+expect 0 '' sh -c 'kit=$PWD/told && cd "$1" && sh scenes/generate/conform.sh "$kit"' sh "$top"
+check [ "$(LC_ALL=C ls told/* | grep -c '[.]')" = 56 ]
+check [ "$(export LC_ALL=C && cat told/pbrt-v4/* told/mitsuba/* | cksum)" = '4282179861 77775' ]
+
 # ---- a scene without light ----
 echo 'Camera "perspective" WorldBegin Translate 0 0 3 Shape "sphere" WorldEnd' >dark.pbrt
 expect 1 'the scene has no light' "$lab" worth dark.pbrt --integrator asbdpt --res 16 -o worth.png
