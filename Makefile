@@ -24,7 +24,7 @@ DEPEND  = $(eval DEPEND := $$(shell sh test/run/compiler.sh depend $$(CC)))$(DEP
 OBJECTS  = $(patsubst src/%.c,$(BUILD)/obj/%.o,$(wildcard src/*/*.c))
 LABS     = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/lab/*.c test/lab/*/*.c)) \
            $(filter-out %/cli/program.o %/render/rows.o,$(OBJECTS))
-TARGETS  = $(BUILD)/obj/test/fuzz/targets.o $(BUILD)/obj/test/fuzz/hostile.o
+TARGETS  = $(patsubst %,$(BUILD)/obj/test/fuzz/%.o,targets hostile lists)
 TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/unit/*.c)) $(TARGETS)
 PROGRAMS = asbdpt asbdpt-lab $(addprefix $(BUILD)/,test fuzz inject inject-lab embree)
 

@@ -32,14 +32,14 @@ for target; do
     unpack "$target" "$seeds"
     case $target in
     scene)
-        awk -v to="$seeds/" '/^== / { close(file); file = to $2; next } file { print >file }' test/data/fixtures/scenes.txt
+        sh scenes/unpack.sh test/data/fixtures "$seeds"
         { # words: whatever the sources quote, and some numbers
             grep -oh '"[A-Za-z][A-Za-z0-9]*"' src/*/*.[ch] | sort -u
             printf '"%s"\n' ' [ 0 1 2 ]' -1 1e-308 1e30 1e308
         } >build-fuzz/scene.dict
         words=-dict=build-fuzz/scene.dict
         ;;
-    exr | pfm) cp test/data/fixtures/pictures/* "$seeds" ;;
+    exr | pfm) sh scenes/unpack.sh test/data/fixtures/pictures "$seeds" ;;
     esac
     TARGET=$target nice -n 15 build-fuzz/fuzz -fork=1 -ignore_crashes=1 -ignore_timeouts=1 -ignore_ooms=1 -timeout=60 \
         -rss_limit_mb=1500 -max_len=4096 $words -max_total_time="$seconds" -artifact_prefix="build-fuzz/$target-" \

@@ -43,7 +43,7 @@ files() {
     directive.unit) echo $unit/test_parser.c $unit/parser_*.c test/data/fixtures/scenes.txt ;; # suite `parser`
     *.random) echo $unit/random_parts.c $unit/random_scene.c ;;
     medium.features) echo scenes/media/*.pbrt ;;
-    *.features) echo scenes/features/*.pbrt scenes/features/*.inc ;;
+    *.features) echo scenes/features/*.txt ;;
     esac
 }
 

@@ -12,6 +12,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "fuzz/lists.h"
 #include "fuzz/targets.h"
 #include "helpers.h"
 #include "suites.h"
@@ -36,20 +37,15 @@ static struct corpus read_corpus(const char *target)
     return c;
 }
 
-/* Line k: bytes as they are, or a backslash and three octal digits. To be given to free(). */
+/* Line k, packed as lists.h says. To be given to free(). */
 static uint8_t *unpack(const struct corpus *c, int k, size_t *size)
 {
-    const uint8_t *p = c->text;
-    uint8_t *out = mem_alloc(c->size, 1);
+    const char *p = (const char *)c->text;
     for (; k > 0; k -= *p++ == '\n')
         ;
-    for (*size = 0; *p != '\n'; (*size)++)
-        if (*p == '\\') {
-            out[*size] = (uint8_t)((p[1] - '0') * 64 + (p[2] - '0') * 8 + (p[3] - '0'));
-            p += 4;
-        } else {
-            out[*size] = *p++;
-        }
+    size_t length = strcspn(p, "\n");
+    uint8_t *out = mem_alloc(length + 1, 1);
+    *size = list_bytes(p, length, out);
     return out;
 }
 
