@@ -11,8 +11,8 @@
 # Renders are kept in WORK: a run that was interrupted goes on where it stopped. One thread takes 20 minutes.
 set -e
 program=${1:-./asbdpt} lab=${1:-./asbdpt}-lab work=${2:-build/conform} out=ref/conform
-[ $# -gt 2 ] && shift 2 || set -- scenes/conform/*.pbrt
-mkdir -p "$work"
+[ $# -gt 2 ] && shift 2 || set -- $(sed '/^#/d; s/ .*//' "$out/list.txt")
+sh scenes/unpack.sh scenes/conform "$work/scenes"
 
 # grey FILE.pfm OUT.pfm: its first channel alone.
 grey() {
@@ -40,15 +40,13 @@ variant() {
         >/dev/null
     grey "$work/$name.$of.pfm" "$work/$name.$of.grey"
 }
-# turned DEGREES: the scene's file with all its skies turned, in WORK beside their map.
+# turned DEGREES: the scene's file with all its skies turned, beside their map.
 turned() {
-    cp scenes/conform/map.pfm "$work/"
-    sed "s/^LightSource \"infinite\".*/AttributeBegin $1 & AttributeEnd/" "$file" >"$work/$name.turned.pbrt"
+    sed "s/^LightSource \"infinite\".*/AttributeBegin $1 & AttributeEnd/" "$file" >"$work/scenes/$name.turned.pbrt"
 }
-# dark: the scene's file with nothing that reflects, in WORK.
+# dark: the scene's file with nothing that reflects.
 dark() {
-    cp scenes/conform/map.pfm "$work/"
-    sed 's/"rgb Kd" \[[^]]*\]/"rgb Kd" [0 0 0]/; s/"rgb sigma_s" \[[^]]*\]/"rgb sigma_s" [0 0 0]/' "$file" >"$work/$name.dark.pbrt"
+    sed 's/"rgb Kd" \[[^]]*\]/"rgb Kd" [0 0 0]/; s/"rgb sigma_s" \[[^]]*\]/"rgb sigma_s" [0 0 0]/' "$file" >"$work/scenes/$name.dark.pbrt"
 }
 # constant VALUE FILE.pfm: a picture of it.
 constant() {
@@ -58,10 +56,9 @@ constant() {
     grey "$work/constant.pfm" "$2"
 }
 
-# one FILE: the references of a scene.
+# one NAME: the references of a scene.
 one() {
-    name=$(basename "$1" .pbrt)
-    file=scenes/conform/$name.pbrt
+    name=$1 file=$work/scenes/$1.pbrt
     depth=$(sed -n 's/^Integrator .*maxdepth" //p' "$file")
     case $name in mirror-sun | glass-sun | caustic) other=lt ;; *) other=pt ;; esac
     render "$work/$name-bdpt" 1000 bdpt 512 "$file"
@@ -75,7 +72,7 @@ one() {
     [ -z "$closed" ] || constant "$closed" "$work/$name.grey" # of which the kit knows that it has no error
     if [ "$depth" = 1 ]; then # at depth 0, what shines alone is seen
         dark
-        variant less "$work/$name.dark.pbrt"
+        variant less "$work/scenes/$name.dark.pbrt"
     else
         variant less "$file" --maxdepth $((depth - 1))
     fi
@@ -87,10 +84,10 @@ one() {
     case $name in sky-map | two-skies)
         for angle in 90 180 270; do
             turned "Rotate $angle 0 0 1"
-            variant turned$angle "$work/$name.turned.pbrt"
+            variant turned$angle "$work/scenes/$name.turned.pbrt"
         done
         turned "Scale -1 1 1"
-        variant mirrored "$work/$name.turned.pbrt"
+        variant mirrored "$work/scenes/$name.turned.pbrt"
     esac
     # shellcheck disable=SC2086
     {
@@ -104,7 +101,7 @@ one() {
 }
 rm -f "$work/all"
 {
-    for file; do one "$file"; echo "$name"; done
+    for scene; do one "$scene"; echo "$scene"; done
     : >"$work/all" # none had an error
 } | "$lab" progress --parts $#
 [ -f "$work/all" ]

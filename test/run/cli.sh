@@ -463,6 +463,7 @@ says '^verdict: DIFFER'
 expect 1 'nan.pfm: NaN or infinite values: 2592$' "$lab" compare nan.pfm nan.pfm --max-rmse 1
 # Pictures against a reference, one of them twice.
 mkdir kit
+sh "$scenes/unpack.sh" "$scenes/conform" conform
 for k in 1 2; do "$program" render "$box" --integrator bdpt --res 32x32 --filter box --spp 4 --quiet -o kit/box-$k.pfm; done
 prints '^verdict: agree' "$lab" verify --files kit/box-1.pfm kit/box-2.pfm --reference ref/cornell-box.pfm
 says 'of 2 pictures 1 differ; the others are identical' '^1 pictures alone: their variance is taken from blocks'
@@ -471,17 +472,17 @@ expect 2 'usage: asbdpt-lab verify' "$lab" verify --files kit/box-1.pfm
 # --- conform
 # conform: what differs, in words, with status 1; what is there twice counts once.
 rm kit/*
-"$program" render "$scenes/conform/area.pbrt" --integrator bdpt --spp 4 --quiet -o kit/area-1.pfm
+"$program" render conform/area.pbrt --integrator bdpt --spp 4 --quiet -o kit/area-1.pfm
 cp kit/area-1.pfm kit/area-2.pfm
 "$lab" conform kit --kit "$top/ref/conform" >stdout.txt
 says '^area  *1 (blocks) .*(1 more pictures are identical: is the seed used?)' '^1 scenes: ' '^no pictures of alpha, bump' \
     '^a correct renderer has a scene that DIFFERS with probability 0.01'
 rm kit/*
-"$program" render "$scenes/conform/area.pbrt" --integrator bdpt --maxdepth 2 --spp 16 --quiet -o kit/area.exr
+"$program" render conform/area.pbrt --integrator bdpt --maxdepth 2 --spp 16 --quiet -o kit/area.exr
 expect 1 '' "$lab" conform kit --kit "$top/ref/conform"
 says '^area .* DIFFERS' '^of the scenes with area differ 1 of 1' '^depth is counted one more explains area$'
 rm kit/*
-"$program" render "$scenes/conform/area.pbrt" --res 16x16 --spp 1 --quiet -o kit/area.pfm
+"$program" render conform/area.pbrt --res 16x16 --spp 1 --quiet -o kit/area.pfm
 expect 1 'area: the pictures are 16x16, the reference 32x32; all must have the same size' "$lab" conform kit --kit "$top/ref/conform"
 rm kit/*
 expect 1 "holds no picture of the kit" "$lab" conform kit --kit "$top/ref/conform"

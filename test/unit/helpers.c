@@ -455,12 +455,12 @@ double mean_p(const struct batches *b, double expected)
 
 char *text_of(struct test *t, const char *directory, const char *name)
 {
-    char path[512];
+    char path[512], listed[512];
     uint8_t *data = NULL;
     size_t size = 0;
     struct error err;
     snprintf(path, sizeof path, "%s/%s", directory, name);
-    bool ok = CHECK(t, file_read(path, &data, &size, &err), "%s", err.text);
+    bool ok = CHECK(t, file_read(scene_path(t, path, listed), &data, &size, &err), "%s", err.text);
     return ok ? (char *)data : mem_copy_text(""); /* file_read puts a zero byte behind it */
 }
 

@@ -139,7 +139,7 @@ double batches_p(const struct batches *a, const struct batches *b, double *ratio
  * with them most of their noise: by Student's t over the differences, of every value and of the mean. */
 double batches_paired_p(const struct batches *a, const struct batches *b, double *ratio);
 
-/* text_of: the content of a file in a directory, to be freed; an empty text after a failed check. */
+/* text_of: the content of a file in a directory (scene_path), to be freed; an empty text after a failed check. */
 char *text_of(struct test *t, const char *directory, const char *name);
 
 /* remove_tree: a directory and all that is in it. False if something is left. */

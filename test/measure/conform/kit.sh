@@ -3,11 +3,13 @@
 # renders, of each scene that the program's format can say, OUT/SCENE-1.pfm ... OUT/SCENE-PICTURES.pfm (8) with SPP (64)
 # samples per pixel, and judges them. A driver defines
 #   picture SCENE NUMBER FILE.pfm   one picture with a seed of its own; a scene that cannot be said makes none
+# and finds the scenes in $work, as conform.sh makes them.
 out=${1:?where the pictures go} method=${2:?the name of a method} pictures=${3:-8} spp=${4:-64}
 [ $# -gt 4 ] && shift 4 || set -- $(sed '/^#/d; s/ .*//' ref/conform/list.txt)
 names=$* lab=${LAB:-./asbdpt-lab}
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
+sh scenes/generate/conform.sh "$work" || exit
 # need PROGRAM: ends here, with a line, if there is none.
 need() { command -v "$1" >/dev/null || { echo "skipped: $(basename "$0" .sh): no program $1"; exit 0; }; }
 kit() {

@@ -3,7 +3,6 @@
 # integrator, as path. MITSUBA is the program, of the variant scalar_rgb.
 . test/measure/conform/kit.sh
 need "${MITSUBA:-mitsuba}"
-sh scenes/generate/conform.sh "$work"
 picture() {
     [ -f "$work/mitsuba/$1.xml" ] && "${MITSUBA:-mitsuba}" -m scalar_rgb -t 1 -D "integrator=$method" \
         -D "spp=$spp" -D "seed=$2" -o "$3" "$work/mitsuba/$1.xml"

@@ -4,7 +4,7 @@
 . test/measure/conform/kit.sh
 picture() {
     parameters=${method#"${method%%:*}"}
-    "${PROGRAM:-./asbdpt-lab}" render "scenes/conform/$1.pbrt" --integrator "${method%%:*}" \
+    "${PROGRAM:-./asbdpt-lab}" render "$work/pbrt-v3/$1.pbrt" --integrator "${method%%:*}" \
         ${parameters:+-P "${parameters#:}"} --spp "$spp" --seed $((${SEED:-0} + $2)) -j 1 --quiet --unclamped -o "$3"
 }
 kit

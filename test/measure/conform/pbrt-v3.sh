@@ -3,10 +3,9 @@
 # no seed: unless a build reads PBRT_SEED, all pictures are one, and the kit says so.
 . test/measure/conform/kit.sh
 need "${PBRT:-pbrt}"
-cp scenes/conform/map.pfm "$work/"
 picture() {
     sed -e "s/^Integrator \"bdpt\"/Integrator \"$method\"/" -e "s/pixelsamples\" .*/pixelsamples\" $spp/" \
-        "scenes/conform/$1.pbrt" >"$work/run.pbrt"
-    (cd "$work" && PBRT_SEED=$2 "${PBRT:-pbrt}" --quiet --nthreads=1 --outfile="$3" run.pbrt)
+        "$work/pbrt-v3/$1.pbrt" >"$work/pbrt-v3/run.pbrt"
+    (cd "$work/pbrt-v3" && PBRT_SEED=$2 "${PBRT:-pbrt}" --quiet --nthreads=1 --outfile="$3" run.pbrt)
 }
 kit
