@@ -4,10 +4,10 @@
 # Every scene is rendered by two methods, bdpt and pt, or lt where no path from the camera finds the light, each in 16
 # batches of 512 samples per pixel with seeds of their own. `asbdpt-lab verify` tests that they agree. Then are stored,
 # with one channel:
-#     ref/conform/NAME.pfm   one below the other: the mean of both, or the closed form of every pixel that the scene has; its
-#                            standard errors; and, by bdpt alone, 16 batches of 128, what a renderer with each mistake
-#                            that shows another picture would make of it (test/lab/conform.h)
-#     ref/conform/made.txt   for every scene its mean, the relative error of that, and p of the agreement
+#     ref/conform/references.pfm   of each scene a row (test/lab/conform.h): the mean of both, or the closed form of
+#                                  every pixel that the scene has; its standard errors; and, by bdpt alone, 16 batches
+#                                  of 128, what a renderer with each mistake that shows another picture would make of it
+#     ref/conform/made.txt         for every scene its mean, the relative error of that, and p of the agreement
 # Renders are kept in WORK: a run that was interrupted goes on where it stopped. One thread takes 20 minutes.
 set -e
 program=${1:-./asbdpt} lab=${1:-./asbdpt}-lab work=${2:-build/conform} out=ref/conform
@@ -30,11 +30,11 @@ render() {
         mv "$work/part.pfm" "$to-$i.pfm"
     done
 }
-# variant MISTAKE FILE OPTIONS...: what bdpt makes of it with these, above the pictures in `below`.
+# variant MISTAKE FILE OPTIONS...: what bdpt makes of it with these, the next of `pictures`.
 variant() {
     of=$1 changed=$2
     shift 2
-    below="$work/$name.$of.grey $below"
+    pictures="$pictures $work/$name.$of.grey"
     render "$work/$name.$of" 3000 bdpt 128 "$changed" "$@"
     "$lab" verify "$file" --files "$work/$name.$of"-?.pfm --against "$work/$name.$of"-1?.pfm --store "$work/$name.$of" \
         >/dev/null
@@ -67,7 +67,7 @@ one() {
         >"$work/$name.said" || { cat "$work/$name.said" >&2; exit 1; }
     grey "$work/$name.pfm" "$work/$name.grey"
     grey "$work/$name.error.pfm" "$work/$name.error.grey"
-    below="$work/$name.error.grey $work/$name.grey" # the lowest first, as in PFM
+    pictures="$work/$name.grey $work/$name.error.grey"
     closed=$(sed -n 's/^# closed form: //p' "$file")
     [ -z "$closed" ] || constant "$closed" "$work/$name.grey" # of which the kit knows that it has no error
     if [ "$depth" = 1 ]; then # at depth 0, what shines alone is seen
@@ -89,12 +89,15 @@ one() {
         turned "Scale -1 1 1"
         variant mirrored "$work/scenes/$name.turned.pbrt"
     esac
-    # shellcheck disable=SC2086
-    {
-        set -- $below
-        printf 'Pf\n32 %d\n-1\n' $((32 * $#))
-        for picture; do tail -c 4096 "$picture"; done
-    } >"$out/$name.pfm"
+    printf "$(for picture in $pictures; do tail -c 4096 "$picture" | od -An -v -to1; done | awk '
+        { for (i = 1; i <= NF; i++) byte[n++] = $i }
+        END {
+            split("000 000 200 277", none, " ") # -1: there is no such picture
+            for (y = 0; y < 32; y++) for (k = 0; k < 9; k++) for (x = 0; x < 128; x++) {
+                i = 4096 * k + 128 * y + x
+                printf "\\%s", (i < n ? byte[i] : none[1 + x % 4])
+            }
+        }')" >"$work/$name.row"
     awk -v name="$name" '$1 == "mean" { mean = $2 } $1 == "mean_error" { error = $2 } $1 == "agreement" { p = $3 + 0 }
         END { printf "%-14s mean %.6g  relative error %.2g  p of the agreement %.2g\n", name, mean, error, p }' "$work/$name.txt" \
         >"$work/$name.made"
@@ -106,3 +109,15 @@ rm -f "$work/all"
 } | "$lab" progress --parts $#
 [ -f "$work/all" ]
 cat "$work"/*.made >"$out/made.txt"
+# The rows that are new, the others as they are; the lowest first, as in PFM.
+{
+    set -- $(sed '/^#/d; s/ .*//' "$out/list.txt" | awk '{ name[NR] = $0 } END { for (i = NR; i > 0; i--) print name[i] }')
+    printf 'Pf\n288 %d\n-1\n' $((32 * $#))
+    at=16
+    for scene; do
+        [ -f "$work/$scene.row" ] || tail -c +$at "$out/references.pfm" | head -c 36864 >"$work/$scene.row"
+        cat "$work/$scene.row"
+        at=$((at + 36864))
+    done
+} >"$work/references.pfm"
+mv "$work/references.pfm" "$out/references.pfm"

@@ -49,6 +49,7 @@ struct kit {
     int n, n_there, n_unusable;            /* scenes; of these with pictures, and with some that cannot be judged */
     int n_found[3];                        /* of each finding */
     double level;                          /* of a scene */
+    struct conform_sheet sheet;
 };
 
 /* --- reading ----------------------------------------------------------------------------------------- */
@@ -111,12 +112,11 @@ static bool read_pictures(const char *directory, struct scene_entry *s, struct e
 
 static bool judge_scene(struct kit *kit, struct scene_entry *s, struct error *err)
 {
-    char path[PATH];
     struct conform_references *r = mem_alloc(1, sizeof *r);
-    bool ok = conform_read(path_of(path, kit->o->kit, s->name, ".pfm"), strstr(s->tags, " closed ") != NULL, r, err);
-    if (ok && (s->pictures.width != r->right.width || s->pictures.height != r->right.height))
-        ok = error_set(err, "%s: the pictures are %dx%d, the reference %dx%d; all must have the same size", s->name,
-                       s->pictures.width, s->pictures.height, r->right.width, r->right.height);
+    *r = conform_row(&kit->sheet, (int)(s - kit->scene), strstr(s->tags, " closed ") != NULL);
+    bool ok = (s->pictures.width == r->right.width && s->pictures.height == r->right.height) ||
+              error_set(err, "%s: the pictures are %dx%d, the reference %dx%d; all must have the same size", s->name,
+                        s->pictures.width, s->pictures.height, r->right.width, r->right.height);
     if (ok) {
         s->j = conform_judge(&s->pictures, r, kit->level, kit->o->seed);
         kit->n_found[s->j.finding]++;
@@ -234,6 +234,9 @@ static bool conform(struct kit *kit, struct error *err)
     if (kit->n_there == 0)
         return error_set(err, "%s: holds no picture of the kit's scenes, such as %s.pfm or %s-1.pfm", kit->o->directory,
                          kit->scene[0].name, kit->scene[0].name);
+    char path[PATH];
+    if (!conform_sheet_read(path_of(path, kit->o->kit, "references.pfm", ""), kit->n, &kit->sheet, err))
+        return false;
     struct progress bar;
     int n_judged = 0;
     progress_start(&bar, false);
@@ -262,6 +265,7 @@ static int run(void *options)
     bool any = kit->n_found[FINDS_DIFFERENCE] > 0, unusable = kit->n_unusable > 0;
     for (int i = 0; i < kit->n; i++)
         batches_free(&kit->scene[i].pictures.pixels);
+    free(kit->sheet.pixels);
     free(kit);
     return !ok ? fail(&err) : any || unusable ? EXIT_JOB : EXIT_OK;
 }

@@ -35,35 +35,44 @@ const struct mistake CONFORM_MISTAKES[] = {
 
 /* --- references -------------------------------------------------------------------------------------- */
 
-/* Picture k of a strip, with errors so many times those of picture 1; without pixels if the strip ends before it. */
-static struct side of_strip(const char *name, const float *strip, int width, int height, int k, double errors)
+bool conform_sheet_read(const char *path, int n, struct conform_sheet *out, struct error *err)
 {
-    struct side s = {.name = name, .width = width, .height = width};
-    long n = 3L * width * width;
-    if (k >= height / width)
+    int width, height;
+    out->pixels = image_read_linear(path, &width, &height, NULL, err);
+    if (out->pixels == NULL)
+        return false;
+    out->side = width / CONFORM_ACROSS;
+    if (width == CONFORM_ACROSS * out->side && height == n * out->side)
+        return true;
+    free(out->pixels);
+    return error_set(err, "%s: %dx%d is no sheet of %d square pictures for each of %d scenes", path, width, height,
+                     CONFORM_ACROSS, n);
+}
+
+/* Picture k of a row, with errors so many times those of picture 1; without pixels if it is not there. */
+static struct side of_sheet(const struct conform_sheet *sheet, int row, int k, double errors)
+{
+    long side = sheet->side, across = 3 * side * CONFORM_ACROSS;
+    const float *first = sheet->pixels + row * side * across, *from = first + 3 * side * k;
+    struct side s = {.name = "", .width = sheet->side, .height = sheet->side};
+    if (from[0] < 0)
         return s;
-    s.pixels = batches_new(1, n, true);
-    for (long i = 0; i < n; i++) {
-        s.pixels.value[i] = (double)strip[n * k + i];
-        s.pixels.error[i] = errors * (double)strip[n + i];
+    s.pixels = batches_new(1, 3 * side * side, true);
+    for (long i = 0; i < s.pixels.n; i++) {
+        long at = i / (3 * side) * across + i % (3 * side);
+        s.pixels.value[i] = (double)from[at];
+        s.pixels.error[i] = errors * (double)first[3 * side + at];
     }
     return s;
 }
 
-bool conform_read(const char *path, bool closed, struct conform_references *out, struct error *err)
+struct conform_references conform_row(const struct conform_sheet *sheet, int row, bool closed)
 {
-    int width, height;
-    float *strip = image_read_linear(path, &width, &height, NULL, err);
-    *out = (struct conform_references){.right = {.name = path}};
-    bool ok = strip != NULL && (height >= 2 * width || error_set(err, "%s: %dx%d is no strip of square pictures", path,
-                                                                 width, height));
-    if (ok)
-        out->right = of_strip(path, strip, width, height, 0, closed ? 0 : 1);
-    for (int i = 0; ok && CONFORM_MISTAKES[i].words != NULL; i++)
+    struct conform_references r = {.right = of_sheet(sheet, row, 0, closed ? 0 : 1)};
+    for (int i = 0; CONFORM_MISTAKES[i].words != NULL; i++)
         if (CONFORM_MISTAKES[i].picture > 0)
-            out->wrong[i] = of_strip(path, strip, width, height, CONFORM_MISTAKES[i].picture, CONFORM_WRONG);
-    free(strip);
-    return ok;
+            r.wrong[i] = of_sheet(sheet, row, CONFORM_MISTAKES[i].picture, CONFORM_WRONG);
+    return r;
 }
 
 void conform_free(struct conform_references *r)
