@@ -2,10 +2,12 @@
 # unpack.sh: the small files that lie in the lists of a folder, *.txt, as files of their own:
 #     sh scenes/unpack.sh scenes/features        beside the lists
 #     sh scenes/unpack.sh scenes/features DIR    into DIR, with copies of the folder's other files
+#     sh scenes/unpack.sh LIST.txt DIR           of one list
 # How lists are read test/fuzz/lists.h says, whose program does the same for the tests.
 from=${1:?a folder with lists} to=${2:-$1}
+[ -d "$from" ] && set -- "$from"/* || set -- "$from"
 mkdir -p "$to" || exit
-for file in "$from"/*; do
+for file; do
     case $file in
     *.txt)
         awk -v to="$to/" '
