@@ -87,9 +87,10 @@ for material in matte none; do
     check [ "$(fits fog '' $material) $(fits '' fog $material)" = '1 1' ]
 done
 # Parameters by which light may be lost: a warning, where there is such light.
+sh "$scenes/unpack.sh" "$scenes/test/caustics.txt" caustics
 for number in connections=0 later=0 pathpixels=0; do
     expect 0 'warning: .*/caustic-pane.pbrt: with connections, later or pathpixels 0 the image may lack light' \
-        "$program" render "$scenes/test/caustic-pane.pbrt" $small --integrator asbdpt -P $number -o x.pfm
+        "$program" render caustics/caustic-pane.pbrt $small --integrator asbdpt -P $number -o x.pfm
     expect 0 '' "$program" render "$box" $small --integrator asbdpt -P $number -o x.pfm
     check [ ! -s stderr.txt ]
 done

@@ -25,7 +25,7 @@ bars "$left" '"$lab" strategies "$box" --res 96 --spp 32 --maxdepth 3 -o strateg
 bars "$left" '"$lab" transient "$box" --res 96 --spp 32 -o flight'
 bars "$left" '"$lab" bench "$box" --spp 2'
 export PROGRAM="$lab" LAB="$lab"
-bars ", (area|mirror)$left" 'rm -rf shown; sh test/measure/conform/ours.sh shown bdpt 4 16 area mirror'
+bars ", (area|mirror)$left" 'rm -rf shown; sh test/measure/conform/kit.sh ours shown bdpt 4 16 area mirror'
 mkdir kit # black pictures of all scenes
 for name in $(sed '/^#/d; s/ .*//' ref/conform/list.txt); do
     { printf 'Pf\n32 32\n-1\n' && head -c 4096 /dev/zero; } >"kit/$name.pfm"
