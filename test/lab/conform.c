@@ -45,6 +45,7 @@ bool conform_sheet_read(const char *path, int n, struct conform_sheet *out, stru
     if (width == CONFORM_ACROSS * out->side && height == n * out->side)
         return true;
     free(out->pixels);
+    out->pixels = NULL;
     return error_set(err, "%s: %dx%d is no sheet of %d square pictures for each of %d scenes", path, width, height,
                      CONFORM_ACROSS, n);
 }

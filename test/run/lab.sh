@@ -48,6 +48,9 @@ expect 1 'deep: not judged: kit/deep: there are .pfm and .exr' "$lab" conform ki
 rm kit/deep.exr && cp one.pfm kit/deep-2.pfm
 expect 1 'deep: not judged: kit/deep-2.pfm is 1x1, the picture before it' "$lab" conform kit --kit "$top/ref/conform"
 
+mkdir odd && cp "$top/ref/conform/list.txt" odd && cp one.pfm odd/references.pfm && rm kit/deep-*
+expect 1 'odd/references.pfm: 1x1 is no sheet of 9 square pictures for each of 35 scenes' "$lab" conform kit --kit odd
+
 # What other renderers read of the kit's scenes: 30 of pbrt-v4, 26 of Mitsuba 3, always the same bytes.
 expect 0 '' sh -c 'kit=$PWD/told && cd "$1" && sh scenes/generate/conform.sh "$kit"' sh "$top"
 check [ "$(ls told/pbrt-v4 told/mitsuba | grep -c '[.]')" = 56 ]
