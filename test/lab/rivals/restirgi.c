@@ -23,6 +23,7 @@
 #include <string.h>
 
 #include "caustics/surfaces.h"
+#include "caustics/visible.h"
 #include "rivals/together.h"
 
 struct restirgi {
