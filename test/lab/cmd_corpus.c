@@ -40,7 +40,7 @@ static const struct option OPTIONS[] = {
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .fallback = METHODS_CORPUS, .help = METHODS_HELP},
     {"--width", "N", OPTION_INTEGER, AT(width), 8, 10000, .fallback = "112", .help = "pixels from left to right"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "32", .help = "samples per pixel"},
-    {"--seeds", "N", OPTION_INTEGER, AT(seeds), 3, PLAN_MAX_SEEDS, .fallback = "3",
+    {"--seeds", "N", OPTION_INTEGER, AT(seeds), 2, PLAN_MAX_SEEDS, .fallback = "3",
      .help = "renders of each method, any two of which are a pair"},
     {"--limit", "SECONDS", OPTION_NUMBER, AT(limit), 1e-3, 1e6, .fallback = "120",
      .help = "CPU seconds after which a method is given up"},
@@ -80,6 +80,12 @@ static double inside(const struct scene *s)
     return tried > 0 ? (double)hits / tried : 0;
 }
 
+/* Is it a mirror, or smooth glass, or may textures make it one? */
+static bool specular(const struct material *m)
+{
+    return m->same.lobe != NULL ? m->same.n_smooth < m->same.n_lobes : m->row->may_be_delta;
+}
+
 static struct render_options options_of(struct corpus *c, const struct measured *m, int seed)
 {
     settings_clear(&c->scene.settings);
@@ -116,7 +122,7 @@ static void print_scene(struct corpus *c, double loading)
         lamps |= s->lights.light[i].kind == LIGHT_AREA;
     }
     for (int i = 0; i < s->n_materials; i++)
-        mirror |= s->material[i]->row->may_be_delta;
+        mirror |= specular(s->material[i]);
     printf("scene,%d,%d,%d,%.3f,delta=%d,sky=%d,lamps=%d,mirror=%d,medium=%d,inside=%.3f,runner=%s\n", s->width,
            s->height, c->depth, loading, delta, sky, lamps, mirror, s->media.n > 0, inside(s), winner(c));
 }
@@ -230,7 +236,10 @@ static void print_runs(const struct corpus *c, int v)
                 half[k][i * n + j] = half[k][j * n + i] = square[k] / 2;
         }
     for (int k = 0; k < N_SQUARES; k++)
-        results_pairs(half[k], n, out[k]);
+        if (n > 2)
+            results_pairs(half[k], n, out[k]);
+        else
+            out[k][0] = out[k][1] = half[k][1];
     for (int i = 0; i < n; i++)
         printf("run,%s,%d,%d,%.4f,%.6g,%.6g,%.6g,%.6g,%s\n", c->methods.item[v].text, i + 1, c->o->spp, e->seconds[i],
                out[SQUARE_MSE8][i], out[SQUARE_RELMSE][i], out[SQUARE_BLOCKS][i], brightness(c, e->picture[i]),

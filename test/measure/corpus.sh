@@ -29,14 +29,15 @@ bring() {
     mv "$to.new" "$to"
 }
 
-# reason: why the program has refused, in a word or two
+# reason MESSAGE: why the program has refused, in a few words
 reason() {
-    case $(cat "$work/said") in
-    *"CPU time limit"* | *"Killed"*) echo "too long" ;;
+    case $1 in
+    "") echo "too long" ;; # ended by the limit
     *memory*) echo "too large" ;;
+    *"be opened"* | *"cannot open"*) echo "a file is missing" ;;
     *"unknown directive"* | *pbrt-v4*) echo "not of pbrt-v3" ;;
-    *"no file"* | *"cannot open"*) echo "a file is missing" ;;
-    *) echo "refused" ;;
+    *"not supported"* | *"not known"*) echo "what the program has not" ;;
+    *) echo "damaged" ;;
     esac
 }
 
@@ -52,7 +53,8 @@ render() {
 try() {
     rm -f "$work/picture.pfm"
     if ! render "$directory/$(echo "$1" | tr / +)/$2"; then
-        leave "$1" "$2" "$(reason)" "$(grep -v ': warning: ' "$work/said" | sed -n 1p | tr '\t' ' ')"
+        message=$(grep -v ': warning: ' "$work/said" | sed -n 1p | tr '\t' ' ')
+        leave "$1" "$2" "$(reason "$message")" "$message"
         return
     fi
     sum=$(cksum <"$work/picture.pfm" | tr ' ' -)
@@ -94,3 +96,5 @@ grep -v '^#' "$repositories" | while read -r repository commit note; do
     cp "$work/list" "$directory/list.txt"
     cp "$work/left" "$directory/left_out.txt"
 done
+cp "$work/list" "$directory/list.txt"
+cp "$work/left" "$directory/left_out.txt"
