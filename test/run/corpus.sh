@@ -45,14 +45,14 @@ case "$*" in *asbdpt:race=off*) echo "begin asbdpt:race=off" >&2; kill -9 $$ ;; 
 exec "$LAB" "$@"
 END
 chmod +x fragile
-run() { LAB=$lab METHODS=bdpt,pt,asbdpt:race=off,asbdpt WIDTH=32 SPP=32 sh "$measure/corpus_run.sh" corpus out "$PWD/fragile"; }
+run() { LAB=$lab METHODS=bdpt,pt,asbdpt:race=off,asbdpt WIDTH=24 SPP=16 sh "$measure/corpus_run.sh" corpus out "$PWD/fragile"; }
 expect 0 '' run
 check [ "$(cat out/*.csv | grep -c '^[1-3],run,')" -eq 27 ]
 check [ "$(cat out/*.csv | grep -c '^[1-3],failed,asbdpt:race=off,status 137')" -eq 3 ]
 caustic=$(grep caustic corpus/list.txt | cut -f 1)
 check [ "$(grep -c '^[1-3],run,pt,.*,misses light$' "out/$caustic.csv")" -eq 3 ]
 check [ "$(cat out/*.csv | grep -c 'misses light$')" -eq 3 ]
-check grep -q '^[1-3],scene,32,.*,delta=1,sky=0,lamps=0,mirror=1,medium=0,' "out/$caustic.csv"
+check grep -q '^[1-3],scene,24,.*,delta=1,sky=0,lamps=0,mirror=1,medium=0,' "out/$caustic.csv"
 check [ "$(cat out/*.csv | grep -c ',mirror=0,')" -eq 2 ]
 
 # ---- again: what is there stays, what is not is measured ----
