@@ -39,7 +39,7 @@ measure() {
     left=$methods said=$work/said$3 rows=$work/rows$3
     : >"$rows"
     while [ -n "$left" ]; do
-        (ulimit -v 2097152 && ulimit -t $((60 + limit * 5)) && exec "$program" corpus "$2" --methods "$left" $size \
+        (ulimit -v 2097152 2>"$said"; ulimit -t $((60 + limit * 5)); exec "$program" corpus "$2" --methods "$left" $size \
             --limit "$limit") >"$rows.new" 2>"$said" </dev/null && break
         status=$?
         culprit=$(sed -n 's/^begin //p' "$said" | tail -n 1)

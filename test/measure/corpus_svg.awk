@@ -1,5 +1,5 @@
 # corpus_svg.awk: a dot for each scene on a logarithmic axis, as SVG. Reads the lines of corpus.awk with scores=yes.
-# Bands by what the race has chosen, sorted in each; a ring is a scene of `report`; the worst are named by number.
+# Bands by what the race has chosen, sorted in each; a ring is a scene of `report`; the three worst are named by number, the worst first.
 #   -v column=4  asbdpt over the better of pt and bdpt (the default); 5: pt over bdpt, in one band
 BEGIN { if (!column) column = 4; left = 120; width = 640; step = 5; low = 0.1; high = 10 }
 $column > 0 {
@@ -38,10 +38,11 @@ END {
             colour = value[band, i] > 1.15 ? "#b2182b" : value[band, i] < 0.87 ? "#2166ac" : "#888"
             printf "<circle cx='%g' cy='%g' r='2.5' stroke='%s' fill='%s'/>", place(value[band, i]), y, colour,
                 report[band, i] ? "white" : colour
-            if (column == 4 && value[band, i] > 1.15 && i > n - 3)
-                printf "<text x='%g' y='%g' font-size='10'>%s</text>", place(value[band, i]) + 6, y + 4, name[band, i]
+            if (column == 4 && value[band, i] > 1.15 && i > n - 3) worst = name[band, i] (worst ? ", " : "") worst
             print ""
         }
+        if (worst) printf "<text x='%g' y='%g' font-size='10'>%s</text>\n", place(value[band, n]) + 6, y + 4, worst
+        worst = ""
         y += 24
         printf "<path d='M0 %gH%g' stroke='#eee'/>\n", y - 8, left + width + 60
     }

@@ -69,6 +69,15 @@ sed 's/report$/tune/' corpus/list.txt >tune.txt
 expect 1 'no scene of tune.txt is wanted' env LAB="$lab" LIST=tune.txt FORTY=yes sh "$measure/corpus_run.sh" corpus none "$PWD/fragile"
 check [ -z "$(ls none)" ]
 
+# ---- the errors: half the squared differences of two renders ----
+for seed in 1 2; do
+    "$program" "$box" --integrator pt --filter box --res 24 --spp 4 --seed $seed --unclamped --quiet -o $seed.pfm
+done
+prints '^rmse8' "$lab" compare 1.pfm 2.pfm
+rmse8=$(awk '$1 == "rmse8" { print $2 }' stdout.txt)
+expect 0 '' "$lab" corpus "$box" --methods pt --width 24 --spp 4 --seeds 2
+check awk -F , -v d="$rmse8" '$1 == "run" { n += ($6 - d * d / 2) ^ 2 < (0.01 * $6) ^ 2 } END { exit n != 2 }' stdout.txt
+
 # ---- limits; what cannot be loaded ----
 prints '^failed,bdpt,more CPU time than the limit' "$lab" corpus "$box" --methods bdpt --width 64 --limit 0.01
 expect 1 'Shape "teapot"' "$lab" corpus "$repository/refused.pbrt"
