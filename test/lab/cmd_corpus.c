@@ -1,9 +1,10 @@
 /* cmd_corpus.c: asbdpt-lab corpus: one scene of many (test/measure/corpus.md): what each method costs there, and what
  * the scene has, as lines for a table.
  *
- * Errors come from pairs: of S renders with unlike seeds, half the squared differences (results.h), relative to the mean
- * of all pictures. No reference is needed; but what all renders of a method lack is not seen. So a method is tested
- * against the first one (mark.h), and the line says so. CPU seconds are those of the render with all that it prepares.
+ * Errors come from pairs: of S renders with unlike seeds, half the squared differences (results.h), relative to the
+ * mean of all pictures. No reference is needed; but what all renders of a method lack is not seen. So a method is
+ * tested against the first one (mark.h), and the line says so. CPU seconds are those of the render with all that it
+ * prepares.
  *
  *     scene,WIDTH,HEIGHT,DEPTH,LOADING,delta=0,sky=0,lamps=1,mirror=0,medium=0,inside=0.98,runner=all
  *     run,METHOD,SEED,SPP,SECONDS,MSE8,RELMSE,8X8,MEAN,MARK

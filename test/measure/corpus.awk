@@ -114,7 +114,10 @@ END {
     group("report", "set", "report", n_measures)
     group("both", "", "", n_measures)
     head("by what the race has chosen")
-    for (i = 1; i <= n_scenes; i++) if (!told[runner[scene[i]]]++) group(runner[scene[i]], "runner", runner[scene[i]], 3)
+    for (i = 1; i <= n_scenes; i++) {
+        chosen = runner[scene[i]]
+        if (!told[chosen]++) group(chosen, "runner", chosen, 3)
+    }
     head("by what a scene has")
     n = split("delta sky lamps mirror medium", what, " ")
     for (k = 1; k <= n; k++) { group(what[k], what[k], 1, 3); group("no " what[k], what[k], 0, 3) }

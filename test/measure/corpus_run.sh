@@ -1,7 +1,7 @@
 #!/bin/sh
-# corpus_run.sh: the measurement of corpus.md in the scenes of DIR/list.txt, each in a process of its own. OUT/N.csv holds
-# the lines of scene N (test/lab/cmd_corpus.c), each after the number. What is there is not measured again. Whatever
-# happens in a scene, the others go on: a method that ends its process is a line, and the rest of them are tried again.
+# corpus_run.sh: the measurement of corpus.md in the scenes of DIR/list.txt, each in a process of its own. OUT/N.csv
+# holds the lines of scene N (test/lab/cmd_corpus.c), each after the number. What is there is not measured again.
+# Whatever happens in a scene, the others go on: a method that ends its process is a line, and the rest of them are tried again.
 # FORTY=yes: those drawn by lot of `report`, larger. JOBS: scenes at a time; METHODS, WIDTH, SPP, SEEDS, LIMIT, LIST.
 #   sh test/measure/corpus_run.sh DIR OUT [PROGRAM]
 set -u
@@ -9,11 +9,12 @@ set -u
 directory=$1 out=$2 program=${3:-./asbdpt-lab} jobs=${JOBS:-1} list=${LIST:-$1/list.txt}
 case $program in */*) ;; *) program=./$program ;; esac
 if [ "${FORTY:-}" = yes ]; then
-    methods=${METHODS:-bdpt,pt,asbdpt} size="--width ${WIDTH:-320} --spp ${SPP:-64} --seeds ${SEEDS:-2}" limit=${LIMIT:-100}
+    methods=${METHODS:-bdpt,pt,asbdpt} limit=${LIMIT:-100}
+    size="--width ${WIDTH:-320} --spp ${SPP:-64} --seeds ${SEEDS:-2}"
 else
     power=:lightsamplestrategy=power
-    methods=${METHODS:-bdpt,pt,asbdpt,bdpt$power,pt$power}
-    size="--width ${WIDTH:-112} --spp ${SPP:-32} --seeds ${SEEDS:-3}" limit=${LIMIT:-40}
+    methods=${METHODS:-bdpt,pt,asbdpt,bdpt$power,pt$power} limit=${LIMIT:-40}
+    size="--width ${WIDTH:-112} --spp ${SPP:-32} --seeds ${SEEDS:-3}"
 fi
 mkdir -p "$out" || exit
 work=$(mktemp -d) || exit
@@ -39,8 +40,10 @@ measure() {
     left=$methods said=$work/said$3 rows=$work/rows$3
     : >"$rows"
     while [ -n "$left" ]; do
-        (ulimit -v 2097152 2>"$said"; ulimit -t $((60 + limit * 5)); exec "$program" corpus "$2" --methods "$left" $size \
-            --limit "$limit") >"$rows.new" 2>"$said" </dev/null && break
+        (ulimit -v 2097152 2>"$said" # not every system has it
+            ulimit -t $((60 + limit * 5))
+            exec "$program" corpus "$2" --methods "$left" $size --limit "$limit") >"$rows.new" 2>"$said" </dev/null &&
+            break
         status=$?
         culprit=$(sed -n 's/^begin //p' "$said" | tail -n 1)
         why="status $status: $(grep -Ev '^begin |warning: ' "$said" | sed -n 1p | tr ',\t' '; ')"
@@ -55,10 +58,11 @@ measure() {
 wanted >"$work/wanted"
 [ -s "$work/wanted" ] || { echo "corpus_run.sh: no scene of $list is wanted" >&2; exit 1; }
 job() {
-    awk -v job="$1" -v jobs="$jobs" 'NR % jobs == job' "$work/wanted" | while IFS=$tab read -r number repository file set; do
+    awk -v job="$1" -v jobs="$jobs" 'NR % jobs == job' "$work/wanted" >"$work/job$1"
+    while IFS=$tab read -r number repository file set; do
         [ -f "$out/$number.csv" ] || measure "$number" "$directory/$(echo "$repository" | tr / +)/$file" "$1"
         echo "$number" # for the bar
-    done
+    done <"$work/job$1"
 }
 i=0
 while [ "$i" -lt "$jobs" ]; do

@@ -1,5 +1,6 @@
 # corpus_svg.awk: a dot for each scene on a logarithmic axis, as SVG. Reads the lines of corpus.awk with scores=yes.
-# Bands by what the race has chosen, sorted in each; a ring is a scene of `report`; the three worst are named by number, the worst first.
+# Bands by what the race has chosen, sorted in each; a ring is a scene of `report`. The numbers are those of the three
+# worst, the worst first.
 #   -v column=4  asbdpt over the better of pt and bdpt (the default); 5: pt over bdpt, in one band
 BEGIN { if (!column) column = 4; left = 120; width = 640; step = 5; low = 0.1; high = 10 }
 $column > 0 {
@@ -15,11 +16,11 @@ $column > 0 {
 function place(v) { return left + width * log(v / low) / log(high / low) }
 function swap(a, i, j,    t) { t = a[band, i]; a[band, i] = a[band, j]; a[band, j] = t }
 END {
-    axis = column == 4 ? "error x CPU time of asbdpt over the better of pt and bdpt" : "error x CPU time of pt over bdpt"
+    axis = "error x CPU time of " (column == 4 ? "asbdpt over the better of pt and bdpt" : "pt over bdpt")
     for (b = 1; b <= n_bands; b++) height += size[order[b]] * step + 24
-    printf "<svg xmlns='http://www.w3.org/2000/svg' width='%d' height='%d' viewBox='0 0 %d %d' font-family='sans-serif' " \
-        "font-size='12'><rect width='100%%' height='100%%' fill='white'/>\n", left + width + 60, height + 60,
-        left + width + 60, height + 60
+    printf "<svg xmlns='http://www.w3.org/2000/svg' width='%d' height='%d' viewBox='0 0 %d %d' " \
+        "font-family='sans-serif' font-size='12'><rect width='100%%' height='100%%' fill='white'/>\n",
+        left + width + 60, height + 60, left + width + 60, height + 60
     for (v = low; v < high * 1.01; v *= 10)
         printf "<path d='M%g 10V%g' stroke='#ddd'/><text x='%g' y='%g' text-anchor='middle'>%g</text>\n", place(v),
             height + 14, place(v), height + 30, v
@@ -32,7 +33,8 @@ END {
             for (j = i; j > 1 && value[band, j - 1] > value[band, j]; j--) {
                 swap(value, j, j - 1); swap(name, j, j - 1); swap(report, j, j - 1)
             }
-        printf "<text x='10' y='%g'>%s</text><text x='10' y='%g' fill='#666'>%d scenes</text>\n", y + 16, band, y + 30, n
+        printf "<text x='10' y='%g'>%s</text>", y + 16, band
+        printf "<text x='10' y='%g' fill='#666'>%d scenes</text>\n", y + 30, n
         for (i = 1; i <= n; i++) {
             y += step
             colour = value[band, i] > 1.15 ? "#b2182b" : value[band, i] < 0.87 ? "#2166ac" : "#888"

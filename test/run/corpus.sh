@@ -1,6 +1,6 @@
 #!/bin/sh
-# corpus.sh PROGRAM: the scripts of test/measure/corpus.md, in a corpus of a few small scenes: what is listed and what is
-# left out, what is measured, what becomes of a method that misses light or ends, and that nothing is measured twice.
+# corpus.sh PROGRAM: the scripts of test/measure/corpus.md, in a corpus of a few small scenes: what is listed and what
+# is left out, what is measured, what becomes of a method that misses light or ends, and that nothing is measured twice.
 . test/run/expect.sh
 measure=$top/test/measure
 tab=$(printf '\t')
@@ -45,7 +45,10 @@ case "$*" in *asbdpt:race=off*) echo "begin asbdpt:race=off" >&2; kill -9 $$ ;; 
 exec "$LAB" "$@"
 END
 chmod +x fragile
-run() { LAB=$lab METHODS=bdpt,pt,asbdpt:race=off,asbdpt WIDTH=24 SPP=16 sh "$measure/corpus_run.sh" corpus out "$PWD/fragile"; }
+run() {
+    LAB=$lab METHODS=bdpt,pt,asbdpt:race=off,asbdpt WIDTH=24 SPP=16 \
+        sh "$measure/corpus_run.sh" corpus out "$PWD/fragile"
+}
 expect 0 '' run
 check [ "$(cat out/*.csv | grep -c '^[1-3],run,')" -eq 27 ]
 check [ "$(cat out/*.csv | grep -c '^[1-3],failed,asbdpt:race=off,status 137')" -eq 3 ]
@@ -66,7 +69,8 @@ grep ,run, "out/$other.csv" | cut -d , -f 1-5,7-9 | check cmp -s - before.txt
 expect 0 '' env LAB="$lab" FORTY=yes WIDTH=16 SPP=1 sh "$measure/corpus_run.sh" corpus forty "$PWD/fragile"
 check [ "$(cat forty/*.csv | grep -c '^[1-3],run,[a-z]*,[12],1,')" -eq 18 ]
 sed 's/report$/tune/' corpus/list.txt >tune.txt
-expect 1 'no scene of tune.txt is wanted' env LAB="$lab" LIST=tune.txt FORTY=yes sh "$measure/corpus_run.sh" corpus none "$PWD/fragile"
+expect 1 'no scene of tune.txt is wanted' env LAB="$lab" LIST=tune.txt FORTY=yes \
+    sh "$measure/corpus_run.sh" corpus none "$PWD/fragile"
 check [ -z "$(ls none)" ]
 
 # ---- the errors: half the squared differences of two renders ----
@@ -76,7 +80,9 @@ done
 prints '^rmse8' "$lab" compare 1.pfm 2.pfm
 rmse8=$(awk '$1 == "rmse8" { print $2 }' stdout.txt)
 expect 0 '' "$lab" corpus "$box" --methods pt --width 24 --spp 4 --seeds 2
-check awk -F , -v d="$rmse8" '$1 == "run" { n += ($6 - d * d / 2) ^ 2 < (0.01 * $6) ^ 2 } END { exit n != 2 }' stdout.txt
+check awk -F , -v d="$rmse8" '
+    $1 == "run" { n += ($6 - d * d / 2) ^ 2 < (0.01 * $6) ^ 2 }
+    END { exit n != 2 }' stdout.txt
 
 # ---- limits; what cannot be loaded ----
 prints '^failed,bdpt,more CPU time than the limit' "$lab" corpus "$box" --methods bdpt --width 64 --limit 0.01
@@ -86,7 +92,7 @@ expect 2 '' "$lab" corpus "$box" --methods nothing
 # ---- the tables: of known lines ----
 {
     for row in 1,bdpt,4, 1,pt,8, 1,asbdpt,2, 2,bdpt,4, '2,pt,1,misses light' 2,asbdpt,8,; do
-        echo "$row" | awk -F , '{ for (i = 1; i < 4; i++) print $1 ",run," $2 "," i ",32,1," $3 "," $3 "," $3 ",1," $4 }'
+        echo "$row" | awk -F , -v OFS=, '{ for (i = 1; i < 4; i++) print $1, "run", $2, i, 32, 1, $3, $3, $3, 1, $4 }'
     done
     for n in 1 2; do echo "$n,scene,8,8,5,0,delta=$((n - 1)),sky=0,lamps=1,mirror=0,medium=0,inside=1,runner=all"; done
     echo '3,failed,-,status 1: no'
