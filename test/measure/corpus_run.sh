@@ -1,8 +1,9 @@
 #!/bin/sh
 # corpus_run.sh: the measurement of corpus.md in the scenes of DIR/list.txt, each in a process of its own. OUT/N.csv
 # holds the lines of scene N (test/lab/cmd_corpus.c), each after the number. What is there is not measured again.
-# Whatever happens in a scene, the others go on: a method that ends its process is a line, and the rest of them are tried again.
-# FORTY=yes: those drawn by lot of `report`, larger. JOBS: scenes at a time; METHODS, WIDTH, SPP, SEEDS, LIMIT, LIST.
+# Whatever happens in a scene, the others go on: a method that ends its process is a line, and the rest of them are
+# tried again. FORTY=yes: those drawn by lot of `report`, larger. JOBS: scenes at a time; LIST instead of DIR/list.txt;
+# METHODS, WIDTH, SPP, SEEDS, LIMIT.
 #   sh test/measure/corpus_run.sh DIR OUT [PROGRAM]
 set -u
 [ $# -ge 2 ] || { echo "usage: sh test/measure/corpus_run.sh DIR OUT [PROGRAM]" >&2; exit 2; }
