@@ -125,7 +125,7 @@ static void print_scene(struct corpus *c, double loading)
     for (int i = 0; i < s->n_materials; i++)
         mirror |= specular(s->material[i]);
     printf("scene,%d,%d,%d,%.3f,delta=%d,sky=%d,lamps=%d,mirror=%d,medium=%d,inside=%.3f,runner=%s\n", s->width,
-           s->height, c->depth, loading, delta, sky, lamps, mirror, s->media.n > 0, inside(s), winner(c));
+           s->height, c->depth, loading, delta, sky, lamps, mirror, s->space != NULL, inside(s), winner(c));
 }
 
 /* --- renders ------------------------------------------------------------------------------------------ */
