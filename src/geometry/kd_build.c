@@ -143,11 +143,11 @@ static void build_cell(struct builder *b, uint32_t node, const struct kd_cell *c
         build_cell(b, child + s, &part[s]);
 }
 
-bool kd_has(enum kd_of kind, const struct shape_group *group)
+static bool has(enum kd_of kind, const struct shape_group *group)
 {
     if (kind == KD_SURFACES || group->material >= 0)
         return kind == KD_SURFACES && group->material >= 0;
-    return kind == KD_LAMPS ? group->first_light >= 0 : group->medium[0] != group->medium[1];
+    return kind == KD_LAMPS ? group->first_light >= 0 : shape_is_interface(group);
 }
 
 /* Add primitives to the cell of everything. */
@@ -175,7 +175,7 @@ static struct kd_cell root_cell(const struct geometry *geo, enum kd_of kind, con
         most += (size_t)geo->group[g].n_prims;
     root.ref = mem_alloc(most, sizeof *root.ref);
     for (int g = first; g < end; g++)
-        if (kd_has(kind, &geo->group[g]) && geo->group[g].shared == (object != NULL))
+        if (has(kind, &geo->group[g]) && geo->group[g].shared == (object != NULL))
             add_prims(geo, geo->group[g].first_prim, geo->group[g].n_prims, &root);
     if (kind == KD_SURFACES && object == NULL)
         add_prims(geo, FIRST_INSTANCE, geo->n_instances, &root);

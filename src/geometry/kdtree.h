@@ -27,7 +27,6 @@ struct kdtree {
 
 /* Which primitives: those with a material; of those without the lights, and what bounds media, which may be both. */
 enum kd_of { KD_SURFACES, KD_LAMPS, KD_INTERFACES };
-bool kd_has(enum kd_of kind, const struct shape_group *group);
 
 /* kd_build: build the tree of all primitives of one kind; kd_free releases it. Cannot fail (memory: see mem.h). The
  * result depends on the geometry alone. The geometry must not change afterwards. */

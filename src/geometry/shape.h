@@ -43,6 +43,9 @@ struct shape_group {
     bool skip_uv;       /* leave all of these and u and v as they are */
 };
 
+/* shape_is_interface: does it bound media? */
+static inline bool shape_is_interface(const struct shape_group *g) { return g->medium[0] != g->medium[1]; }
+
 /* Neighbouring groups that are not in the world, but wherever an instance places them. */
 struct object {
     int first_group, end_group;

@@ -17,7 +17,7 @@ void bsdf_make(struct bsdf *b, struct lobe *lobe, int n)
         total += guess;
         b->n_smooth += !lobe_is_delta(lobe[i].kind);
         b->transmits |= lobe[i].kind == LOBE_LAMBERT_TRANSMISSION || lobe[i].kind == LOBE_MICROFACET_TRANSMISSION ||
-                        lobe[i].kind == LOBE_FOURIER || lobe[i].kind == LOBE_PHASE;
+                        lobe[i].kind == LOBE_PHASE || (lobe[i].kind == LOBE_FORM && lobe[i].form->transmits);
         if (i > b->n_lobes)
             lobe[b->n_lobes] = lobe[i];
         b->n_lobes++;

@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "base/vec.h"
+#include "material/burley.h"
 #include "material/lobe_list.h"
 
 struct disney {
@@ -21,7 +22,8 @@ static void diffuse(struct lobe_list *list, const struct disney *d, double whole
 {
     bool beneath = !d->thin && !rgb_is_black(colour_at(list, d->scatter_distance));
     double sheen = limited(number_at(list, d->sheen), 0, MATERIAL_MAX_COLOUR);
-    struct lobe *l = lobe_add(list, LOBE_DISNEY_DIFFUSE, beneath ? rgb_black() : c, rgb_black());
+    struct lobe *l = lobe_add(list, LOBE_FORM, beneath ? rgb_black() : c, rgb_black());
+    l->form = &form_disney;
     l->scale = rgb_grey(whole);
     l->of.disney.roughness = roughness_at(list, d->roughness);
     l->of.disney.retro = c;
@@ -62,7 +64,8 @@ static void lobes(struct lobe_list *list, const struct material *m)
     facets->of.tinted.metallic = metallic;
     rgb plain = rgb_scale(blend(fraction_at(list, d->specular_tint), white, tint), sqr((eta - 1) / (eta + 1)));
     facets->of.tinted.normal = blend(metallic, plain, c);
-    struct lobe *coat = lobe_add(list, LOBE_CLEARCOAT, limited_rgb(rgb_grey(number_at(list, d->clearcoat))), none);
+    struct lobe *coat = lobe_add(list, LOBE_FORM, limited_rgb(rgb_grey(number_at(list, d->clearcoat))), none);
+    coat->form = &form_coat;
     coat->of.gloss = 0.1 - (0.1 - 0.001) * fraction_at(list, d->clearcoat_gloss);
     /* Two refractions give the colour. Thin ones scatter less, as the index does. [Burley 2015] */
     rgb T = rgb_scale(rgb_make(sqrt(c.r), sqrt(c.g), sqrt(c.b)), through);

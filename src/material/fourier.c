@@ -75,8 +75,8 @@ static double cos_azimuth(vec3 wo, vec3 wi)
     return l > 0 ? clamp(-(wo.x * wi.x + wo.y * wi.y) / l, -1, 1) : 1;
 }
 
-/* Refraction is the one asymmetry of what is in the file. [PBRT3 8.6] */
-rgb fourier_eval(const struct fourier_table *t, vec3 wo, vec3 wi)
+/* What of radiance from wi goes to wo. Refraction is the one asymmetry of what is in the file. [PBRT3 8.6] */
+static rgb value(const struct fourier_table *t, vec3 wo, vec3 wi)
 {
     int o, i;
     double wo_weight[4], wi_weight[4], sum[3] = {0}, one[3], cos_phi = cos_azimuth(wo, wi);
@@ -129,8 +129,10 @@ static void make_row(const struct fourier_table *t, int o)
 }
 
 /* Whose cosine counts is drawn by where in its interval wo's is. */
-bool fourier_sample(const struct fourier_table *t, vec3 wo, const double u[3], vec3 *wi)
+static bool sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3 *wi)
 {
+    (void)ng;
+    const struct fourier_table *t = l->of.table;
     double where, choice = (u[0] - EVEN) / (1 - EVEN);
     if (choice < 0) {
         *wi = warp_cos_hemisphere(u[1], u[2]);
@@ -156,7 +158,8 @@ bool fourier_sample(const struct fourier_table *t, vec3 wo, const double u[3], v
     return true;
 }
 
-double fourier_pdf(const struct fourier_table *t, vec3 wo, vec3 wi)
+/* The density with which wi is drawn. */
+static double density(const struct fourier_table *t, vec3 wo, vec3 wi)
 {
     double where, unused, pdf = EVEN * fabs(wi.z) * INV_PI / 2, x = m_acos(cos_azimuth(wo, wi)) * INV_PI;
     int o = interval(t, wo.z, &where), i = interval(t, -wi.z, &unused), p = (int)(x * FOURIER_AZIMUTHS);
@@ -167,6 +170,19 @@ double fourier_pdf(const struct fourier_table *t, vec3 wo, vec3 wi)
     double mass = (1 - where) * ((double)a[1] - a[0]) + where * ((double)b[1] - b[0]);
     return pdf + (1 - EVEN) * mass * FOURIER_AZIMUTHS / (2 * PI * (t->mu[i + 1] - t->mu[i]));
 }
+
+/* Of importance as of radiance with wo and wi exchanged: files are reciprocal only as well as their splines are. */
+static struct bsdf_value eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode)
+{
+    (void)reflect;
+    const struct fourier_table *t = l->of.table;
+    rgb f = mode == RADIANCE ? value(t, wo, wi) : value(t, wi, wo);
+    return (struct bsdf_value){f, density(t, wo, wi), density(t, wi, wo)};
+}
+
+static double guess(const struct lobe *l) { return 0.5 * rgb_mean(rgb_mul(l->scale, l->R)); }
+
+const struct lobe_form form_fourier = {guess, eval, sample, true};
 
 /* --- files ------------------------------------------------------------------------------------------- */
 

@@ -13,8 +13,7 @@
 #include <stdint.h>
 
 #include "base/error.h"
-#include "base/rgb.h"
-#include "base/vec.h"
+#include "material/lobe.h"
 
 struct fourier_table {
     uint64_t content;   /* hash_content of the file */
@@ -36,13 +35,7 @@ enum { FOURIER_AZIMUTHS = 32 };
 bool fourier_read(const char *path, struct fourier_table *out, struct error *err);
 void fourier_free(struct fourier_table *t);
 
-/* fourier_eval: what of radiance from wi goes to wo, 1/sr. wi.z != 0. Of importance the same with wo and wi exchanged:
- * files are reciprocal only as well as their splines are. */
-rgb fourier_eval(const struct fourier_table *t, vec3 wo, vec3 wi);
-
-/* fourier_sample, fourier_pdf: draw wi given wo, about as radiance goes, nowhere with density 0; that density, 1/sr.
- * False where nothing is scattered. u: three numbers in [0,1). */
-bool fourier_sample(const struct fourier_table *t, vec3 wo, const double u[3], vec3 *wi);
-double fourier_pdf(const struct fourier_table *t, vec3 wo, vec3 wi);
+/* form_fourier: wi is drawn about as radiance goes from there to wo, nowhere with density 0. */
+extern const struct lobe_form form_fourier;
 
 #endif

@@ -3,8 +3,6 @@
 #include "material/lobe.h"
 
 #include "base/warp.h"
-#include "material/burley.h"
-#include "material/fourier.h"
 #include "material/microfacet.h"
 
 bool lobe_is_delta(enum lobe_kind kind)
@@ -35,11 +33,7 @@ double lobe_albedo_guess(const struct lobe *l)
     case LOBE_MICROFACET_REFLECTION: return r * reflected_share(l);
     case LOBE_FRESNEL_SPECULAR: return fmax(r, t);
     case LOBE_FRESNEL_BLEND: return r + rgb_mean(rgb_mul(l->scale, l->of.coat));
-    case LOBE_FOURIER: return 0.5 * r;
-    case LOBE_DISNEY_DIFFUSE:
-        return r + rgb_mean(rgb_mul(l->scale, l->of.disney.flat)) +
-               0.25 * rgb_mean(rgb_mul(l->scale, rgb_add(l->of.disney.retro, l->of.disney.sheen)));
-    case LOBE_CLEARCOAT: return 0.1 * r;
+    case LOBE_FORM: return l->form->guess(l);
     }
     return 0;
 }
@@ -47,7 +41,7 @@ double lobe_albedo_guess(const struct lobe *l)
 /* --- diffuse lobes ----------------------------------------------------------------------------------- */
 
 /* NO_SCATTERING unless the directions are on the sides that the lobe is for. */
-static struct bsdf_value diffuse(bool there, rgb f, vec3 wo, vec3 wi)
+struct bsdf_value lobe_diffuse(bool there, rgb f, vec3 wo, vec3 wi)
 {
     struct bsdf_value v = {f, fabs(wi.z) * INV_PI, fabs(wo.z) * INV_PI};
     return there ? v : NO_SCATTERING;
@@ -62,7 +56,7 @@ static rgb oren_nayar(const struct lobe *l, vec3 wo, vec3 wi)
     return rgb_scale(l->R, INV_PI * (l->of.oren_nayar.A + l->of.oren_nayar.B * slant));
 }
 
-static vec3 sample_diffuse(vec3 wo, vec3 ng, bool reflect, double u1, double u2)
+vec3 lobe_sample_diffuse(vec3 wo, vec3 ng, bool reflect, double u1, double u2)
 {
     vec3 wi = warp_cos_hemisphere(u1, u2);
     bool same_side = dot(wi, ng) * dot(wo, ng) > 0;
@@ -79,7 +73,7 @@ static rgb facet_fresnel(const struct lobe *l, double cos_h)
     case FRESNEL_DIELECTRIC: return rgb_grey(fresnel_dielectric(cos_h, l->eta_a, l->eta_b));
     case FRESNEL_CONDUCTOR: return fresnel_conductor(cos_h, l->of.conductor.eta, l->of.conductor.k);
     case FRESNEL_DISNEY:
-        return disney_fresnel(cos_h, l->of.tinted.normal, l->of.tinted.metallic, l->eta_a, l->eta_b);
+        return fresnel_disney(cos_h, l->eta_a, l->eta_b, l->of.tinted.normal, l->of.tinted.metallic);
     }
     return rgb_grey(1);
 }
@@ -182,30 +176,10 @@ static rgb fresnel_blend(const struct lobe *l, vec3 wo, vec3 wi, vec3 wh)
 static struct bsdf_value substrate(const struct lobe *l, vec3 wo, vec3 wi, bool reflect)
 {
     struct bsdf_value coat = microfacet_reflection(l, wo, wi, false);
-    struct bsdf_value v = diffuse(reflect, fresnel_blend(l, wo, wi, normalize(add(wo, wi))), wo, wi);
+    struct bsdf_value v = lobe_diffuse(reflect, fresnel_blend(l, wo, wi, normalize(add(wo, wi))), wo, wi);
     v.pdf = 0.5 * (v.pdf + coat.pdf);
     v.pdf_rev = 0.5 * (v.pdf_rev + coat.pdf_rev);
     return v;
-}
-
-/* --- clear coat -------------------------------------------------------------------------------------- */
-
-/* Normals are drawn as there are facets, seen or not: pdf = D cos_h / (4 wo.wh). */
-static struct bsdf_value clearcoat(const struct lobe *l, vec3 wo, vec3 wi, bool reflect)
-{
-    if (!(wo.z * wi.z > 0))
-        return NO_SCATTERING;
-    vec3 wh = normalize(add(wo, wi));
-    double pdf = disney_coat_d(wh, l->of.gloss) * fabs(wh.z) / (4 * dot(wo, wh));
-    double value = reflect ? disney_coat(l->of.gloss, wo, wi, wh) : 0;
-    return (struct bsdf_value){rgb_scale(l->R, value), pdf, pdf};
-}
-
-static bool sample_clearcoat(const struct lobe *l, vec3 wo, double u1, double u2, vec3 *wi)
-{
-    vec3 wh = disney_coat_sample(l->of.gloss, u1, u2);
-    *wi = sub(mul(wh, 2 * dot(wo, wh)), wo);
-    return wo.z * wi->z > 0;
 }
 
 /* --- media -------------------------------------------------------------------------------------------- */
@@ -233,23 +207,14 @@ struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect
     if (l->kind != LOBE_PHASE && (wo.z == 0 || wi.z == 0)) /* along the surface */
         return NO_SCATTERING;
     switch (l->kind) {
-    case LOBE_LAMBERT_REFLECTION: v = diffuse(reflect, rgb_scale(l->R, INV_PI), wo, wi); break;
-    case LOBE_LAMBERT_TRANSMISSION: v = diffuse(!reflect, rgb_scale(l->T, INV_PI), wo, wi); break;
-    case LOBE_OREN_NAYAR: v = diffuse(reflect, oren_nayar(l, wo, wi), wo, wi); break;
+    case LOBE_LAMBERT_REFLECTION: v = lobe_diffuse(reflect, rgb_scale(l->R, INV_PI), wo, wi); break;
+    case LOBE_LAMBERT_TRANSMISSION: v = lobe_diffuse(!reflect, rgb_scale(l->T, INV_PI), wo, wi); break;
+    case LOBE_OREN_NAYAR: v = lobe_diffuse(reflect, oren_nayar(l, wo, wi), wo, wi); break;
     case LOBE_MICROFACET_REFLECTION: v = microfacet_reflection(l, wo, wi, reflect); break;
     case LOBE_MICROFACET_TRANSMISSION: v = microfacet_transmission(l, wo, wi, reflect, mode); break;
     case LOBE_FRESNEL_BLEND: v = substrate(l, wo, wi, reflect); break;
-    case LOBE_DISNEY_DIFFUSE:
-        v = diffuse(reflect, disney_diffuse(l->R, l->of.disney.flat, l->of.disney.retro, l->of.disney.sheen,
-                                            l->of.disney.roughness, wo, wi), wo, wi);
-        break;
-    case LOBE_CLEARCOAT: v = clearcoat(l, wo, wi, reflect); break;
-    case LOBE_FOURIER:
-        v.f = mode == RADIANCE ? fourier_eval(l->of.table, wo, wi) : fourier_eval(l->of.table, wi, wo);
-        v.pdf = fourier_pdf(l->of.table, wo, wi);
-        v.pdf_rev = fourier_pdf(l->of.table, wi, wo);
-        break;
     case LOBE_PHASE: v = phase(l->of.g, dot(wo, wi)); break;
+    case LOBE_FORM: v = l->form->eval(l, wo, wi, reflect, mode); break;
     case LOBE_SPECULAR_REFLECTION:
     case LOBE_SPECULAR_TRANSMISSION:
     case LOBE_FRESNEL_SPECULAR: break;
@@ -262,18 +227,16 @@ bool lobe_sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3
 {
     switch (l->kind) {
     case LOBE_LAMBERT_REFLECTION:
-    case LOBE_DISNEY_DIFFUSE:
-    case LOBE_OREN_NAYAR: *wi = sample_diffuse(wo, ng, true, u[1], u[2]); return true;
-    case LOBE_LAMBERT_TRANSMISSION: *wi = sample_diffuse(wo, ng, false, u[1], u[2]); return true;
+    case LOBE_OREN_NAYAR: *wi = lobe_sample_diffuse(wo, ng, true, u[1], u[2]); return true;
+    case LOBE_LAMBERT_TRANSMISSION: *wi = lobe_sample_diffuse(wo, ng, false, u[1], u[2]); return true;
     case LOBE_MICROFACET_REFLECTION: return sample_microfacet_reflection(l, wo, u[1], u[2], wi);
-    case LOBE_FOURIER: return fourier_sample(l->of.table, wo, u, wi);
     case LOBE_PHASE: *wi = sample_phase(l->of.g, wo, u[1], u[2]); return true;
-    case LOBE_CLEARCOAT: return sample_clearcoat(l, wo, u[1], u[2], wi);
+    case LOBE_FORM: return l->form->sample(l, wo, ng, u, wi);
     case LOBE_MICROFACET_TRANSMISSION: return sample_microfacet_transmission(l, wo, u[1], u[2], wi);
     case LOBE_FRESNEL_BLEND:
         if (u[0] >= 0.5)
             return sample_microfacet_reflection(l, wo, u[1], u[2], wi);
-        *wi = sample_diffuse(wo, ng, true, u[1], u[2]);
+        *wi = lobe_sample_diffuse(wo, ng, true, u[1], u[2]);
         return true;
     case LOBE_SPECULAR_REFLECTION:
     case LOBE_SPECULAR_TRANSMISSION:

@@ -35,19 +35,19 @@ enum lobe_kind {
     LOBE_MICROFACET_REFLECTION,
     LOBE_MICROFACET_TRANSMISSION,
     LOBE_FRESNEL_BLEND, /* pbrt's substrate [Ashikhmin & Shirley 2000] */
-    LOBE_DISNEY_DIFFUSE, /* see burley.h, as of the next */
-    LOBE_CLEARCOAT,
-    LOBE_FOURIER, /* see fourier.h */
-    LOBE_PHASE /* of a medium, in no plane: the frame does not matter */
+    LOBE_PHASE, /* of a medium, in no plane: the frame does not matter */
+    LOBE_FORM   /* of a file of its own */
 };
 
 enum fresnel_kind { FRESNEL_NONE, FRESNEL_DIELECTRIC, FRESNEL_CONDUCTOR, FRESNEL_DISNEY };
 
 struct fourier_table;
+struct lobe_form;
 
 /* One lobe. */
 struct lobe {
     enum lobe_kind kind;
+    const struct lobe_form *form; /* of LOBE_FORM */
     enum fresnel_kind fresnel; /* what share facets and mirrors reflect */
     bool separate;             /* facets hide from wo and from wi independently */
     rgb scale;                 /* multiplies the lobe's value: shares of mix materials; 1 otherwise */
@@ -71,10 +71,10 @@ struct lobe {
         struct {
             rgb flat, retro, sheen; /* the three parts besides R */
             double roughness;
-        } disney;     /* of LOBE_DISNEY_DIFFUSE */
-        double gloss; /* alpha of LOBE_CLEARCOAT's own distribution */
+        } disney;     /* of burley.h's form_disney */
+        double gloss; /* alpha of form_coat's own distribution */
         double g;     /* of LOBE_PHASE */
-        const struct fourier_table *table;
+        const struct fourier_table *table; /* of fourier.h's form_fourier */
     } of;
 };
 
@@ -97,6 +97,14 @@ struct bsdf_sample {
     double eta; /* (index on wi's side)/(index on wo's side) for refraction, else 1 */
 };
 
+/* What lobe_albedo_guess, lobe_eval (but for the scale) and lobe_sample are of a LOBE_FORM. None is delta. */
+struct lobe_form {
+    double (*guess)(const struct lobe *l);
+    struct bsdf_value (*eval)(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode);
+    bool (*sample)(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3 *wi);
+    bool transmits;
+};
+
 bool lobe_is_delta(enum lobe_kind kind);
 
 /* lobe_albedo_guess: about how much of the light it gets the lobe sends on, in every direction the same, so that it
@@ -114,6 +122,10 @@ struct bsdf_value lobe_eval(const struct lobe *l, vec3 wo, vec3 wi, bool reflect
  *   u   three uniform numbers in [0,1)
  * Returns false when the facet drawn sends nothing on: total internal reflection, or into the surface. */
 bool lobe_sample(const struct lobe *l, vec3 wo, vec3 ng, const double u[3], vec3 *wi);
+
+/* lobe_diffuse: what is diffuse, of value f, on one side alone; is wi there? lobe_sample_diffuse: as lobe_sample. */
+struct bsdf_value lobe_diffuse(bool there, rgb f, vec3 wo, vec3 wi);
+vec3 lobe_sample_diffuse(vec3 wo, vec3 ng, bool reflect, double u1, double u2);
 
 /* lobe_sample_delta: the direction of a delta lobe, and what goes there; fills *out in the shading frame.
  *   u  uniform in [0,1), chooses between reflection and transmission of LOBE_FRESNEL_SPECULAR

@@ -76,3 +76,17 @@ vec3 microfacet_sample(vec3 wo, double alpha_x, double alpha_y, double u1, doubl
     vec3 half = add(cylindrical(r, phi, z), v);
     return mul(normalize(vec(alpha_x * half.x, alpha_y * half.y, half.z)), side);
 }
+
+double fresnel_schlick(double cosine)
+{
+    double m = clamp(1 - cosine, 0, 1);
+    return sqr(sqr(m)) * m;
+}
+
+rgb fresnel_disney(double cos_h, double eta_a, double eta_b, rgb colour, double metallic)
+{
+    double weight = fresnel_schlick(cos_h);
+    rgb metal = rgb_add(rgb_scale(colour, 1 - weight), rgb_grey(weight));
+    double clear = fresnel_dielectric(cos_h, eta_a, eta_b);
+    return rgb_add(rgb_scale(metal, metallic), rgb_grey((1 - metallic) * clear));
+}

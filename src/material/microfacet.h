@@ -42,4 +42,9 @@ double microfacet_lambda(vec3 w, double alpha_x, double alpha_y);
  * Its density is D(wh) dot(wo,wh) / ((1 + lambda(wo)) |cos(wo)|), 1/sr, where dot(wo,wh) > 0, else 0. */
 vec3 microfacet_sample(vec3 wo, double alpha_x, double alpha_y, double u1, double u2);
 
+/* fresnel_schlick: what Schlick adds to the reflectance at normal incidence, of what is left to 1. fresnel_disney: the
+ * share between a dielectric's and a metal's of this colour. [Burley 2012] */
+double fresnel_schlick(double cosine);
+rgb fresnel_disney(double cos_h, double eta_a, double eta_b, rgb colour, double metallic);
+
 #endif

@@ -1,5 +1,6 @@
 /* simple.c: the materials whose lobes follow from a few colours and numbers, as pbrt-v3 has them [PBRT3 9.2], each a
  * function and a row; and how a medium scatters. */
+#include "material/fourier.h"
 #include "material/lobe_list.h"
 
 /* Textures, of which each kind uses some. */
@@ -172,7 +173,9 @@ const struct material_row material_mix = {
 /* A layered material that is a table. */
 static void fourier(struct lobe_list *list, const struct material *m)
 {
-    lobe_add(list, LOBE_FOURIER, rgb_grey(1), rgb_black())->of.table = ((const struct simple *)m)->table;
+    struct lobe *l = lobe_add(list, LOBE_FORM, rgb_grey(1), rgb_black());
+    l->form = &form_fourier;
+    l->of.table = ((const struct simple *)m)->table;
 }
 
 static const struct field FOURIER[] = {{"bsdffile", .kind = FIELD_FOURIER_TABLE, .place = AT(table)}, LAST_FIELDS};

@@ -132,7 +132,7 @@ struct parser {
     struct symbols objects;    /* -> object[] */
     struct shape_list *object; /* [objects.n], owned */
     struct {
-        struct symbols known;           /* -> scene->media.medium[], from 1; 0: nothing */
+        struct symbols known;           /* -> scene->space->medium[], from 1; 0: nothing */
         bool seen;                      /* by the integrator, once the world begins */
         struct source_position used_at; /* the last that a MediumInterface names; no file: none */
     } media;

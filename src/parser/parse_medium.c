@@ -4,17 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-
 enum { MEDIUM_UNKNOWN = INT32_MAX }; /* in place of the number of one of another type than ours */
-
-static void add_medium(struct parser *p, const char *name, const struct medium *m, double g)
-{
-    struct medium_set *media = &p->scene->media;
-    media->medium = mem_append(media->medium, (size_t)media->n, sizeof *media->medium);
-    media->medium[media->n] = *m;
-    media->medium[media->n].material = scene_add_material(p->scene, material_medium(g));
-    symbols_add(&p->media.known, name, ++media->n);
-}
 
 static const struct field MEDIUM[] = {{.name = "type"}, {.name = "preset"},  {.name = "scale"}, {.name = "g"},
                                       {.name = "sigma_a"}, {.name = "sigma_s"}, {.name = NULL}};
@@ -47,11 +37,12 @@ static bool make_named_medium(struct parser *p)
     double scale = params_number(q, "scale", 1, 0, NUMBER_MAX), g = params_number(q, "g", 0, -0.999, 0.999);
     sigma_a = rgb_scale(params_rgb(q, "sigma_a", sigma_a), scale);
     sigma_s = rgb_scale(params_rgb(q, "sigma_s", sigma_s), scale);
-    const struct medium m = {sigma_s, rgb_add(sigma_a, sigma_s), -1};
+    struct medium m = {sigma_s, rgb_add(sigma_a, sigma_s), -1};
     bool positive = rgb_max(rgb_scale(sigma_a, -1)) <= 0 && rgb_max(rgb_scale(sigma_s, -1)) <= 0;
     if (!(positive && rgb_max(m.sigma_t) <= NUMBER_MAX))
         type_error(q, "\"sigma_a\" and \"sigma_s\" times \"scale\" go from 0 to %g", NUMBER_MAX);
-    add_medium(p, name.text, &m, g);
+    m.material = scene_add_material(p->scene, material_medium(g));
+    symbols_add(&p->media.known, name.text, space_add(&p->scene->space, m));
     return parse_done(p);
 }
 
@@ -105,7 +96,8 @@ void parse_settle_media(struct parser *p)
 {
     struct source_position used = p->media.used_at;
     if (used.file == NULL || !p->media.seen) { /* none is anywhere, or is to be seen */
-        p->scene->media.n = 0;
+        space_free(p->scene->space);
+        p->scene->space = NULL;
         if (used.file != NULL)
             source_warn(&p->messages, used, "media are left out, as by pbrt-v3's \"path\"");
     } else {

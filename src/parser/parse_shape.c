@@ -303,8 +303,7 @@ static bool place_shape(struct parser *p, struct shape_item *item)
 static bool is_seen(const struct shape_item *item)
 {
     bool empty = item->is_mesh && mesh_primitives(&item->mesh) == 0;
-    bool bounds = item->group.medium[0] != item->group.medium[1];
-    return !empty && (item->group.material != MATERIAL_NONE || item->area.on || bounds);
+    return !empty && (item->group.material != MATERIAL_NONE || item->area.on || shape_is_interface(&item->group));
 }
 
 /* pbrt-v3 turns normals of quadrics under a mirroring transform. Here they stay, but the sides of media are its. */

@@ -332,7 +332,7 @@ static void warn_of_size(struct loading *l)
 {
     const struct scene *scene = l->scene;
     vec3 center = add(scene->lights.center, scene->origin);
-    if (scene->media.ends)
+    if (scene->space != NULL && scene->space->ends)
         warn_of_scene(l, "a medium without a bound ends on a sphere of radius %g about (%g %g %g), beyond which the "
                       "infinite and distant lights are", scene->lights.radius, center.x, center.y, center.z);
     double distance = length(scene->lights.center) / scene->lights.radius; /* from the camera, in radii */
@@ -352,7 +352,7 @@ static void warn_of_media(struct loading *l)
     bool met = scene_intersect(scene, &ray, &at);
     if (met)
         ray.tmax = length(sub(at.p, ray.o));
-    bool bounded = kd_closest(&scene->media.interfaces, &scene->geo, &ray, &hit);
+    bool bounded = scene->space != NULL && kd_closest(&scene->space->interfaces, &scene->geo, &ray, &hit);
     if (bounded)
         shape_surface(&scene->geo, &hit, &ray, &at);
     if (!bounded && !met)

@@ -21,53 +21,62 @@
 #include "base/sampler.h"
 #include "geometry/kdtree.h"
 
+struct light_set;
+
 struct medium {
     rgb sigma_s, sigma_t; /* scattered, and scattered or absorbed, 1/m */
     int material;         /* its phase function, index into scene->material */
 };
 
-/* All media of a scene. */
-struct medium_set {
+/* All that a scene has of media. */
+struct space {
     struct medium *medium; /* [n], owned */
     int n;
     /* set by scene_prepare: */
     const struct geometry *geo;
+    const struct light_set *lights; /* of that sphere */
     struct kdtree interfaces;
-    int outer;  /* what is about the scene */
-    bool ends;  /* and does it end on the sphere? */
-    vec3 center; /* that sphere */
-    double radius;
+    int outer; /* what is about the scene */
+    bool ends; /* and does it end on the sphere? */
 };
+
+/* space_add: one more medium, in a space that is made for the first; returns its number. */
+int space_add(struct space **space, struct medium m);
+void space_free(struct space *space);
 
 /* medium_before: the medium before a surface that a ray of direction d comes to; -1 if its shape does not bound any. */
 static inline int medium_before(const struct geometry *geo, const struct surface *at, vec3 d)
 {
-    const int *medium = shape_group_of(geo, shape_prim(at->prim_id))->medium;
-    return medium[0] == medium[1] ? -1 : medium[!(dot(at->ng, d) > 0)];
+    const struct shape_group *group = shape_group_of(geo, shape_prim(at->prim_id));
+    return shape_is_interface(group) ? group->medium[!(dot(at->ng, d) > 0)] : -1;
 }
 
 /* medium_outermost: what is about the scene, no surface of which is `far` from the lens: `around`, the lens' own
  * medium, if a straight way there is free, else what the shapes that bound media say on the ways to it, the least
  * number if they differ. */
-int medium_outermost(const struct medium_set *set, const struct kdtree *surfaces, vec3 lens, int around, double far);
+int medium_outermost(const struct space *space, const struct kdtree *surfaces, vec3 lens, int around, double far);
 
-/* A straight way. */
-struct passage {
+/* What media do to light on an edge, and to walks. */
+struct edge {
     rgb left;          /* share of light; of a walk that is scattered at the end, times sigma_s */
     double density[2]; /* of stopping at its start, for one who comes from its end, and of stopping at its end: 1, or
                         * 1/m where that is within a medium; of walks that go on as far as possible without media */
     int medium;        /* at its end */
 };
 
-/* medium_pass: the way from ray->o to ray->tmax.
- *   ng      normal of the primitive ray->from
- *   around  the medium that is there, unless the primitive bounds media */
-struct passage medium_pass(const struct medium_set *set, const struct ray *ray, vec3 ng, int around);
+static const struct edge EMPTY_EDGE = {{1, 1, 1}, {1, 1}, 0};
 
-/* medium_fly: the same of a walk towards the surface *at, if it is about to meet one.
- *   at  in-out: where it is scattered, if that is before
+/* medium_towards: the medium into which direction d leads from a point of a primitive of normal ng: `around` unless
+ * that bounds media. */
+int medium_towards(const struct space *space, uint64_t prim_id, vec3 ng, vec3 d, int around);
+
+/* medium_pass: the edge from ray->o to ray->tmax, which begins in this medium.
+ * medium_fly: the same of a walk towards the surface *at, if it is about to meet one.
+ *   at   in-out: where it is scattered, if that is before
+ *   out  in-out: EMPTY_EDGE so far
  * Returns whether it comes to anything. */
-bool medium_fly(const struct medium_set *set, const struct ray *ray, vec3 ng, int around, struct sampler *sampler,
-                bool meets, struct surface *at, struct passage *out);
+void medium_pass(const struct space *space, const struct ray *ray, int medium, struct edge *out);
+bool medium_fly(const struct space *space, const struct ray *ray, int medium, struct sampler *sampler, bool meets,
+                struct surface *at, struct edge *out);
 
 #endif

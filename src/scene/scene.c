@@ -22,8 +22,7 @@ void scene_free(struct scene *s)
 {
     kd_free(&s->kd);
     kd_free(&s->kd_lamps);
-    kd_free(&s->media.interfaces);
-    free(s->media.medium);
+    space_free(s->space);
     geometry_free(&s->geo);
     texture_set_free(&s->textures);
     for (int i = 0; i < s->n_materials; i++)
@@ -97,7 +96,8 @@ void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi)
     *hi = neg(*lo);
     widen(&s->kd, lo, hi);
     widen(&s->kd_lamps, lo, hi);
-    widen(&s->media.interfaces, lo, hi);
+    if (s->space != NULL)
+        widen(&s->space->interfaces, lo, hi);
 }
 
 void scene_resize(struct scene *s, int width, int height)
@@ -106,18 +106,24 @@ void scene_resize(struct scene *s, int width, int height)
     s->width = width;
 }
 
-/* Does what is about the scene end on the scene's sphere? That then reaches as far as the lens. */
-static void settle_media(struct scene *s, vec3 *lo, vec3 *hi)
+/* The tree of its interfaces. Does what is about the scene end on the scene's sphere? That then reaches as far as the
+ * lens. */
+static void settle_space(struct scene *s, vec3 *lo, vec3 *hi)
 {
+    struct space *space = s->space;
+    space->geo = &s->geo;
+    space->lights = &s->lights;
+    kd_build(&space->interfaces, &s->geo, KD_INTERFACES);
+    scene_bounds(s, lo, hi);
     const vec3 lens = s->camera.position;
     double far = 2 * (length(sub(*hi, *lo)) + length(sub(lens, *lo)));
-    s->media.outer = s->media.n > 0 ? medium_outermost(&s->media, &s->kd, lens, s->camera.medium, far) : 0;
-    for (int i = 0; s->media.outer > 0 && i < s->lights.n; i++)
+    space->outer = medium_outermost(space, &s->kd, lens, s->camera.medium, far);
+    for (int i = 0; space->outer > 0 && i < s->lights.n; i++)
         if (light_at_infinity(&s->lights.light[i])) {
-            s->lights.light[i].medium = s->media.outer;
-            s->media.ends = true;
+            s->lights.light[i].medium = space->outer;
+            space->ends = true;
         }
-    if (s->media.ends) {
+    if (space->ends) {
         *lo = vec(fmin(lo->x, lens.x), fmin(lo->y, lens.y), fmin(lo->z, lens.z));
         *hi = vec(fmax(hi->x, lens.x), fmax(hi->y, lens.y), fmax(hi->z, lens.z));
     }
@@ -136,16 +142,13 @@ void scene_prepare(struct scene *s)
     }
     kd_build(&s->kd, &s->geo, KD_SURFACES);
     kd_build(&s->kd_lamps, &s->geo, KD_LAMPS);
-    s->media.geo = &s->geo;
-    kd_build(&s->media.interfaces, &s->geo, KD_INTERFACES);
     camera_prepare(&s->camera, s->width, s->height);
     vec3 lo, hi;
     scene_bounds(s, &lo, &hi);
-    settle_media(s, &lo, &hi);
+    if (s->space != NULL)
+        settle_space(s, &lo, &hi);
     double radius = length(sub(hi, lo)) / 2;
     light_prepare(&s->lights, &s->geo, lerp3(0.5, lo, hi), radius > 0 ? radius : 1);
-    s->media.center = s->lights.center;
-    s->media.radius = s->lights.radius;
     filter_prepare(&s->filter);
 }
 
@@ -206,37 +209,21 @@ bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct
     return kd_occluded(&s->kd_lamps, &s->geo, &before, INFINITY);
 }
 
-/* The segment from a to b without what lies next to a, and so much farther. */
-static struct ray between(vec3 a, uint64_t from, vec3 b, uint64_t to, double farther)
+bool scene_edge(const struct scene *s, struct ray *ray, int medium, bool emitted, struct edge *out)
 {
-    vec3 d = sub(b, a);
-    double distance = length(d);
-    return (struct ray){a, mul(d, 1 / distance), end_margin(a, from), distance + farther, from, to};
-}
-
-bool scene_visible(const struct scene *s, vec3 a, uint64_t from, vec3 b, uint64_t to)
-{
-    struct ray ray = between(a, from, b, to, -end_margin(b, to));
-    return !(ray.tmin < ray.tmax) || !kd_occluded(&s->kd, &s->geo, &ray, INFINITY);
-}
-
-/* Does light that is emitted pass? */
-static bool passes(const struct scene *s, const struct ray *ray, double light)
-{
-    return !kd_occluded(&s->kd, &s->geo, ray, light) &&
-           (s->kd_lamps.n_nodes == 0 || !kd_occluded(&s->kd_lamps, &s->geo, ray, light));
-}
-
-bool scene_lit(const struct scene *s, vec3 a, uint64_t from, vec3 b, uint64_t to)
-{
-    double margin = ray_margin(b);
-    struct ray ray = between(a, from, b, to, to != 0 ? GRAZING * margin : -margin);
-    double light = to != 0 ? ray.tmax - (GRAZING + 1) * margin : ray.tmax;
-    return !(ray.tmin < light) || passes(s, &ray, light);
-}
-
-bool scene_lit_from(const struct scene *s, vec3 a, uint64_t from, vec3 w)
-{
-    struct ray ray = {a, w, end_margin(a, from), INFINITY, from, 0};
-    return passes(s, &ray, INFINITY);
+    const double length = ray->tmax;
+    double margin = length < INFINITY ? end_margin(add(ray->o, mul(ray->d, length)), ray->to) : 0;
+    double end = length - margin;
+    ray->tmin = end_margin(ray->o, ray->from);
+    if (ray->tmin < end) {
+        bool on_light = emitted && ray->to != 0;
+        double light = on_light ? end : INFINITY;
+        ray->tmax = on_light ? length + GRAZING * margin : end;
+        if (kd_occluded(&s->kd, &s->geo, ray, light) ||
+            (emitted && s->kd_lamps.n_nodes > 0 && kd_occluded(&s->kd_lamps, &s->geo, ray, light)))
+            return false;
+        ray->tmax = length;
+    }
+    scene_pass(s, ray, medium, out);
+    return true;
 }

@@ -5,7 +5,7 @@
  *     What lights emit does not pass see-through lights; what surfaces scatter does.
  *
  * So of a path only the segment from its light to the first surface, or to the lens, is stopped by such a light, from
- * its dark side as well. That is a property of the path, whichever strategy makes it: scene_lit asks for s = 1,
+ * its dark side as well. That is a property of the path, whichever strategy makes it: scene_edge asks for s = 1,
  * scene_lamp for eye walks, which collect of each segment the first see-through light, in place of any light behind,
  * and go on, and scene_lamp_stops for light walks, which end at one on their first segment.
  *
@@ -39,7 +39,7 @@ struct scene {
     int n_tables;
     struct arena lobes;         /* of materials that are the same everywhere */
     struct light_set lights;
-    struct medium_set media;
+    struct space *space;        /* its media; owned; NULL: empty */
 
     struct camera camera;
     struct filter filter;
@@ -92,22 +92,39 @@ void scene_bounds(const struct scene *s, vec3 *lo, vec3 *hi);
 bool scene_intersect(const struct scene *s, const struct ray *ray, struct surface *out);
 
 /* scene_lamp: first see-through light along an eye walk's ray, before the surface at *end (NULL: however far). One that
- * touches that surface shines before it, as it does for scene_lit, whose segment ends short of the light. A ray from the
- * lens passes those that are hidden from it. */
+ * touches that surface shines before it, as it does for scene_edge, whose segment ends short of the light. A ray from
+ * the lens passes those that are hidden from it. */
 bool scene_lamp(const struct scene *s, const struct ray *ray, bool from_lens, const struct surface *end,
                 struct surface *out);
 
 /* scene_lamp_stops: is there a see-through light along a light's ray before the surface at *end, or another light in
- * the place of this one? One that touches the surface does not count, as it does not for scene_lit, whose segment
+ * the place of this one? One that touches the surface does not count, as it does not for scene_edge, whose segment
  * begins short of the surface. */
 bool scene_lamp_stops(const struct scene *s, const struct ray *ray, const struct surface *end);
 
-/* scene_visible: does light that is scattered at b reach a: is the open segment between them free of surfaces?
- *   from, to  the primitives a and b are on, see shape_prim_id; 0: none */
-bool scene_visible(const struct scene *s, vec3 a, uint64_t from, vec3 b, uint64_t to);
+/* scene_pass: what media do on an edge along a ray, which surfaces leave free.
+ *   medium  that it begins in */
+static inline void scene_pass(const struct scene *s, const struct ray *ray, int medium, struct edge *out)
+{
+    *out = EMPTY_EDGE;
+    if (s->space != NULL)
+        medium_pass(s->space, ray, medium, out);
+}
 
-/* scene_lit: does light that is emitted at b reach a? scene_lit_from: the same from infinity, in unit direction w. */
-bool scene_lit(const struct scene *s, vec3 a, uint64_t from, vec3 b, uint64_t to);
-bool scene_lit_from(const struct scene *s, vec3 a, uint64_t from, vec3 w);
+/* scene_edge: the same; false if surfaces stop light that comes from the end of the edge to its start. Those next to
+ * either do not count, except another light in the place of the one that emits it.
+ *   ray      from its start, as long as it is; tmin and tmax change
+ *   emitted  light is emitted at its end, and not scattered */
+bool scene_edge(const struct scene *s, struct ray *ray, int medium, bool emitted, struct edge *out);
+
+/* scene_fly: how far does a walk get: to the first surface along the ray, or to where media scatter it before? False if
+ * it leaves the scene. */
+static inline bool scene_fly(const struct scene *s, const struct ray *ray, int medium, struct sampler *sampler,
+                             struct surface *at, struct edge *out)
+{
+    bool meets = scene_intersect(s, ray, at);
+    *out = EMPTY_EDGE;
+    return s->space == NULL ? meets : medium_fly(s->space, ray, medium, sampler, meets, at, out);
+}
 
 #endif

@@ -19,20 +19,19 @@ static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, en
     return s;
 }
 
-/* Media between vertex a and a point on primitive `to`, at a distance in direction w. Their transmittance is a factor
- * of c's value. The densities of the passage are factors of the densities of both ends, and so of the sums (5) of
- * mis.h. */
-static inline void pass_media(const struct scene *scene, const struct counts *counts, const struct vertex *a,
-                              vec3 w, double distance, uint64_t to, struct connection *c, double *side_a,
-                              double *side_b)
+/* The edge from vertex a over a distance in direction w to a point on primitive `to`, where light is emitted or
+ * scattered; false if surfaces stop it. What media leave is a factor of the connection's value. */
+static inline bool see(const struct scene *scene, const struct vertex *a, vec3 w, double distance, uint64_t to,
+                       bool emitted, struct edge *out)
 {
-    if (scene->media.n == 0)
-        return;
-    const struct ray ray = {a->p, w, 0, distance, a->prim_id, to};
-    struct passage way = medium_pass(&scene->media, &ray, a->ng, a->medium);
-    c->value = rgb_mul(c->value, way.left);
-    *side_a *= mis_raise(counts, way.density[0]);
-    *side_b *= mis_raise(counts, way.density[1]);
+    struct ray ray = {a->p, w, 0, distance, a->prim_id, to};
+    return scene_edge(scene, &ray, vertex_medium(scene, a, w), emitted, out);
+}
+
+/* The weight (7) of mis.h, of the sums (5) at the start and the end of an edge, whose densities are their factors. */
+static inline double weigh(const struct counts *counts, double n, const struct edge *e, double start, double end)
+{
+    return mis_weight(counts, n, end * mis_raise(counts, e->density[1]), start * mis_raise(counts, e->density[0]));
 }
 
 struct connection connect_hit(const struct scene *scene, const struct counts *counts, const struct vertex *prev,
@@ -111,9 +110,8 @@ struct connection connect_lit(const struct scene *scene, const struct counts *co
     const struct light_set *lights = &scene->lights;
     const struct vertex *z = l->z;
     const struct light_point *at = &l->at;
-    bool parallel = light_at_infinity(&lights->light[at->light]);
-    if (rgb_is_black(l->value) || !(parallel ? scene_lit_from(scene, z->p, z->prim_id, at->w)
-                                             : scene_lit(scene, z->p, z->prim_id, at->p, at->prim_id)))
+    struct edge edge;
+    if (rgb_is_black(l->value) || !see(scene, z, l->w, l->distance, at->prim_id, true, &edge))
         return (struct connection){.light = -1};
     double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
     /* mis.h (5); the light side has the strategy s = 0 alone */
@@ -122,9 +120,8 @@ struct connection connect_lit(const struct scene *scene, const struct counts *co
     double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
     double eye = mis_side(counts, pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
     double count = n_direct(counts, z->region, z->eye_end, at->cell);
-    struct connection c = {.value = l->value, .light = at->light};
-    pass_media(scene, counts, z, l->w, l->distance, at->prim_id, &c, &eye, &light);
-    c.weight = mis_weight(counts, count, light, eye); /* mis.h (7) */
+    struct connection c = {.value = rgb_mul(l->value, edge.left), .light = at->light};
+    c.weight = weigh(counts, count, &edge, eye, light);
     return c;
 }
 
@@ -166,15 +163,15 @@ struct connection connect_joint(const struct scene *scene, const struct counts *
 {
     const struct vertex *y = j->y, *z = j->z;
     struct connection c = {.light = -1};
-    if (rgb_is_black(j->value) || !scene_visible(scene, z->p, z->prim_id, y->p, y->prim_id))
+    struct edge edge;
+    if (rgb_is_black(j->value) || !see(scene, z, j->w, j->length, y->prim_id, false, &edge))
         return c;
     /* mis.h (5), of both sides */
     double light = mis_side(counts, j->pdf_z * j->area_y, y->pdf_fwd, y->mis_c, j->pdf_rev_y, y->mis);
     double eye = mis_side(counts, j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
-    c.value = j->value;
+    c.value = rgb_mul(j->value, edge.left);
     double n = n_pair(counts, z->region, z->eye_end, y->region);
-    pass_media(scene, counts, z, j->w, j->length, y->prim_id, &c, &eye, &light);
-    c.weight = mis_weight(counts, n, light, eye); /* mis.h (7) */
+    c.weight = weigh(counts, n, &edge, eye, light);
     return c;
 }
 
@@ -210,16 +207,17 @@ struct connection connect_lens(const struct scene *scene, const struct counts *c
     /* C* = alpha_s f (We cos / lens density) [V97 10.2], and We cos / (lens density) = J, see camera.h. */
     double density = J * camera_spread(&scene->camera, d2);
     c.value = rgb_mul(y->beta, rgb_scale(at_y.factor, density));
-    if (rgb_is_black(c.value) || !scene_visible(scene, lens, 0, y->p, y->prim_id))
+    struct edge edge;
+    if (rgb_is_black(c.value) || !see(scene, y, neg(w), distance, 0, false, &edge))
         return (struct connection){.light = -1};
+    c.value = rgb_mul(c.value, edge.left);
     /* The light walk counted y as a later hit. Next to the lens it is the first hit, so c_e differs from y->mis_c. If
      * s = 2, the count of s = 0 in y->mis differs, too. */
     double c_e = c_light(counts, &light[s - 2], y, FIRST_HIT);
-    double mis = y->mis, eye_side = 0;
+    double mis = y->mis;
     if (s == 2 && !light_is_delta(&scene->lights.light[light[0].light]))
         mis = mis_step(counts, counts->hit[FIRST_HIT], 0, 0, light[0].pdf_fwd, y->back);
     double light_side = mis_side(counts, density * vertex_cosine(y, w), y->pdf_fwd, c_e, at_y.pdf_rev, mis);
-    pass_media(scene, counts, y, neg(w), distance, 0, &c, &light_side, &eye_side);
-    c.weight = mis_weight(counts, counts->lens, light_side, eye_side); /* mis.h (7) */
+    c.weight = weigh(counts, counts->lens, &edge, light_side, 0);
     return c;
 }

@@ -32,23 +32,22 @@ void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *p
     v->mis = mis_step(w->counts, from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, v->back);
 }
 
-/* The same with the factors of media on the edge. */
+/* The same with the factors of media on the edge, and the throughput with theirs. */
 static void measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                    double d2)
+                    const struct edge *edge, double d2)
 {
     walk_measure(w, v, prev, from, d2);
-    if (w->scene->media.n > 0) {
-        v->back *= from->way->density[0];
-        v->pdf_fwd *= from->way->density[1];
-        v->mis *= mis_raise(w->counts, from->way->density[0]);
-        v->medium = from->way->medium;
-    }
+    v->back *= edge->density[0];
+    v->pdf_fwd *= edge->density[1];
+    v->mis *= mis_raise(w->counts, edge->density[0]);
+    v->beta = rgb_mul(from->beta, rgb_scale(edge->left, 1 / edge->density[1]));
+    v->medium = edge->medium;
 }
 
 /* The ray met no surface. If there is a sky, or if it passed a see-through light, the eye sub-path ends there. Its
  * density is that of the direction. [PBRT3 16.3.5] */
 static bool escape(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                   const struct vertex *lamp)
+                   const struct edge *edge, const struct vertex *lamp)
 {
     const struct light_set *lights = &w->scene->lights;
     if (lights->n_layers == 0 && lamp == NULL)
@@ -60,14 +59,13 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
     v->lamp = lamp;
     v->prev_delta = from->delta;
     v->wo = neg(from->ray.d);
-    v->beta = from->beta;
-    measure(w, v, prev, from, 1); /* per steradian, as if at distance 1 */
+    measure(w, v, prev, from, edge, 1); /* per steradian, as if at distance 1 */
     return true;
 }
 
 /* Make the vertex where the ray met a surface, except its scattering. False if the surface is edge-on. */
 static bool meet(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                 const struct surface *at, enum transport mode)
+                 const struct edge *edge, const struct surface *at, enum transport mode)
 {
     double d2 = length2(sub(at->p, from->ray.o));
     if (d2 == 0 || (dot(at->ng, from->ray.d) == 0 && at->prim_id != WITHIN_MEDIUM))
@@ -80,40 +78,34 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->p = at->p;
     v->prim_id = at->prim_id;
     v->wo = neg(from->ray.d);
-    v->beta = from->beta;
     v->pdf_origin = mode == RADIANCE ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
-    measure(w, v, prev, from, d2);
+    measure(w, v, prev, from, edge, d2);
     return true;
 }
 
 /* The first see-through light on the ray before the surface or scattering point *end (NULL: none), as a vertex; NULL if
- * there is none. The edge ends there, so media count as far as that alone.
- *   beta  the walk's throughput before it flew to *end */
+ * there is none. The edge ends there, so media count as far as that alone. */
 static const struct vertex *meet_lamp(const struct walk *w, const struct vertex *prev, const struct departure *from,
-                                      rgb beta, const struct surface *end)
+                                      const struct surface *end)
 {
     struct surface at;
-    struct passage way;
     if (!scene_lamp(w->scene, &from->ray, prev->kind == VERTEX_LENS, end, &at))
         return NULL;
-    struct departure to = *from;
-    if (w->scene->media.n > 0) {
-        to.ray.tmax = length(sub(at.p, to.ray.o));
-        to.ray.to = at.prim_id;
-        way = medium_pass(&w->scene->media, &to.ray, prev->ng, prev->medium);
-        to.way = &way;
-        to.beta = rgb_mul(beta, rgb_scale(way.left, 1 / way.density[1]));
-    }
+    struct edge edge;
+    struct ray ray = from->ray;
+    ray.tmax = length(sub(at.p, ray.o));
+    ray.to = at.prim_id;
+    scene_pass(w->scene, &ray, vertex_medium(w->scene, prev, ray.d), &edge);
     struct vertex *v = arena_alloc(w->arena, sizeof *v);
     memset(v, 0, sizeof *v);
-    return meet(w, v, prev, &to, &at, RADIANCE) ? v : NULL;
+    return meet(w, v, prev, from, &edge, &at, RADIANCE) ? v : NULL;
 }
 
 /* Make the whole vertex where the ray met a surface. False if the surface is edge-on. */
 static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                   const struct surface *at, enum transport mode)
+                   const struct edge *edge, const struct surface *at, enum transport mode)
 {
-    if (!meet(w, v, prev, from, at, mode))
+    if (!meet(w, v, prev, from, edge, at, mode))
         return false;
     bool first =
         prev->kind == VERTEX_LENS || (prev->kind == VERTEX_SURFACE && prev->eye_end == FIRST_HIT && from->delta);
@@ -123,17 +115,6 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
     v->region = region_at(&w->counts->tables->regions, v->p, vertex_side(v));
     v->mis_c = mode == RADIANCE ? c_eye(w->counts, prev, v) : c_light(w->counts, prev, v, LATER_HIT);
     return true;
-}
-
-/* Walk through media as far as the next scattering. If that is before the surface, *at becomes the scattering point.
- * False if the walk meets nothing. */
-static bool fly(const struct walk *w, const struct vertex *prev, struct departure *from, bool meets,
-                struct surface *at)
-{
-    from->way = arena_alloc(w->arena, sizeof *from->way);
-    meets = medium_fly(&w->scene->media, &from->ray, prev->ng, prev->medium, w->sampler, meets, at, from->way);
-    from->beta = rgb_mul(from->beta, rgb_scale(from->way->left, 1 / from->way->density[1]));
-    return meets;
 }
 
 /* Russian roulette: `left` is the fraction of its first throughput that the walk has kept. False if the walk ends.
@@ -173,21 +154,20 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
     double first = rgb_max(from.beta);
     while (n < max_vertices) {
         struct surface at;
-        const struct vertex *lamp = NULL;
-        const rgb beta = from.beta;
-        bool met = scene_intersect(w->scene, &from.ray, &at);
-        if (w->scene->media.n > 0)
-            met = fly(w, &path[n - 1], &from, met, &at);
+        struct edge edge;
+        const struct vertex *prev = &path[n - 1], *lamp = NULL;
+        int medium = vertex_medium(w->scene, prev, from.ray.d);
+        bool met = scene_fly(w->scene, &from.ray, medium, w->sampler, &at, &edge);
         if (mode == RADIANCE)
-            lamp = meet_lamp(w, &path[n - 1], &from, beta, met ? &at : NULL);
+            lamp = meet_lamp(w, prev, &from, met ? &at : NULL);
         else if (n == 1 && met && scene_lamp_stops(w->scene, &from.ray, &at))
             break; /* emitted light does not pass see-through lights, or is not there at all */
         if (!met) {
-            if (mode == RADIANCE && escape(w, &path[n], &path[n - 1], &from, lamp))
+            if (mode == RADIANCE && escape(w, &path[n], prev, &from, &edge, lamp))
                 n++;
             break;
         }
-        if (!arrive(w, &path[n], &path[n - 1], &from, &at, mode))
+        if (!arrive(w, &path[n], prev, &from, &edge, &at, mode))
             break;
         path[n].lamp = lamp;
         n++;

@@ -75,7 +75,6 @@ struct departure {
     double pdf;     /* of the direction, 1/sr; of parallel rays from a light or the lens: of the origin, 1/m^2 */
     double pdf_rev; /* 1/sr, of the reverse move: from that vertex to the vertex before it */
     bool delta;
-    struct passage *way; /* to the next vertex, if the scene has media; in the walk's arena */
 };
 
 /* walk_on: continue a walk of n vertices, whose last vertex has been left. Returns the number of vertices. */

@@ -82,6 +82,12 @@ static inline bool vertex_connectible(const struct vertex *v)
     return v->kind == VERTEX_SURFACE ? v->bsdf.n_smooth > 0 : v->kind != VERTEX_ESCAPED;
 }
 
+/* vertex_medium: the medium into which direction w leads. */
+static inline int vertex_medium(const struct scene *scene, const struct vertex *v, vec3 w)
+{
+    return scene->space == NULL ? 0 : medium_towards(scene->space, v->prim_id, v->ng, w, v->medium);
+}
+
 /* vertex_cosine: the factor that turns a density per area perpendicular to the unit vector w into one per area of the
  * vertex' surface: |cos(w, ng)|; 1 without ng. */
 static inline double vertex_cosine(const struct vertex *v, vec3 w)

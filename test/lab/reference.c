@@ -192,7 +192,7 @@ const char *reference_method(const struct scene *scene, bool *all)
         delta = delta || light_is_delta(&scene->lights.light[i]);
     *all = !delta || chains == NULL;
     caustics_free(chains);
-    return *all || scene->media.n > 0 ? METHOD_REFERENCE : METHOD_CAUSTICS;
+    return *all || scene->space != NULL ? METHOD_REFERENCE : METHOD_CAUSTICS;
 }
 
 bool reference_make(const struct scene *scene, const struct render_options *options, long spp, const char *directory,

@@ -8,6 +8,7 @@
 #include "base/maths.h"
 #include "base/mem.h"
 #include "base/number.h"
+#include "caustics/visible.h"
 #include "integrators/prepare.h"
 #include "lab/aov.h"
 #include "lab/methods.h"

@@ -56,7 +56,7 @@ static double flight(const struct full_path *f, int i, int j, int channel)
     struct ray ray = {v->p, w, ray_margin(v->p), INFINITY, v->prim_id, f->x[b]->prim_id};
     int medium = v->medium;
     double q = 1;
-    if (s->media.n == 0)
+    if (s->space == NULL)
         return 1;
     if (v->prim_id != 0 && v->prim_id != WITHIN_MEDIUM) {
         const struct shape_group *g = shape_group_of(&s->geo, shape_prim(v->prim_id));
@@ -67,10 +67,10 @@ static double flight(const struct full_path *f, int i, int j, int channel)
         struct surface at;
         if (!at_infinity(f, b))
             ray.tmax = length(sub(f->x[b]->p, ray.o));
-        last = !kd_closest(&s->media.interfaces, &s->geo, &ray, &hit);
+        last = !kd_closest(&s->space->interfaces, &s->geo, &ray, &hit);
         bool scattered = f->x[j]->kind == VERTEX_MEDIUM && (a == j ? first : last);
         if (medium > 0)
-            q *= left_of(&s->media.medium[medium - 1], last ? ray.tmax : hit.t, scattered, channel);
+            q *= left_of(&s->space->medium[medium - 1], last ? ray.tmax : hit.t, scattered, channel);
         if (last)
             break;
         shape_surface(&s->geo, &hit, &ray, &at);
@@ -283,7 +283,7 @@ static rgb contribution(const struct full_path *f)
         double cosine = medium ? 1 : abs_dot(f->x[i]->bsdf.shading.n, w);
         all = rgb_mul(all, rgb_scale(scattered, cosine * per_area(f, i, i - 1, 1)));
         all = rgb_mul(all, left_over(f, i, i - 1));
-        all = medium ? rgb_mul(all, f->scene->media.medium[f->x[i]->medium - 1].sigma_s) : all;
+        all = medium ? rgb_mul(all, f->scene->space->medium[f->x[i]->medium - 1].sigma_s) : all;
     }
     return rgb_scale(rgb_mul(all, left_over(f, f->n - 1, f->n - 2)), eye_density(f, f->n - 2));
 }

@@ -129,7 +129,8 @@ static void put_material(struct words *w, const struct scene *s, int i)
 static void put_media(struct words *w, const struct scene *s)
 {
     put(w, "the lens is in medium %d\n", s->camera.medium);
-    for (const struct medium *m = s->media.medium; m < s->media.medium + s->media.n; m++) {
+    for (int i = 0; s->space != NULL && i < s->space->n; i++) {
+        const struct medium *m = &s->space->medium[i];
         put(w, "medium of material %d", m->material);
         put3(w, "s", m->sigma_s.r, m->sigma_s.g, m->sigma_s.b);
         put3(w, "t", m->sigma_t.r, m->sigma_t.g, m->sigma_t.b);

@@ -223,4 +223,8 @@ void test_chains_long(struct test *t)
 {
     test_rare_lamp(t, METHODS);
     test_means(t, "pssmlt starts=20000, mmlt starts=20000, mlt starts=20000", 8);
+    static const struct agreement guided = {"scenes/test/light-kinds", 16, 16, CHAIN_DEPTH, "bdpt",
+                                            "pssmlt starts=20000 guide=on, mmlt starts=20000 guide=on",
+                                            16, 64, 48, 8, false, 0.3};
+    check_agreements(t, &guided, 1, 8);
 }

@@ -17,6 +17,18 @@
 #include "helpers.h"
 #include "suites.h"
 
+static struct bsdf_value scattered(const struct fourier_table *table, vec3 wo, vec3 wi)
+{
+    const struct lobe l = {.of.table = table};
+    return form_fourier.eval(&l, wo, wi, true, RADIANCE);
+}
+
+static bool draw(const struct fourier_table *table, vec3 wo, const double u[3], vec3 *wi)
+{
+    const struct lobe l = {.of.table = table};
+    return form_fourier.sample(&l, wo, vec(0, 0, 1), u, wi);
+}
+
 static const char LAYERED[] = "scenes/features/layered.bsdf";
 static const double MU[] = {-1, -0.9, -0.7, -0.5, -0.3, -0.1, 0.1, 0.3, 0.5, 0.7, 0.9, 1}, ETA = 1.25;
 enum { N_MU = 12, ORDERS = 3, CHANNELS = 3, COEFFICIENTS = N_MU * N_MU * ORDERS * CHANNELS };
@@ -122,7 +134,7 @@ static void values(struct test *t)
         double mu_i = MU[n % N_MU], mu_o = MU[n / N_MU % N_MU], phi = 1.3 * (n / (N_MU * N_MU));
         bool pole = fabs(mu_i) == 1 || fabs(mu_o) == 1; /* where there is no azimuth */
         double scale = mu_i * mu_o < 0 ? 1 : mu_i > 0 ? 1 / sqr(ETA) : sqr(ETA), turn = pole ? 0 : phi;
-        rgb f = fourier_eval(&table, direction(mu_o, 0.4), neg(direction(mu_i, 0.4 + phi)));
+        rgb f = scattered(&table, direction(mu_o, 0.4), neg(direction(mu_i, 0.4 + phi))).f;
         double g = closed_form(mu_i, mu_o, 0, turn) * scale, r = closed_form(mu_i, mu_o, 1, turn) * scale;
         CHECK(t, fabs(f.g - g) < 1e-6 && fabs(f.r - r) < 1e-6, "at %g %g %g: %g, not %g", mu_i, mu_o, phi, f.g, g);
     }
@@ -131,20 +143,20 @@ static void values(struct test *t)
         double mu_i = (0.35 + 0.5 * rng_uniform(&r)) * (n % 2 ? 1 : -1), mu_o = (0.35 + 0.5 * rng_uniform(&r));
         double phi = 7 * rng_uniform(&r), blue = closed_form(mu_i, mu_o, 2, phi);
         vec3 wo = direction(mu_o, 2), wi = neg(direction(mu_i, 2 + phi));
-        double there = fourier_eval(&table, wo, wi).b * (mu_i > 0 ? sqr(ETA) : 1);
-        double back = fourier_eval(&table, wi, wo).b;
+        double there = scattered(&table, wo, wi).f.b * (mu_i > 0 ? sqr(ETA) : 1);
+        double back = scattered(&table, wi, wo).f.b;
         CHECK(t, fabs(there / blue - 1) < 0.03, "between: %g, not %g", there, blue);
         CHECK(t, fabs(back / blue - 1) < 0.03, "importance: %g, not %g", back, blue);
-        CHECK(t, fourier_pdf(&table, wo, wi) > 0.04 * fabs(wi.z) * INV_PI, "drawn everywhere");
+        CHECK(t, scattered(&table, wo, wi).pdf > 0.04 * fabs(wi.z) * INV_PI, "drawn everywhere");
     }
     /* A fifth of the way from one cosine to the next, that one's row is drawn from by a fifth of what is not even. */
     vec3 wo = direction(0.92, 0), last, wi;
     double u[3] = {0.9999, 0.4, 0.3};
     int same = 0;
-    fourier_sample(&table, wo, u, &last);
+    draw(&table, wo, u, &last);
     for (int n = 0; n < 1000; n++) {
         u[0] = 0.1 + 0.9 * (n + 0.5) / 1000;
-        same += fourier_sample(&table, wo, u, &wi) && near3(wi, last, 1e-12);
+        same += draw(&table, wo, u, &wi) && near3(wi, last, 1e-12);
     }
     CHECK(t, same > 795 && same < 805, "%d of 1000 from the row below", same);
     fourier_free(&table);
@@ -217,10 +229,10 @@ static void wild(struct test *t)
         for (int k = 0; k < 200; k++) {
             double u[3] = {rng_uniform(&r), rng_uniform(&r), rng_uniform(&r)};
             vec3 wo = k == 0 ? vec(0, 0, 1) : k == 1 ? vec(1, 0, 0) : warp_sphere(rng_uniform(&r), rng_uniform(&r)), wi;
-            bool drawn = fourier_sample(&table, wo, u, &wi);
+            bool drawn = draw(&table, wo, u, &wi);
             CHECK(t, drawn || n == 0 || u[0] > 0.1, "nothing is drawn");
-            CHECK(t, !drawn || (fabs(length(wi) - 1) < 1e-9 && fourier_pdf(&table, wo, wi) > 0), "a direction");
-            rgb f = drawn ? fourier_eval(&table, wo, wi) : rgb_black();
+            CHECK(t, !drawn || (fabs(length(wi) - 1) < 1e-9 && scattered(&table, wo, wi).pdf > 0), "a direction");
+            rgb f = drawn ? scattered(&table, wo, wi).f : rgb_black();
             CHECK(t, rgb_is_finite(f) && f.r >= 0 && f.g >= 0 && f.b >= 0, "%g %g %g", f.r, f.g, f.b);
         }
         fourier_free(&table);

@@ -9,6 +9,7 @@
 
 #include "base/warp.h"
 #include "helpers.h"
+#include "material/burley.h"
 #include "material/lobe_list.h"
 #include "suites.h"
 #include "transport/path.h"
@@ -91,14 +92,15 @@ static const char *kinds(const struct bsdf *b, char text[KINDS_TEXT])
                                        [LOBE_MICROFACET_REFLECTION] = "facets",
                                        [LOBE_MICROFACET_TRANSMISSION] = "facets-through",
                                        [LOBE_FRESNEL_BLEND] = "substrate",
-                                       [LOBE_DISNEY_DIFFUSE] = "disney",
-                                       [LOBE_CLEARCOAT] = "clearcoat",
-                                       [LOBE_FOURIER] = "fourier",
                                        [LOBE_PHASE] = "medium"};
     size_t used = 0;
     text[0] = '\0';
-    for (int i = 0; i < b->n_lobes; i++)
-        used += (size_t)snprintf(text + used, KINDS_TEXT - used, "%s%s", i > 0 ? " " : "", NAME[b->lobe[i].kind]);
+    for (int i = 0; i < b->n_lobes; i++) {
+        const struct lobe *l = &b->lobe[i];
+        const char *form = l->form == &form_disney ? "disney" : l->form == &form_coat ? "clearcoat" : "fourier";
+        used += (size_t)snprintf(text + used, KINDS_TEXT - used, "%s%s", i > 0 ? " " : "",
+                                 l->kind == LOBE_FORM ? form : NAME[l->kind]);
+    }
     return text;
 }
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "base/maths.h"
+#include "caustics/visible.h"
 #include "helpers.h"
 #include "transport/vertex.h"
 #include "suites.h"

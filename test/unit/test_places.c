@@ -10,6 +10,7 @@
 
 #include "base/number.h"
 #include "base/rng.h"
+#include "caustics/visible.h"
 #include "lab/numbers.h"
 #include "lab/stats.h"
 #include "helpers.h"

@@ -47,7 +47,7 @@ static void test_halves_of_family(struct test *t)
 {
     struct methods m = {.n = 0};
     struct error err = {.text = ""};
-    CHECK(t, methods_add_halves("bdpt,lvc:guide=on,restirgi", 3, &m, &err) && m.n == 5, "%d methods: %s", m.n,
+    CHECK(t, methods_add_halves("bdpt,lvc:guide=on,ellipse", 3, &m, &err) && m.n == 5, "%d methods: %s", m.n,
           err.text);
     int with = methods_find_half(&m, "lvc:guide=on", HALF_SERVICES);
     int without = methods_find_half(&m, "lvc:guide=on", HALF_CHOICE);
@@ -58,7 +58,7 @@ static void test_halves_of_family(struct test *t)
           m.item[without].text);
     CHECK(t, methods_find_half(&m, "bdpt", HALF_CHOICE) == 0 && strcmp(m.item[0].text, "bdpt:guide=off") == 0 &&
           strcmp(m.item[3].text, "bdpt:guide=on") == 0, "%s, %s", m.item[0].text, m.item[3].text);
-    CHECK(t, m.item[2].halves == 3 && methods_find_half(&m, "restirgi", HALF_SERVICES) == 2, "restirgi in both");
+    CHECK(t, m.item[2].halves == 3 && methods_find_half(&m, "ellipse", HALF_SERVICES) == 2, "ellipse in both");
     CHECK(t, methods_add_halves("bdpt,lvc", 1, &m, &err) && m.n == 2, "one half: %d methods", m.n);
 }
 

@@ -42,7 +42,7 @@ static const char LAMP[] =
     "mbdpt, mbdpt matrix=pixel pathpixels=1, pcbdpt connections=2, ris, ris subpaths=20 records=.01,"                  \
     "ris2 presampled=20 records=.01, spcbpt,"                                                                          \
     "spcbpt heuristic=power guide=on, restir neighbours=20"
-#define SHARED "restirgi, restirgi neighbours=20, ppg cell=100 combine=off"
+#define SHARED "restirgi guide=on, restirgi neighbours=20, ppg cell=100 combine=off"
 static const struct agreement EXPECTATIONS[] = {
     {"doc/mini/rooms", 3, 3, 4, "bdpt",
      "mbdpt pathpixels=9, mbdpt pathpixels=5 key=throughput, mbdpt matrix=pixel key=throughput,"
@@ -232,6 +232,8 @@ static void test_limits(struct test *t)
         {"white", SIDE, 2, "spcbpt subspaces=1", "lvc connections=3", "spcbpt subspaces=1 connections=1", 0.01},
         {"all-materials", SIDE, 4, "vcm radius=1e-7", "bdpt guide=off", "vcm radius=.6 alpha=1", 1e-6},
         {"mirror-glass", SIDE, 4, "restirgi neighbours=0", "pt guide=off", "restirgi neighbours=5", 0},
+        {"light-kinds", SIDE, 4, "vcm radius=1e-7 guide=on", "bdpt", "vcm radius=1e-7", 1e-6},
+        {"light-kinds", SIDE, 4, "restirgi neighbours=0 guide=on", "pt", "restirgi neighbours=0", 0},
         {"mirror-glass", SIDE, 4, "ppg training=0", "pt guide=off", "ppg training=1", 0},
         {"mirror-glass", SIDE, 4, "pathgraph cluster=1", "pt guide=off", "pathgraph cluster=2", 1e-6},
         {"all-materials", SIDE, 4, "pathgraph cluster=1", "pt guide=off", "pathgraph radius=.2", 1e-6},

@@ -6,6 +6,7 @@
 #include "base/alias.h"
 #include "base/number.h"
 #include "caustics/lamp.h"
+#include "caustics/visible.h"
 #include "tables/emission.h"
 
 /* What of a shape group chains may go by. */

@@ -1,6 +1,8 @@
 /* lamp.c: see lamp.h. */
 #include "caustics/lamp.h"
 
+#include "caustics/visible.h"
+
 bool lamp_point(const struct light_set *lights, const struct geometry *geo, const double u[3], struct light_point *out)
 {
     const struct alias_table *choice = &lights->choice;

@@ -23,4 +23,4 @@ static void prepare(const struct render_job *job, struct prepared *out) { chain_
 
 const struct method method_mmlt = {
     .name = "mmlt", .help = "a Markov chain over bdpt's single strategies and their numbers [Hachisuka 2014]",
-    .own = CHAIN_PARAMETERS, .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};
+    .parameters = CHAIN_SHARED, .own = CHAIN_PARAMETERS, .rr_threshold = 0, .prepare = prepare, CHAIN_ROW};

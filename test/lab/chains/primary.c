@@ -6,6 +6,8 @@
 #include "base/maths.h"
 #include "base/number.h"
 
+const struct field CHAIN_SHARED[] = {PARAMETER_GUIDE(false), {.name = NULL}};
+
 const struct field CHAIN_PARAMETERS[] = {
     {"sigma", FIELD_NUMBER, offsetof(struct chains, sigma), 0.01, 1e-6, 1,
      "standard deviation of a number's small step", NULL},

@@ -26,8 +26,9 @@ struct primary {
 void primary_begin(struct primary *p, struct chain *c, bool small);
 void primary_end(struct primary *p);
 
-/* The parameters of a row; without small steps: but the first. */
-extern const struct field CHAIN_PARAMETERS[];
+/* The parameters of a row; without small steps: but the first. `mlt` has no guide: its mutations count a light as
+ * chosen by power. */
+extern const struct field CHAIN_PARAMETERS[], CHAIN_SHARED[];
 
 /* primary_eye: an eye sub-path of at most n vertices through a raster point that is uniform over the raster.
  * primary_light: the same of a light sub-path. Both into the thread's memory, both return their lengths. */

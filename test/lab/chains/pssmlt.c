@@ -36,4 +36,5 @@ static void prepare(const struct render_job *job, struct prepared *out) { chain_
 
 const struct method method_pssmlt = {
     .name = "pssmlt", .help = "a Markov chain over the random numbers of bdpt's samples [Kelemen 2002]",
-    .own = CHAIN_PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, CHAIN_ROW};
+    .parameters = CHAIN_SHARED, .own = CHAIN_PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD,
+    .prepare = prepare, CHAIN_ROW};

@@ -26,6 +26,7 @@
 #include "caustics/one_more.h"
 #include "caustics/specular.h"
 #include "caustics/surfaces.h"
+#include "caustics/visible.h"
 
 struct ellipse {
     struct one_more more;       /* the first */

@@ -2,6 +2,7 @@
 #include "rivals/records.h"
 
 #include "base/alias.h"
+#include "caustics/visible.h"
 
 static void add_path(struct records *r, const struct vertex *eye, int n)
 {

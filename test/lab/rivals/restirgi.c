@@ -23,6 +23,7 @@
 #include <string.h>
 
 #include "caustics/surfaces.h"
+#include "caustics/visible.h"
 #include "rivals/together.h"
 
 struct restirgi {
@@ -243,8 +244,10 @@ static const struct field OWN[] = {
      "pixels whose second vertices it shares", NULL},
     {.name = NULL}};
 
+static const struct field PARAMETERS[] = {PARAMETER_GUIDE(false), {.name = NULL}};
+
 const struct method method_restirgi = {
-    .name = "restirgi", .check = surfaces_alone,
+    .name = "restirgi", .check = surfaces_alone, .parameters = PARAMETERS,
     .help = "reservoirs [Ouyang 2021]: second vertices resampled, and shared with pixels nearby",
     .own = OWN, .own_size = sizeof(struct restirgi), .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD,
     .prepare = reuse_prepare, .render = render};

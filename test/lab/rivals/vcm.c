@@ -202,8 +202,10 @@ static const struct field OWN[] = {
     {"alpha", FIELD_NUMBER, offsetof(struct vcm, alpha), 0.75, 0, 1, "how fast it shrinks; 1: not at all", NULL},
     {.name = NULL}};
 
+static const struct field PARAMETERS[] = {PARAMETER_GUIDE(false), {.name = NULL}};
+
 const struct method method_vcm = {
-    .name = "vcm", .check = surfaces_alone,
+    .name = "vcm", .check = surfaces_alone, .parameters = PARAMETERS,
     .help = "vertex connection and merging [Georgiev 2012c]: bdpt, and vertices that meet; biased",
     .own = OWN, .own_size = sizeof(struct vcm), .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD,
     .prepare = reuse_prepare, .render = render, .build = build};
