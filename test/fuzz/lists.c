@@ -67,7 +67,8 @@ static bool unpack_file(const char *from, const char *to, const char *name, stru
     const char *end = strrchr(name, '.');
     uint8_t *data;
     size_t size;
-    if (snprintf(path, sizeof path, "%s/%s", from, name) >= PATH || snprintf(link, sizeof link, "%s/%s", to, name) >= PATH)
+    if (snprintf(path, sizeof path, "%s/%s", from, name) >= PATH ||
+        snprintf(link, sizeof link, "%s/%s", to, name) >= PATH)
         return error_set(err, "%s/%s: a path that is too long", from, name);
     if (end == NULL || strcmp(end, ".txt") != 0)
         return symlink(path, link) == 0 || errno == EEXIST || error_set(err, "%s: cannot be linked", link);

@@ -342,7 +342,8 @@ run) # what was built of these sources
     shift
     make -s asbdpt asbdpt-lab build/test >/dev/null || exit
     [ $# -gt 0 ] || set -- $(for name in $(names); do
-        [ -n "$(missing "$name")" ] || { [ -f "$stored/$name.txt" ] && ! old "$stored/$name.txt" "$name"; } || echo "$name"
+        [ -n "$(missing "$name")" ] || { [ -f "$stored/$name.txt" ] && ! old "$stored/$name.txt" "$name"; } ||
+            echo "$name"
     done)
     for name in "$@"; do
         names | grep -qx "$name" || { wrong "there is no $name"; continue; }

@@ -1,6 +1,6 @@
 # suites.awk: prints build/suites.h, the table of suites, from test/unit/*.c: `void test_NAME(struct test *t)` is the
-# suite NAME, which `make test` runs; one whose name ends in -long runs only with --slow or by its name. What it tests is
-# the first sentence of its file.
+# suite NAME, which `make test` runs; one whose name ends in -long runs only with --slow or by its name. What it tests
+# is the first sentence of its file.
 BEGIN { print "/* suites.h: made by test/unit/suites.awk. */\n#include \"test.h\"\n" }
 FNR == 1 { head = 1; what = "" }
 head {

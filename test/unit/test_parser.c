@@ -1,8 +1,8 @@
 /* test_parser.c: scene files: every directive and type is read, every error is found at its line and column.
  *
  * test/data/fixtures/scenes.txt is a list of scenes, as lists.h reads it. Every scene says in its first line what must
- * come of it: "# expect: ok", or LINE:COL and a part of the message of the first error; further lines "# also: ..." name parts of the other errors and "# warn:
- * ..." of the warnings, in order, "# has: ..." parts of what a scene holds (parser_words.c), "# mean: ..." the mean
+ * come of it: "# expect: ok", or LINE:COL and a part of the message of the first error; further lines "# also: ..."
+ * name parts of the other errors and "# warn: ..." of the warnings, in order, "# has: ..." parts of what a scene holds (parser_words.c), "# mean: ..." the mean
  * of its image of 8x8 pixels, "# integrator: ..." the one that the user names, and "# row: ..." a row of a table that
  * it shows (test_format.c). Damaged scenes, which must be accepted or refused and never crash, are in test_fuzz.c.
  */
@@ -57,7 +57,8 @@ static void write_scene(struct test *t, char path[TEXT], const char *name, const
 void link_parts(struct test *t)
 {
     static const char *const FOLDERS[][2] = {
-        {"test/data/fixtures/parts", "parts"}, {"test/data/fixtures/pictures", "pictures"}, {"scenes/features", "features"}};
+        {"test/data/fixtures/parts", "parts"}, {"test/data/fixtures/pictures", "pictures"},
+        {"scenes/features", "features"}};
     char path[TEXT];
     struct error err;
     for (size_t i = 0; i < sizeof FOLDERS / sizeof FOLDERS[0]; i++) {

@@ -3,10 +3,10 @@
 #   sh test/measure/conform/kit.sh RENDERER OUT METHOD [PICTURES [SPP [SCENE...]]]
 # renders, of each scene that the renderer's format can say (scenes/generate/conform.sh), OUT/SCENE-1.pfm ...
 # OUT/SCENE-PICTURES.pfm (8) with SPP (64) samples per pixel, and judges them. If the program is not there it says so.
-#   ours      METHOD is an integrator, with parameters as in asbdpt:select=bins; PROGRAM is the program; SEED is added to
-#             the numbers of the pictures
-#   pbrt-v3   path, volpath, bdpt ...; PBRT. It has no seed: unless a build reads PBRT_SEED, all pictures are one, and the
-#             kit says so
+#   ours      METHOD is an integrator, with parameters as in asbdpt:select=bins; PROGRAM is the program; SEED is added
+#             to the numbers of the pictures
+#   pbrt-v3   path, volpath, bdpt ...; PBRT. It has no seed: unless a build reads PBRT_SEED, all pictures are one, and
+#             the kit says so
 #   pbrt-v4   volpath, bdpt ...; PBRT4
 #   mitsuba3  path ...; MITSUBA, of the variant scalar_rgb
 #   cycles    four of the scenes, made anew by cycles.py: cycles; BLENDER
@@ -28,7 +28,9 @@ trap 'rm -rf "$work"' EXIT
 sh scenes/generate/conform.sh "$work" || exit
 
 # by: a scene of pbrt by the chosen integrator.
-by() { sed -e "s/^Integrator \"bdpt\"/Integrator \"$method\"/" -e "s/pixelsamples\" .*/pixelsamples\" $spp/" "$1" >"$2"; }
+by() {
+    sed -e "s/^Integrator \"bdpt\"/Integrator \"$method\"/" -e "s/pixelsamples\" .*/pixelsamples\" $spp/" "$1" >"$2"
+}
 # picture SCENE NUMBER FILE.pfm: one picture with a seed of its own; a scene that cannot be said makes none.
 picture() {
     case $renderer in

@@ -29,7 +29,8 @@ power() {
         sh test/data/mutants/apply.sh "$work/list.txt" "$name" "$work/tree" || exit 1
         make -s -j2 -C "$work/tree" LTO= CFLAGS="-DFAULT=$1" asbdpt-lab >"$work/said" 2>&1 || exit 1
         awk -v name="$name" '$1 == name { $1 = $2 = $3 = ""; print "==", $0 }' "$work/list.txt"
-        PROGRAM=$work/tree/asbdpt-lab sh test/measure/conform/kit.sh ours "$work/$name" bdpt 8 "$2" | grep -E 'DIFFERS|scenes'
+        PROGRAM=$work/tree/asbdpt-lab sh test/measure/conform/kit.sh ours "$work/$name" bdpt 8 "$2" |
+            grep -E 'DIFFERS|scenes'
     done
 }
 case ${1-} in
