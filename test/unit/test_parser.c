@@ -2,17 +2,15 @@
  *
  * test/data/fixtures/scenes.txt is a list of scenes, as lists.h reads it. Every scene says in its first line what must
  * come of it: "# expect: ok", or LINE:COL and a part of the message of the first error; further lines "# also: ..."
- * name parts of the other errors and "# warn: ..." of the warnings, in order, "# has: ..." parts of what a scene holds (parser_words.c), "# mean: ..." the mean
- * of its image of 8x8 pixels, "# integrator: ..." the one that the user names, and "# row: ..." a row of a table that
- * it shows (test_format.c). Damaged scenes, which must be accepted or refused and never crash, are in test_fuzz.c.
+ * name parts of the other errors and "# warn: ..." of the warnings, in order, "# has: ..." parts of what a scene holds
+ * (parser_words.c), "# mean: ..." the mean of its image of 8x8 pixels, "# integrator: ..." the one that the user names,
+ * and "# row: ..." a row of a table that it shows (test_format.c). Damaged scenes, which must be accepted or refused and never crash, are in test_fuzz.c.
  */
 #define _POSIX_C_SOURCE 200809L
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "parser/parse.h"
 #include "parser/parser.h"
