@@ -24,7 +24,7 @@ DEPEND  = $(eval DEPEND := $$(shell sh test/run/compiler.sh depend $$(CC)))$(DEP
 OBJECTS  = $(patsubst src/%.c,$(BUILD)/obj/%.o,$(wildcard src/*/*.c))
 LABS     = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/lab/*.c test/lab/*/*.c)) \
            $(filter-out %/cli/program.o %/render/rows.o,$(OBJECTS))
-TARGETS  = $(BUILD)/obj/test/fuzz/targets.o $(BUILD)/obj/test/fuzz/hostile.o
+TARGETS  = $(patsubst %,$(BUILD)/obj/test/fuzz/%.o,targets hostile lists)
 TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/unit/*.c)) $(TARGETS)
 PROGRAMS = asbdpt asbdpt-lab $(addprefix $(BUILD)/,test fuzz inject inject-lab embree)
 
@@ -128,7 +128,7 @@ check: asbdpt-lab ## facts about sources and documents, in ten seconds
 	@sh test/run/suites.sh $(FACTS)
 
 LONG  = $(foreach name,mini cli keep build examples progress,"sh test/run/$(name).sh $(PROGRAM)")
-SHORT = $(foreach name,lab outputs install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") \
+SHORT = $(foreach name,lab corpus outputs install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") \
     "LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB)" "sh test/tree/words_test.sh" \
     "sh test/run/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
 test: asbdpt asbdpt-lab $(BUILD)/test ## build and run the test suite (three minutes on two cores)

@@ -81,7 +81,8 @@ done
 awk -v weights="5 1 3 2 1" -f "$tour/alias.awk" </dev/null >"$out/alias.svg"
 
 # Drawings.
-for drawing in "$tour"/drawings/*.draw; do
+sh "$tour/../../scenes/unpack.sh" "$tour/drawings.txt" drawings
+for drawing in drawings/*.draw; do
     awk -f "$tour/indices.awk" -f "$tour/draw.awk" "$drawing" >"$out/$(basename "$drawing" .draw).svg"
 done
 

@@ -33,11 +33,12 @@ static int trace_eye(const struct render_job *job, const struct counts *counts, 
                     job->max_depth + 1);
 }
 
-static int trace_light(const struct render_job *job, const struct counts *counts, struct arena *arena,
-                       struct sampler *sampler, struct vertex *path)
+static int trace_light(const struct render_job *job, const struct counts *counts, struct arena *arena, long i,
+                       enum stream stream, struct vertex *path, int *column)
 {
-    const struct walk w = {job->scene, counts, arena, sampler, job->rr_threshold};
-    return path_light(&w, path, job->max_depth + 1);
+    struct sampler sampler = stream_of(job, i, stream);
+    const struct walk w = {job->scene, counts, arena, &sampler, job->rr_threshold};
+    return path_light(&w, path, job->max_depth + 1, column);
 }
 
 /* --- the box of the eye vertices --------------------------------------------------------------------- */
@@ -82,7 +83,7 @@ static void find_box(const struct learning *l, vec3 *low, vec3 *high)
 /* --- eye vertices: regions, what the camera can use there, the lights that they see ------------------- */
 
 enum { LIGHTS_PER_VERTEX = 2 };         /* number of light points that each eye vertex tries */
-enum { VISIT = -1 };                    /* column of a lesson of an eye vertex, or of a light sub-path */
+enum { VISIT = -1 };                    /* column of a lesson of an eye vertex */
 static const double DIRECT_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
 
 static void trace_uses(struct learning *l, const struct counts *counts, struct workspace *work, long i,
@@ -142,78 +143,69 @@ static void build_direct(struct learning *l)
     free(base);
 }
 
-/* --- rays from lights -------------------------------------------------------------------------------- */
+/* --- light sub-paths: rays that leave lights, and light vertices -------------------------------------- */
 
 static const double FIRST_VERTEX = 0.2; /* factor of y_1 in the worth of a ray: s = 1 finds the same light */
+enum { RAY = 0 };                       /* row of the lesson of a ray; light vertices have a key */
 
-static void trace_ray(struct learning *l, const struct counts *counts, struct workspace *work, long i,
-                      struct lessons *out)
+static void trace_light_path(struct learning *l, const struct counts *counts, struct workspace *work, long i,
+                             struct lessons *out)
 {
     const struct tables *t = counts->tables;
-    struct sampler sampler = stream_of(l->job, i, STREAM_LIGHT), same = sampler;
     struct vertex *path = arena_alloc(&work->arena, ((size_t)l->job->max_depth + 1) * sizeof *path);
-    int n = trace_light(l->job, counts, &work->arena, &sampler, path);
-    double worth = n > 1 ? FIRST_VERTEX * path_use(t, path, 2) + path_use(t, path + 1, n - 1) : 0, square[2];
-    int cell = alias_sample(&l->job->scene->lights.choice, sampler_number(&same, DRAW_LIGHT), NULL, NULL);
-    sampler_pair(&same, DRAW_EMISSION, square); /* the walk has drawn the same, also if it has met nothing */
-    lessons_add(out, (struct lesson){0, emission_column(cell, square), sqr(worth), 1});
-}
-
-static void take_ray(struct learning *l, const struct lesson *lesson)
-{
-    table_sums_add(&l->sums, (struct axis){1, NULL, NULL}, l->columns, 0, lesson->column, lesson->x, lesson->w);
-}
-
-static void learn_emission(struct learning *l, long n)
-{
-    const struct light_set *lights = &l->job->scene->lights;
-    const struct pass pass = {trace_ray, take_ray, *l->tables};
-    if (lights->choice.n == 0)
-        return;
-    struct emission_axis axis = emission_axis_new(lights);
-    l->columns = axis.axis;
-    table_sums_init(&l->sums, 1, axis.axis.n);
-    lessons_learn(l, &pass, 0, n);
-    l->tables->emission = table_build(&l->sums, (struct axis){1, NULL, NULL}, axis.axis, axis.base,
-                                      l->options->emission, true, true);
-    emission_axis_free(&axis);
-}
-
-/* --- light vertices ---------------------------------------------------------------------------------- */
-
-static void trace_vertices(struct learning *l, const struct counts *counts, struct workspace *work, long i,
-                           struct lessons *out)
-{
-    struct sampler sampler = stream_of(l->job, i, STREAM_LIGHT);
-    struct vertex *path = arena_alloc(&work->arena, ((size_t)l->job->max_depth + 1) * sizeof *path);
-    int n = trace_light(l->job, counts, &work->arena, &sampler, path);
+    int column, n = trace_light(l->job, counts, &work->arena, i, STREAM_LIGHT, path, &column);
+    double worth = n > 1 && t->use != NULL ? FIRST_VERTEX * path_use(t, path, 2) + path_use(t, path + 1, n - 1) : 0;
+    lessons_add(out, (struct lesson){RAY, column, sqr(worth), 1});
     for (const struct vertex *y = path + 1; y < path + n; y++)
         if (vertex_connectible(y))
-            lessons_add(out, (struct lesson){regions_key(&l->tables->regions, y->p, vertex_side(y)), 0, 0, 1});
-    lessons_add(out, (struct lesson){0, VISIT, 0, 1});
+            lessons_add(out, (struct lesson){regions_key(&t->regions, y->p, vertex_side(y)), column, 0, 1});
 }
 
-static void take_vertex(struct learning *l, const struct lesson *lesson)
+static void take_light_path(struct learning *l, const struct lesson *lesson)
 {
-    struct tables *t = l->tables;
-    if (lesson->column == VISIT) {
-        l->n_visits++;
-        return;
-    }
-    if (t->vertices != NULL)
-        t->vertices[regions_add(&t->regions, lesson->row)]++;
-    t->light_vertices++;
+    if (lesson->row != RAY)
+        lessons_add(&l->light_vertices, *lesson); /* regions must not change while others look them up */
+    else if (l->columns.n > 0)
+        table_sums_add(&l->sums, (struct axis){1, NULL, NULL}, l->columns, 0, lesson->column, lesson->x, lesson->w);
+    l->n_light += lesson->row == RAY;
 }
 
-static void learn_vertices(struct learning *l, long first, long end)
+/* Count the light vertices. They were traced by power. When rays leave by the table of emission, one of them is met
+ * `ratio` times as often. */
+static void count_light_vertices(struct learning *l)
 {
     struct tables *t = l->tables;
-    const struct pass pass = {trace_vertices, take_vertex, {.emission = t->emission}};
+    const struct lessons *seen = &l->light_vertices;
     t->vertices = t->use != NULL ? mem_alloc(REGIONS, sizeof *t->vertices) : NULL;
-    lessons_learn(l, &pass, first, end);
+    for (const struct lesson *y = seen->item; y < seen->item + seen->n; y++) {
+        double times = table_ratio(&t->emission, 0, y->column);
+        t->light_vertices += times;
+        if (t->vertices != NULL)
+            t->vertices[regions_add(&t->regions, y->row)] += times;
+    }
     for (int i = 0; t->vertices != NULL && t->light_vertices > 0 && i < t->regions.n; i++)
         t->vertices[i] /= t->light_vertices;
-    t->light_vertices /= most_of(l->n_visits, 1);
+    t->light_vertices /= most_of(l->n_light, 1);
+    free(seen->item);
+}
+
+static void learn_light_paths(struct learning *l, long n)
+{
+    const struct light_set *lights = &l->job->scene->lights;
+    const struct pass pass = {trace_light_path, take_light_path, *l->tables};
+    struct emission_axis axis = {.above = NULL};
+    bool emission = l->options->use && l->options->emission < 1 && lights->choice.n > 0;
+    if (emission) {
+        axis = emission_axis_new(lights);
+        table_sums_init(&l->sums, 1, axis.axis.n);
+    }
+    l->columns = axis.axis;
+    lessons_learn(l, &pass, 0, n);
+    if (emission)
+        l->tables->emission = table_build(&l->sums, (struct axis){1, NULL, NULL}, axis.axis, axis.base,
+                                          l->options->emission, true, true);
+    emission_axis_free(&axis);
+    count_light_vertices(l);
 }
 
 /* --- trial connections ------------------------------------------------------------------------------- */
@@ -229,9 +221,8 @@ static void fill_pool(struct learning *l, const struct counts *counts, struct po
     double asked = 0;
     pool_clear(pool);
     for (long k = 0; k < POOL && patience_lasts(&l->patience, &asked); k++) {
-        struct sampler sampler = stream_of(l->job, i * POOL + k, STREAM_POOL);
         struct vertex *path = pool_room(pool, (size_t)l->job->max_depth + 1);
-        pool_add(pool, trace_light(l->job, counts, &pool->arena, &sampler, path));
+        pool_add(pool, trace_light(l->job, counts, &pool->arena, i * POOL + k, STREAM_POOL, path, NULL));
     }
     pool_find_candidates(pool);
     double *L = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *L);
@@ -288,14 +279,11 @@ void learn(const struct render_job *job, const struct learn_options *options, st
     long n = alone ? int_within(pixels / DIRECT_PIXELS, DIRECT_LEAST, LEARN_MOST)
                    : int_within(pixels * LEARN_PER_PIXEL, LEARN_LEAST, LEARN_MOST);
     long n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT, half = n / 2 / CHUNK * CHUNK;
-    long n_emission = options->use && options->emission < 1 ? n_light / 2 : 0;
     bool regions = options->use || options->direct || options->pairs;
     if (regions)
         learn_uses(&l, options->pairs ? half : n);
-    if (n_emission > 0)
-        learn_emission(&l, n_emission);
     if (options->use || options->count)
-        learn_vertices(&l, n_emission, options->use ? n_light : n_emission + LIGHT_COUNTED);
+        learn_light_paths(&l, options->use ? n_light : LIGHT_COUNTED);
     if (options->direct)
         build_direct(&l);
     if (options->pairs)

@@ -33,7 +33,8 @@ struct learning {
     struct tables *tables;
     struct table_sums direct, sums; /* of the table of direct light; of the pass under way */
     struct axis columns;
-    double n_visits;         /* light sub-paths whose vertices were counted */
+    double n_light;          /* light sub-paths so far */
+    struct lessons light_vertices; /* that these have */
     struct workspace *work;  /* [n_threads] */
     struct patience patience;
 };

@@ -54,15 +54,18 @@ int emission_column_of(const struct light_set *lights, const struct light_point 
 }
 
 rgb emission_sample(const struct table *t, const struct light_set *lights, const struct geometry *geo,
-                    const double u[3], const double direction[2], struct light_point *at, struct ray *ray, double *pdf)
+                    const double u[3], const double direction[2], struct light_point *at, struct ray *ray, double *pdf,
+                    int *column)
 {
-    double in_cell[3] = {0, u[1], u[2]}, in_square[2] = {direction[0], direction[1]}, pmf, ratio = 1;
+    double in_cell[3] = {0, u[1], u[2]}, in_square[2] = {direction[0], direction[1]}, pmf;
     int cell;
     *pdf = 0;
+    *column = 0;
     if (lights->choice.n == 0)
         return rgb_black();
     if (t->rows == 0) {
         cell = alias_sample(&lights->choice, u[0], &pmf, &in_cell[0]);
+        *column = emission_column(cell, direction);
     } else {
         cell = table_draw(t, 0, (struct span){1, lights->n_cells, NODES}, u[0], &pmf, &in_cell[0]);
         int bin = 1 + cell * NODES + FIRST_BIN; /* then the bin's row, then its column, each by a number of its own */
@@ -71,12 +74,12 @@ rgb emission_sample(const struct table *t, const struct light_set *lights, const
             in_square[i] = below_one((part + in_square[i]) / SIDE);
             bin += part * each;
         }
-        ratio = table_ratio(t, 0, bin);
+        *column = bin;
     }
     if (!light_sample_cell(lights, geo, cell, in_cell, at))
         return rgb_black();
     rgb emitted = light_sample_emission(lights, at, in_square, ray, pdf);
-    *pdf *= ratio;
+    *pdf *= table_ratio(t, 0, *column);
     return emitted;
 }
 

@@ -38,9 +38,11 @@ int emission_column_of(const struct light_set *lights, const struct light_point 
  *   u          uniform: for the cell and bin, then for the point
  *   direction  uniform: for the ray
  *   pdf        out: density of the ray's direction, 1/sr; for lights at infinity, of its origin, 1/m^2
+ *   column     out: of the ray; 0 if there is no light
  * Returns the value of light_sample_emission; black if there is no light point. */
 rgb emission_sample(const struct table *t, const struct light_set *lights, const struct geometry *geo,
-                    const double u[3], const double direction[2], struct light_point *at, struct ray *ray, double *pdf);
+                    const double u[3], const double direction[2], struct light_point *at, struct ray *ray, double *pdf,
+                    int *column);
 
 /* emission_pdf: that density for the ray of direction w through p that leaves y0. */
 double emission_pdf(const struct table *t, const struct light_set *lights, const struct light_point *y0, vec3 p,

@@ -187,7 +187,7 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
     return path_eye(w, x + 0.5 + dx, y + 0.5 + dy, path, max_vertices);
 }
 
-int path_light(const struct walk *w, struct vertex *path, int max_vertices)
+int path_light(const struct walk *w, struct vertex *path, int max_vertices, int *column)
 {
     double u[3], direction[2];
     u[0] = sampler_number(w->sampler, DRAW_LIGHT);
@@ -195,8 +195,11 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices)
     sampler_pair(w->sampler, DRAW_EMISSION, direction);
     struct light_point at;
     struct departure from = {.pdf = 0};
+    int ray_column;
     rgb emitted = emission_sample(&w->counts->tables->emission, &w->scene->lights, &w->scene->geo, u, direction, &at,
-                                  &from.ray, &from.pdf);
+                                  &from.ray, &from.pdf, &ray_column);
+    if (column != NULL)
+        *column = ray_column;
     if (max_vertices < 1 || !(from.pdf > 0) || rgb_is_black(emitted))
         return 0;
     vertex_light(w->scene, &at, light_Le(&w->scene->lights, &at, from.ray.d), w->counts->hit[LATER_HIT], &path[0]);

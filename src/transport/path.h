@@ -46,8 +46,9 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
                    double *filter_weight);
 
 /* path_light: choose a light, a point on it and a direction, and walk. Returns the number of vertices; 0 if nothing is
- * emitted. */
-int path_light(const struct walk *w, struct vertex *path, int max_vertices);
+ * emitted.
+ *   column  out: by which it left its light (emission.h); may be NULL */
+int path_light(const struct walk *w, struct vertex *path, int max_vertices, int *column);
 
 /* path_throughput: beta of [S24]: mean over RGB of beta at the last vertex of a light sub-path; 0 if it is empty. If
  * y_0 is its only vertex, that is the emitted radiance, as in pbrt-v3, where [S24] was implemented. */

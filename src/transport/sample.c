@@ -42,7 +42,7 @@ int sample_light_path(const struct tile_pass *pass, const struct counts *counts,
 {
     struct sampler sampler = sample_stream(pass, RNG_LIGHT, x, y, number);
     struct walk w = {pass->job->scene, counts, arena, &sampler, pass->job->rr_threshold};
-    return path_light(&w, path, pass->job->max_depth + 1);
+    return path_light(&w, path, pass->job->max_depth + 1, NULL);
 }
 
 /* --- sums of connections ----------------------------------------------------------------------------- */

@@ -14,6 +14,7 @@
 #include "base/mem.h"
 #include "geometry/ply.h"
 #include "hostile.h"
+#include "lists.h"
 #include "image/image.h"
 #include "image/zlib.h"
 #include "lab/files.h"
@@ -323,12 +324,9 @@ const struct fuzz_target *fuzz_find(const char *name)
 
 void fuzz_prepare(const char *directory)
 {
-    char here[4096], *parts = path_in(directory, "parts");
-    if (getcwd(here, sizeof here) == NULL)
-        broken("there is no working directory");
-    char *fixtures = path_in(here, "test/data/fixtures/parts");
-    if (symlink(fixtures, parts) != 0)
-        broken("the files of the fixtures cannot be linked");
-    free(fixtures);
+    struct error err;
+    char *parts = path_in(directory, "parts");
+    if (!list_unpack("test/data/fixtures/parts", parts, &err))
+        broken(err.text);
     free(parts);
 }

@@ -5,7 +5,7 @@
  *
  *     make fuzz                           builds build-fuzz/fuzz, by clang with libFuzzer
  *     sh test/fuzz/run.sh 60 png scene    60 seconds of each of these targets; without names, of all
- *     build/test fuzz                     replays test/fuzz/corpus/TARGET.txt (in make test and make san)
+ *     build/test fuzz                     replays test/fuzz/corpus.txt (in make test and make san)
  *
  * What fuzzing finds becomes a line of the corpus, or a fixture of the reader's own test.
  */

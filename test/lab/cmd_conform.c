@@ -49,6 +49,7 @@ struct kit {
     int n, n_there, n_unusable;            /* scenes; of these with pictures, and with some that cannot be judged */
     int n_found[3];                        /* of each finding */
     double level;                          /* of a scene */
+    struct conform_sheet sheet;
 };
 
 /* --- reading ----------------------------------------------------------------------------------------- */
@@ -107,42 +108,22 @@ static bool read_pictures(const char *directory, struct scene_entry *s, struct e
     return ok;
 }
 
-/* The reference of a scene or of a mistake, ".less", which has more noise; a closed form has none. If there is none of
- * such a mistake *out stays empty. */
-static bool read_reference(const struct kit *kit, const struct scene_entry *s, const char *variant, struct side *out,
-                           struct error *err)
-{
-    char path[2][PATH], rest[NAME];
-    const char *const file[2] = {path[0], path[1]};
-    snprintf(rest, sizeof rest, "%s.pfm", variant);
-    path_of(path[0], kit->o->kit, s->name, rest);
-    path_of(path[1], kit->o->kit, s->name, ".error.pfm");
-    if (variant[0] != '\0' && !file_exists(path[0]))
-        return true;
-    bool ok = side_read(file, 2, true, &s->pictures, out, err);
-    for (long i = 0; ok && i < out->pixels.n; i++)
-        out->pixels.error[i] *= variant[0] != '\0' ? 3 : strstr(s->tags, " closed ") != NULL ? 0 : 1;
-    return ok;
-}
-
 /* --- judging ----------------------------------------------------------------------------------------- */
 
 static bool judge_scene(struct kit *kit, struct scene_entry *s, struct error *err)
 {
     struct conform_references *r = mem_alloc(1, sizeof *r);
-    bool ok = read_reference(kit, s, "", &r->right, err);
-    for (int i = 0; ok && CONFORM_MISTAKES[i].words != NULL; i++)
-        ok = CONFORM_MISTAKES[i].variant == NULL ||
-             read_reference(kit, s, CONFORM_MISTAKES[i].variant, &r->wrong[i], err);
+    *r = conform_row(&kit->sheet, (int)(s - kit->scene), strstr(s->tags, " closed ") != NULL);
+    bool ok = (s->pictures.width == r->right.width && s->pictures.height == r->right.height) ||
+              error_set(err, "%s: the pictures are %dx%d, the reference %dx%d; all must have the same size", s->name,
+                        s->pictures.width, s->pictures.height, r->right.width, r->right.height);
     if (ok) {
         s->j = conform_judge(&s->pictures, r, kit->level, kit->o->seed);
         kit->n_found[s->j.finding]++;
     }
-    for (int i = 0; CONFORM_MISTAKES[i].words != NULL; i++) {
+    for (int i = 0; CONFORM_MISTAKES[i].words != NULL; i++)
         s->fit[i] = ok && s->j.finding == FINDS_DIFFERENCE ? conform_fit_p(&s->pictures, r, i) : -1;
-        batches_free(&r->wrong[i].pixels);
-    }
-    batches_free(&r->right.pixels);
+    conform_free(r);
     free(r);
     return ok;
 }
@@ -253,6 +234,9 @@ static bool conform(struct kit *kit, struct error *err)
     if (kit->n_there == 0)
         return error_set(err, "%s: holds no picture of the kit's scenes, such as %s.pfm or %s-1.pfm", kit->o->directory,
                          kit->scene[0].name, kit->scene[0].name);
+    char path[PATH];
+    if (!conform_sheet_read(path_of(path, kit->o->kit, "references.pfm", ""), kit->n, &kit->sheet, err))
+        return false;
     struct progress bar;
     int n_judged = 0;
     progress_start(&bar, false);
@@ -281,6 +265,7 @@ static int run(void *options)
     bool any = kit->n_found[FINDS_DIFFERENCE] > 0, unusable = kit->n_unusable > 0;
     for (int i = 0; i < kit->n; i++)
         batches_free(&kit->scene[i].pictures.pixels);
+    free(kit->sheet.pixels);
     free(kit);
     return !ok ? fail(&err) : any || unusable ? EXIT_JOB : EXIT_OK;
 }

@@ -7,6 +7,6 @@
 
 extern const struct command command_verify, command_experiment, command_equal_time, command_family,
     command_transient, command_bench, command_info, command_compare, command_trace, command_worth,
-    command_strategies, command_conform, command_render_more, command_sum, command_progress;
+    command_strategies, command_conform, command_render_more, command_sum, command_progress, command_corpus;
 
 #endif

@@ -2,6 +2,7 @@
 #include "lab/conform.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/maths.h"
@@ -15,14 +16,13 @@ static const double MOST_ERROR = 0.01;  /* of the mean, relative, that still say
 static const double MOST_SHARE = 1 / 3.0; /* of all squared noise that one tile of one picture may have */
 
 const struct mistake CONFORM_MISTAKES[] = {
-    {.words = "depth is counted one less", .variant = ".less"},
-    {.words = "depth is counted one more", .variant = ".more"},
-    {.words = "a Gaussian filter instead of a box", .variant = ".gaussian"},
-    {.words = "a box filter instead of the Gaussian", .variant = ".box"},
-    {.words = "sky map turned by 90 degrees", .variant = ".turned90"},
-    {.words = "sky map turned by 180 degrees", .variant = ".turned180"},
-    {.words = "sky map turned by 270 degrees", .variant = ".turned270"},
-    {.words = "sky map mirrored", .variant = ".mirrored"},
+    {.words = "depth is counted one less", .picture = 2},
+    {.words = "depth is counted one more", .picture = 3},
+    {.words = "a Gaussian filter instead of a box, or the reverse", .picture = 4},
+    {.words = "sky map turned by 90 degrees", .picture = 5},
+    {.words = "sky map turned by 180 degrees", .picture = 6},
+    {.words = "sky map turned by 270 degrees", .picture = 7},
+    {.words = "sky map mirrored", .picture = 8},
     {.words = "left and right exchanged", .flip_x = true},
     {.words = "upside down", .flip_y = true},
     {.words = "turned by 180 degrees", .flip_x = true, .flip_y = true},
@@ -32,6 +32,56 @@ const struct mistake CONFORM_MISTAKES[] = {
     {.words = "scaled by 2", .factor = 2},
     {.words = "scaled by 1/2", .factor = 0.5},
     {.words = NULL}};
+
+/* --- references -------------------------------------------------------------------------------------- */
+
+bool conform_sheet_read(const char *path, int n, struct conform_sheet *out, struct error *err)
+{
+    int width, height;
+    out->pixels = image_read_linear(path, &width, &height, NULL, err);
+    if (out->pixels == NULL)
+        return false;
+    out->side = width / CONFORM_ACROSS;
+    if (width == CONFORM_ACROSS * out->side && height == n * out->side)
+        return true;
+    free(out->pixels);
+    out->pixels = NULL;
+    return error_set(err, "%s: %dx%d is no sheet of %d square pictures for each of %d scenes", path, width, height,
+                     CONFORM_ACROSS, n);
+}
+
+/* Picture k of a row, with errors so many times those of picture 1; without pixels if it is not there. */
+static struct side of_sheet(const struct conform_sheet *sheet, int row, int k, double errors)
+{
+    long side = sheet->side, across = 3 * side * CONFORM_ACROSS;
+    const float *first = sheet->pixels + row * side * across, *from = first + 3 * side * k;
+    struct side s = {.name = "", .width = sheet->side, .height = sheet->side};
+    if (from[0] < 0)
+        return s;
+    s.pixels = batches_new(1, 3 * side * side, true);
+    for (long i = 0; i < s.pixels.n; i++) {
+        long at = i / (3 * side) * across + i % (3 * side);
+        s.pixels.value[i] = (double)from[at];
+        s.pixels.error[i] = errors * (double)first[3 * side + at];
+    }
+    return s;
+}
+
+struct conform_references conform_row(const struct conform_sheet *sheet, int row, bool closed)
+{
+    struct conform_references r = {.right = of_sheet(sheet, row, 0, closed ? 0 : 1)};
+    for (int i = 0; CONFORM_MISTAKES[i].words != NULL; i++)
+        if (CONFORM_MISTAKES[i].picture > 0)
+            r.wrong[i] = of_sheet(sheet, row, CONFORM_MISTAKES[i].picture, CONFORM_WRONG);
+    return r;
+}
+
+void conform_free(struct conform_references *r)
+{
+    batches_free(&r->right.pixels);
+    for (int i = 0; CONFORM_MISTAKES[i].words != NULL; i++)
+        batches_free(&r->wrong[i].pixels);
+}
 
 /* --- batches ----------------------------------------------------------------------------------------- */
 
@@ -210,7 +260,7 @@ static struct batches undone(const struct side *s, const struct mistake *m)
 double conform_fit_p(const struct side *pictures, const struct conform_references *r, int mistake)
 {
     const struct mistake *m = &CONFORM_MISTAKES[mistake];
-    const struct side *reference = m->variant == NULL ? &r->right : &r->wrong[mistake];
+    const struct side *reference = m->picture == 0 ? &r->right : &r->wrong[mistake];
     if (reference->pixels.n == 0)
         return -1;
     struct side mended = {pictures->name, pictures->width, pictures->height, undone(pictures, m)};
@@ -221,7 +271,7 @@ double conform_fit_p(const struct side *pictures, const struct conform_reference
     double mean_a = batches_mean(&a, &error[0]), mean_b = batches_mean(&b, &error[1]), n = a.n_batches;
     double mean = stats_welch_p(mean_a, sqr(error[0]) * n, n, mean_b, sqr(error[1]) * MANY, MANY);
     double smallest = batches_smallest_p(&a, &b); /* NaN: without noise */
-    double direction = m->variant != NULL ? direction_p(&mended, reference, &r->right) : 1;
+    double direction = m->picture > 0 ? direction_p(&mended, reference, &r->right) : 1;
     double p = isnan(smallest) ? 1 : stats_sidak(least_of(smallest, least_of(mean, direction)), 3);
     batches_free(&mended.pixels);
     batches_free(&a);

@@ -38,9 +38,10 @@ struct judgement {
     const char *why; /* of doubt and of what was found without a test; else "" */
 };
 
-/* A usual mistake: it shows another picture, of which NAMEvariant.pfm is the reference, or changes what it shows. */
+/* A usual mistake: it shows another picture, which the sheet of references has, or changes what it shows. */
 struct mistake {
-    const char *words, *variant; /* ".less"; NULL for NAME.pfm itself */
+    const char *words;
+    int picture; /* from the left, in the sheet; 0: the right one */
     bool flip_x, flip_y, srgb;
     double factor; /* 0: none */
 };
@@ -51,6 +52,21 @@ enum { CONFORM_MOST = 20 };
 struct conform_references {
     struct side right, wrong[CONFORM_MOST]; /* of every mistake; without pixels where it has none in this scene */
 };
+
+/* The references of the kit, one picture: a row of square pictures for each scene. From the left the right one, its
+ * standard errors, and one for each mistake that shows another; what is not there is negative. */
+enum { CONFORM_ACROSS = 9, CONFORM_WRONG = 3 /* times those errors are the errors of a mistake's picture */ };
+struct conform_sheet {
+    float *pixels; /* [n * side * CONFORM_ACROSS * side * 3] */
+    int side;
+};
+
+/* conform_sheet_read: of n scenes; pixels are to be given to free(). Returns false with a message.
+ * conform_row: what is known of the scene in a row; to be released by conform_free.
+ *   closed  the right one has no errors */
+bool conform_sheet_read(const char *path, int n, struct conform_sheet *out, struct error *err);
+struct conform_references conform_row(const struct conform_sheet *sheet, int row, bool closed);
+void conform_free(struct conform_references *r);
 
 /* conform_judge: at this level of false alarms. */
 struct judgement conform_judge(const struct side *pictures, const struct conform_references *r, double level,

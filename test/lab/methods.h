@@ -33,6 +33,7 @@ struct methods {
 #define METHODS_EXPERIMENT METHOD_PRINTED_BDPT ",asbdpt:select=bins/pool/vertices/subspaces"
 #define METHODS_EQUAL_TIME "bdpt,asbdpt:select=vertices/subspaces,lvc,cbdpt"
 #define METHODS_OWN_SCENE "bdpt,asbdpt"
+#define METHODS_CORPUS "bdpt,pt,asbdpt,bdpt:lightsamplestrategy=power,pt:lightsamplestrategy=power"
 #define METHODS_BENCH "pt", "bdpt", "asbdpt"
 #define SWEEPS_FULL "asbdpt:select=bins:binpaths=4/8/16/32", "asbdpt:select=bins:restart=0/8/16/32"
 #define SWEEPS_QUICK "asbdpt:select=bins:binpaths=8/32", "asbdpt:select=bins:restart=0/32"

@@ -7,7 +7,7 @@ static const struct command *const COMMANDS[] = {
     &command_info,        &command_compare,    &command_trace,
     &command_worth,      &command_strategies, &command_verify,  &command_conform,  &command_equal_time,
     &command_experiment, &command_family,     &command_transient, &command_bench,
-    &command_progress, NULL};
+    &command_corpus,     &command_progress, NULL};
 
 const struct program program = {
     "asbdpt-lab", "the laboratory of asbdpt: what measures its pictures and its speed",

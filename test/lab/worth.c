@@ -69,7 +69,7 @@ static void map_draws(const struct view *v)
             arena_reset(&v->work->arena);
             struct sampler sampler = sampler_start(v->job.seed, RNG_LIGHT, (uint64_t)k, 0);
             struct walk w = walk_of(v, &sampler);
-            int n = path_light(&w, v->light, v->job.max_depth + 1);
+            int n = path_light(&w, v->light, v->job.max_depth + 1, NULL);
             for (int i = 1; i < n; i++) {
                 const struct vertex *y = &v->light[i];
                 double worth = vertex_connectible(y) ? v->ratio[y->region] * rgb_luminance(y->beta) : 0;

@@ -9,15 +9,33 @@
 #   sh test/measure/evidence.sh again [NAME...] compute again what is derived from stored runs, and show it
 #   sh test/measure/evidence.sh fill           put what is stored into the documents
 #   sh test/measure/evidence.sh check          do the documents show what is stored, and say so where it is old? Are
-#                                              means and intervals those of the stored runs, NAME.csv?
-# What is stored, doc/measured/NAME.txt, has a head of lines "key: value" and sections "== SECTION". A document shows
-# one between <!-- measured: NAME.SECTION --> and <!-- end -->: both on lines of their own, or both in a line of text.
+#                                              means and intervals those of the stored runs?
+# What is stored lies below a line "=== NAME": the runs in doc/measured/runs.txt, as csv; in numbers.txt a head of lines
+# "key: value" and sections "== SECTION". A document shows a section between <!-- measured: NAME.SECTION --> and
+# <!-- end -->: both on lines of their own, or both in a line of text.
 set -u
 export LC_ALL=C
-stored=doc/measured
-list=$stored/list.txt
+kept=doc/measured
+list=$kept/list.txt
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
+# Here each entry has files of its own, NAME.txt and NAME.csv.
+export STORED="$dir/stored"
+stored=$STORED
+mkdir "$stored"
+for kind in numbers.txt runs.csv; do
+    awk -v to="$stored/" -v end=".${kind#*.}" '/^=== / { close(file); file = to $2 end; next } { print >file }' \
+        "$kept/${kind%.*}.txt"
+done
+# store FILE NAME KIND: FILE becomes its numbers (txt) or its runs (csv).
+store() {
+    [ "$3" = txt ] && into=$kept/numbers.txt || into=$kept/runs.txt
+    cp "$1" "$stored/$2.$3"
+    awk -v name="$2" 'FNR == NR { text = text $0 "\n"; next }
+        /^=== / && (here = $2 == name) { print; printf "%s", text; done = 1 }
+        !here { print }
+        END { if (!done) printf "=== %s\n%s", name, text }' "$1" "$into" >"$dir/into" && cp "$dir/into" "$into"
+}
 bad=0
 wrong() { echo "evidence: $*"; bad=1; }
 
@@ -72,7 +90,7 @@ derived() {
         echo 'ratios() { awk -v missing="$SHOWN" -f "$AWK/better.awk" -f "$AWK/runs.awk" "$@"; }'
         commands "$1" derive
     } >"$dir/derive"
-    AWK=test/measure/evidence STORED=$stored RUNS=$stored/$1.csv SHOWN=$2 sh -e "$dir/derive"
+    AWK=test/measure/evidence RUNS=$stored/$1.csv SHOWN=$2 sh -e "$dir/derive"
 }
 # again NAME: what is stored of it, with the sections of derive: made again.
 again() {
@@ -84,7 +102,7 @@ again() {
 # keep NAME DIR MINUTES: its runs; and what its show: prints of DIR and its derive: of the runs, with a head.
 keep() {
     raw "$1" "$2" >"$dir/runs" || { wrong "$1: no runs in $2"; return 1; }
-    [ ! -s "$dir/runs" ] || cp "$dir/runs" "$stored/$1.csv"
+    [ ! -s "$dir/runs" ] || store "$dir/runs" "$1" csv
     commands "$1" show >"$dir/show"
     OUT=$2 sh -e "$dir/show" >"$dir/shown" || { wrong "$1: nothing to show in $2"; return 1; }
     derived "$1" "$dir/shown" >"$dir/derived" || { wrong "$1: nothing to derive from its runs"; return 1; }
@@ -103,7 +121,7 @@ keep() {
         echo "date: ${DATE:-$(date +%Y-%m-%d)}"
         echo "minutes: ${MINUTES:-$3}"
         cat "$dir/shown"
-    } >"$dir/kept" && mv "$dir/kept" "$stored/$1.txt"
+    } >"$dir/kept" && store "$dir/kept" "$1" txt
 }
 
 # missing NAME: which of its needs is not there.
@@ -175,7 +193,7 @@ filled() {
                 else if (on) text = text (n++ ? "\n" : "") line
             }
             close(path)
-            if (!n && note[name] !~ /^\*Not measured/) fail("nothing in " path " for " mark)
+            if (!n && note[name] !~ /^\*Not measured/) fail("nothing is stored for " mark)
             return text
         }
         skip { if (/^<!-- end -->$/) skip = 0; else next }
@@ -262,11 +280,11 @@ check() {
         done
         old "$file" "$name" && behind="$behind $name"
         again "$name" | cmp -s - "$file" ||
-            wrong "$file is not what its runs say: sh test/measure/evidence.sh again $name"
-        [ "$(head_of "$file" samples)" = "$(field "$name" samples)" ] || wrong "$file has other samples than $list"
+            wrong "$name is not what its runs say: sh test/measure/evidence.sh again $name"
+        [ "$(head_of "$file" samples)" = "$(field "$name" samples)" ] || wrong "$name has other samples than $list"
         figure=$(field "$name" figure)
         [ -z "$figure" ] || { drawn "$name" "$dir/figure" && cmp -s "$dir/figure" "$figure"; } ||
-            wrong "$figure is not of what $file says: sh test/measure/evidence.sh fill"
+            wrong "$figure is not what is stored of $name: sh test/measure/evidence.sh fill"
         case $(field "$name" of) in tree*)
             commands "$name" show >"$dir/show"
             sh -e "$dir/show" >"$dir/now"
@@ -277,21 +295,21 @@ check() {
             ;;
         esac
     done
-    for file in $stored/*.txt; do
-        [ "$file" = $list ] || names | grep -qx "$(basename "$file" .txt)" || wrong "$file has no entry in $list"
+    for name in $(sed -n 's/^=== //p' "$kept/numbers.txt" "$kept/runs.txt" | sort -u); do
+        names | grep -qx "$name" || wrong "$name has no entry in $list"
     done
-    for page in $(drift .); do wrong "$page shows other numbers than $stored has: sh test/measure/evidence.sh fill"; done
+    for page in $(drift .); do wrong "$page shows other numbers than $kept has: sh test/measure/evidence.sh fill"; done
 
     # What must not pass: a digit changed in a document, another run, and a result that is older than the source.
     name=$(for name in $(names); do
-        [ "$(field "$name" of)" != estimator ] || [ ! -f $stored/$name.txt ] || echo "$name"
+        [ "$(field "$name" of)" != estimator ] || [ ! -f "$stored/$name.txt" ] || echo "$name"
     done | head -n 1)
     page=$(field "$name" shown | sed 's/ .*//')
     mkdir -p "$dir/planted/$(dirname "$page")"
     awk -v mark="<!-- measured: $name." '!done && inside && gsub(/[0-8]\.[0-9]/, "9&") { done = 1 }
         index($0, mark) == 1 { inside = 1 } { print }' "$page" >"$dir/planted/$page"
     [ "$(drift "$dir/planted")" = "$page" ] || wrong "another number in $page is not noticed"
-    cp -R $stored "$dir/measured" && sed -e 's/^estimator: .*/estimator: 0/' -e 's/^of: .*/of: estimator 0/' \
+    cp -R "$stored" "$dir/measured" && sed -e 's/^estimator: .*/estimator: 0/' -e 's/^of: .*/of: estimator 0/' \
         "$stored/$name.txt" >"$dir/measured/$name.txt"
     awk -F , -v OFS=, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
         $at["label"] == "subspaces" && !n++ { $at["mse8"] *= 4 } { print }' \
@@ -301,7 +319,7 @@ check() {
     again "$name" | cmp -s - "$stored/$name.txt" && wrong "another run of $name is not noticed"
     awk -f test/measure/evidence/recompute.awk "$stored/$name.csv" "$stored/$name.txt" >"$dir/again" &&
         wrong "another run of $name is not noticed when it is computed again"
-    stored=doc/measured
+    stored=$STORED
     [ $bad -ne 0 ] || echo "evidence: $n results, shown as they are stored; old or not measured:${behind:- none}"
 }
 
@@ -324,7 +342,8 @@ run) # what was built of these sources
     shift
     make -s asbdpt asbdpt-lab build/test >/dev/null || exit
     [ $# -gt 0 ] || set -- $(for name in $(names); do
-        [ -n "$(missing "$name")" ] || { [ -f $stored/$name.txt ] && ! old $stored/$name.txt "$name"; } || echo "$name"
+        [ -n "$(missing "$name")" ] || { [ -f "$stored/$name.txt" ] && ! old "$stored/$name.txt" "$name"; } ||
+            echo "$name"
     done)
     for name in "$@"; do
         names | grep -qx "$name" || { wrong "there is no $name"; continue; }
@@ -339,12 +358,12 @@ again)
     [ $# -gt 0 ] || set -- $(names)
     for name in "$@"; do
         [ ! -f "$stored/$name.txt" ] || again "$name" >"$dir/kept" || { wrong "$name: cannot be derived"; continue; }
-        [ ! -f "$stored/$name.txt" ] || cp "$dir/kept" "$stored/$name.txt"
+        [ ! -f "$stored/$name.txt" ] || store "$dir/kept" "$name" txt
     done
     fill
     ;;
 fill) fill ;;
 check) check ;;
-*) sed -n 's/^# *//p' "$0" | sed -n '2,14p'; bad=2 ;;
+*) sed -n 's/^# *//p' "$0" | sed -n '2,15p'; bad=2 ;;
 esac
 exit $bad

@@ -10,7 +10,7 @@ program() {
     printf '#include <stdio.h>\n#include "base/word.h"\nint main(void) { return printf("%%d\\n", word()) < 0; }\n'
 }
 for file in src/cli/program.c test/lab/main.c test/unit/main.c; do program >$file; done
-for file in test/fuzz/targets.c test/fuzz/hostile.c; do echo 'typedef int none;' >$file; done
+for file in test/fuzz/targets.c test/fuzz/hostile.c test/fuzz/lists.c; do echo 'typedef int none;' >$file; done
 # write_header NUMBER, write_source NUMBER: what is said is their sum, and what the compiler defines.
 write_header() { printf 'enum { HEADER = %s };\nint word(void);\n' "$1" >src/base/word.h; }
 write_source() {

@@ -87,9 +87,10 @@ for material in matte none; do
     check [ "$(fits fog '' $material) $(fits '' fog $material)" = '1 1' ]
 done
 # Parameters by which light may be lost: a warning, where there is such light.
+sh "$scenes/unpack.sh" "$scenes/test/caustics.txt" caustics
 for number in connections=0 later=0 pathpixels=0; do
     expect 0 'warning: .*/caustic-pane.pbrt: with connections, later or pathpixels 0 the image may lack light' \
-        "$program" render "$scenes/test/caustic-pane.pbrt" $small --integrator asbdpt -P $number -o x.pfm
+        "$program" render caustics/caustic-pane.pbrt $small --integrator asbdpt -P $number -o x.pfm
     expect 0 '' "$program" render "$box" $small --integrator asbdpt -P $number -o x.pfm
     check [ ! -s stderr.txt ]
 done
@@ -463,21 +464,27 @@ says '^verdict: DIFFER'
 expect 1 'nan.pfm: NaN or infinite values: 2592$' "$lab" compare nan.pfm nan.pfm --max-rmse 1
 # Pictures against a reference, one of them twice.
 mkdir kit
-"$program" render "$scenes/conform/area.pbrt" --integrator bdpt --spp 4 --quiet -o kit/area-1.pfm
-cp kit/area-1.pfm kit/area-2.pfm
-prints '^verdict: agree' "$lab" verify --files kit/area-1.pfm kit/area-2.pfm --reference "$top/ref/conform/area.pfm"
+sh "$scenes/unpack.sh" "$scenes/conform" conform
+for k in 1 2; do "$program" render "$box" --integrator bdpt --res 32x32 --filter box --spp 4 --quiet -o kit/box-$k.pfm; done
+prints '^verdict: agree' "$lab" verify --files kit/box-1.pfm kit/box-2.pfm --reference ref/cornell-box.pfm
 says 'of 2 pictures 1 differ; the others are identical' '^1 pictures alone: their variance is taken from blocks'
-expect 2 'usage: asbdpt-lab verify' "$lab" verify --files kit/area-1.pfm
+expect 2 'usage: asbdpt-lab verify' "$lab" verify --files kit/box-1.pfm
 
 # --- conform
 # conform: what differs, in words, with status 1; what is there twice counts once.
+rm kit/*
+"$program" render conform/area.pbrt --integrator bdpt --spp 4 --quiet -o kit/area-1.pfm
+cp kit/area-1.pfm kit/area-2.pfm
 "$lab" conform kit --kit "$top/ref/conform" >stdout.txt
 says '^area  *1 (blocks) .*(1 more pictures are identical: is the seed used?)' '^1 scenes: ' '^no pictures of alpha, bump' \
     '^a correct renderer has a scene that DIFFERS with probability 0.01'
 rm kit/*
-"$program" render "$scenes/conform/area.pbrt" --integrator bdpt --maxdepth 2 --spp 16 --quiet -o kit/area.exr
+"$program" render conform/area.pbrt --integrator bdpt --maxdepth 2 --spp 16 --quiet -o kit/area.exr
 expect 1 '' "$lab" conform kit --kit "$top/ref/conform"
 says '^area .* DIFFERS' '^of the scenes with area differ 1 of 1' '^depth is counted one more explains area$'
+rm kit/*
+"$program" render conform/area.pbrt --res 16x16 --spp 1 --quiet -o kit/area.pfm
+expect 1 'area: the pictures are 16x16, the reference 32x32; all must have the same size' "$lab" conform kit --kit "$top/ref/conform"
 rm kit/*
 expect 1 "holds no picture of the kit" "$lab" conform kit --kit "$top/ref/conform"
 expect 1 'list.txt: cannot be opened; --kit' "$lab" conform kit --kit nowhere

@@ -15,7 +15,7 @@ for k in 0 1; do
     expect 0 '' asbdpt render scenes/spot.pbrt --quick --spp 2 --samples $k:$((k + 1)) --integrator bdpt -o out/$k.part
 done
 expect 0 '' asbdpt-lab render scenes/forest.pbrt --quick --integrator pt --lights out/forest -o out/forest.png
-expect 0 '' env LAB=asbdpt-lab PROGRAM=asbdpt-lab sh test/measure/conform/ours.sh out/conform bdpt 1 1
+expect 0 '' env LAB=asbdpt-lab PROGRAM=asbdpt-lab sh test/measure/conform/kit.sh ours out/conform bdpt 1 1
 
 # examples HELP: in this file of a command's help there is an example, and all that there are can be run.
 examples() {

@@ -34,9 +34,10 @@ says '^G  *2 to 2, mean 2$'
 
 # ---- conform: a scene whose pictures do not fit is named, the others are judged ----
 mkdir kit
+sh "$scenes/unpack.sh" "$scenes/conform" conform
 for name in area deep; do
     for k in 1 2; do
-        "$program" render "$scenes/conform/area.pbrt" --integrator bdpt --spp 4 --seed $k --quiet -o kit/$name-$k.pfm
+        "$program" render conform/area.pbrt --integrator bdpt --spp 4 --seed $k --quiet -o kit/$name-$k.pfm
     done
 done
 mv kit/deep-2.pfm kit/deep-3.pfm
@@ -46,6 +47,14 @@ mv kit/deep-3.pfm kit/deep-2.pfm && cp kit/deep-2.pfm kit/deep.exr
 expect 1 'deep: not judged: kit/deep: there are .pfm and .exr' "$lab" conform kit --kit "$top/ref/conform"
 rm kit/deep.exr && cp one.pfm kit/deep-2.pfm
 expect 1 'deep: not judged: kit/deep-2.pfm is 1x1, the picture before it' "$lab" conform kit --kit "$top/ref/conform"
+
+mkdir odd && cp "$top/ref/conform/list.txt" odd && cp one.pfm odd/references.pfm && rm kit/deep-*
+expect 1 'odd/references.pfm: 1x1 is no sheet of 9 square pictures for each of 35 scenes' "$lab" conform kit --kit odd
+
+# What other renderers read of the kit's scenes: 30 of pbrt-v4, 26 of Mitsuba 3, always the same bytes.
+expect 0 '' sh -c 'kit=$PWD/told && cd "$1" && sh scenes/generate/conform.sh "$kit"' sh "$top"
+check [ "$(ls told/pbrt-v4 told/mitsuba | grep -c '[.]')" = 56 ]
+check [ "$(export LC_ALL=C && cat told/pbrt-v4/* told/mitsuba/* | cksum)" = '4282179861 77775' ]
 
 # ---- a scene without light ----
 echo 'Camera "perspective" WorldBegin Translate 0 0 3 Shape "sphere" WorldEnd' >dark.pbrt

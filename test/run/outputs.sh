@@ -123,7 +123,7 @@ check [ ! -e none ]
 
 # ---- text of a scene ----
 # Every string and every word of the scenes in features/ gets control characters, one at a time: no output has them.
-cp -R "$scenes/features" features
+sh "$scenes/unpack.sh" "$scenes/features" features
 for file in features/*.pbrt; do sed 's/#.*//' "$file" | tr -s ' \t' '\n' | grep -E '^[A-Z]' | sort -u; done | sort -u |
     while read -r word; do printf '%s\t%s\n' "$(grep -l "^ *$word " features/*.pbrt | head -n 1)" "$word"; done >texts
 awk -F '"' '{ sub(/#.*/, "") }

@@ -66,7 +66,7 @@ suites() {
     shift 3
     asked "$name" && able "$name" "$runner" "$build" || return
     program=$dir/$name.exe
-    sources="test/fuzz/hostile.c $(ls test/unit/*.c test/lab/*.c test/lab/*/*.c | grep -v -e devices -e fuzz -e hostile)
+    sources="test/fuzz/hostile.c test/fuzz/lists.c $(ls test/unit/*.c test/lab/*.c test/lab/*/*.c | grep -v -e devices -e fuzz -e hostile)
         $(ls src/*/*.c | grep -v -e src/cli/main.c -e src/cli/program.c -e src/render/rows.c)"
     awk -f test/unit/suites.awk $sources >"$dir/suites.h"
     command=$(echo "$build" | sed "s|-o [^ ]*|-Itest -Itest/lab -Itest/unit -I$dir -o $program|

@@ -1,7 +1,7 @@
 #!/bin/sh
 # release.sh DIR: what a release consists of, of the last commit and the programs of this tree, into DIR: the sources,
-# the page that renders if it can be built, the man pages, and checksums of all. `make release` calls it. The tag is set
-# by hand: the last line says how. Exit status 1 if the tree has changes that no commit has, CHANGELOG.md has no line for
+# the page that renders if it can be built, the man pages, the kit's scenes for other renderers, and checksums of all.
+# `make release` calls it. The tag is set by hand: the last line says how. Exit status 1 if the tree has changes that no commit has, CHANGELOG.md has no line for
 # the estimator, or doc/asbdpt.html, which is stored anew with a release only, is of older sources.
 dir=$1
 version=$(sed -n 's/^#define VERSION "asbdpt \(.*\)"$/\1/p' src/base/version.h)
@@ -18,6 +18,8 @@ rm -rf "$dir" && mkdir -p "$dir" || exit
 git archive --prefix="$name/" HEAD >"$dir/$name.tar" && gzip -9n "$dir/$name.tar" || exit
 make -s install PREFIX=/ DESTDIR="$dir/root" MANDIR=/man >/dev/null && mv "$dir/root/man/"*.1 "$dir" || exit
 rm -rf "$dir/root"
+sh scenes/generate/conform.sh "$dir/$name-conform" && tar -C "$dir" -cf "$dir/$name-conform.tar" "$name-conform" &&
+    gzip -9n "$dir/$name-conform.tar" && rm -r "$dir/$name-conform" || exit
 sh doc/web/build.sh "$dir/$name.html" >"$dir/log" 2>&1 || rm -f "$dir/$name.html"
 if [ ! -f "$dir/$name.html" ]; then
     echo "release: no page that renders: $(tail -n 1 "$dir/log")"

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/mem.h"
@@ -16,6 +17,7 @@
 #include "base/sampler.h"
 #include "base/warp.h"
 #include "caustics/derived.h"
+#include "fuzz/lists.h"
 #include "integrators/prepare.h"
 #include "lab/numbers.h"
 #include "lab/sides.h"
@@ -155,10 +157,26 @@ struct transform random_affine(struct rng *r)
     return out;
 }
 
+const char *scene_path(struct test *t, const char *path, char out[512])
+{
+    static const char *const FOLDERS[] = {"scenes", "scenes/conform", "scenes/features", "scenes/sky", "scenes/test"};
+    struct error err;
+    if (strncmp(path, "scenes/", 7) != 0 || file_exists(path))
+        return path;
+    snprintf(out, 512, "%s/%s", test_tmp(t), FOLDERS[0]);
+    for (int i = mkdir(out, 0777) == 0 ? 1 : 5; i < 5; i++) {
+        snprintf(out, 512, "%s/%s", test_tmp(t), FOLDERS[i]);
+        CHECK(t, list_unpack(FOLDERS[i], out, &err), "%s", err.text);
+    }
+    snprintf(out, 512, "%s/%s", test_tmp(t), path);
+    return out;
+}
+
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out)
 {
+    char listed[512];
     struct error err;
-    if (!CHECK(t, parse_scene(path, NULL, out, NULL, &err), "%s: %s", path, err.text))
+    if (!CHECK(t, parse_scene(scene_path(t, path, listed), NULL, out, NULL, &err), "%s: %s", path, err.text))
         return false;
     if (width > 0) {
         out->width = width;
@@ -437,12 +455,12 @@ double mean_p(const struct batches *b, double expected)
 
 char *text_of(struct test *t, const char *directory, const char *name)
 {
-    char path[512];
+    char path[512], listed[512];
     uint8_t *data = NULL;
     size_t size = 0;
     struct error err;
     snprintf(path, sizeof path, "%s/%s", directory, name);
-    bool ok = CHECK(t, file_read(path, &data, &size, &err), "%s", err.text);
+    bool ok = CHECK(t, file_read(scene_path(t, path, listed), &data, &size, &err), "%s", err.text);
     return ok ? (char *)data : mem_copy_text(""); /* file_read puts a zero byte behind it */
 }
 

@@ -44,7 +44,11 @@ bool scene_from_text(struct test *t, const char *text, struct scene *out);
 /* scene_from_format: the same, of a format and what follows it. */
 bool scene_from_format(struct test *t, struct scene *out, const char *format, ...);
 
-/* scene_from_file: the same for a file, at the given resolution (0: as it is) with a box filter. */
+/* scene_path: "scenes/FOLDER/NAME" as it is, or, if that is in a list (lists.h), where it lies as a file: in the test's
+ * own directory, beside all that it names. */
+const char *scene_path(struct test *t, const char *path, char out[512]);
+
+/* scene_from_file: the same for such a path, at the given resolution (0: as it is) with a box filter. */
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out);
 
 /* What a Shape directive says of a shape of triangles, all zeros at first.
@@ -135,7 +139,7 @@ double batches_p(const struct batches *a, const struct batches *b, double *ratio
  * with them most of their noise: by Student's t over the differences, of every value and of the mean. */
 double batches_paired_p(const struct batches *a, const struct batches *b, double *ratio);
 
-/* text_of: the content of a file in a directory, to be freed; an empty text after a failed check. */
+/* text_of: the content of a file in a directory (scene_path), to be freed; an empty text after a failed check. */
 char *text_of(struct test *t, const char *directory, const char *name);
 
 /* remove_tree: a directory and all that is in it. False if something is left. */

@@ -47,7 +47,7 @@ int main(int argc, char **argv)
     for (; first < argc && argv[first][0] == '-'; first++) {
         if (strcmp(argv[first], "-l") == 0) {
             for (int i = 0; i < N_ENTRIES; i++)
-                printf("%s%s\n", ENTRIES[i].name, ENTRIES[i].slow ? " (slow)" : "");
+                printf("%-17s%s%s\n", ENTRIES[i].name, ENTRIES[i].slow ? "(slow) " : "", ENTRIES[i].what);
             return 0;
         } else if (strcmp(argv[first], "--slow") == 0) {
             slow = true;

@@ -29,7 +29,7 @@ void leave_out_directory(struct test *t, char *text);
 /* scene_in_words: a scene, as far as these tests look at it; to be given to free(). */
 char *scene_in_words(struct test *t, const struct scene *s);
 
-/* link_parts: let scenes in the test's own directory find their parts as they do in test/data/fixtures. */
+/* link_parts: what the fixtures name, parts/, pictures/ and features/, in the test's own directory. */
 void link_parts(struct test *t);
 
 void check_contents(struct test *t, const char *name, const char *text, const struct scene *s);

@@ -26,6 +26,7 @@ struct test_entry {
     const char *name;
     void (*run)(struct test *t);
     bool slow; /* only with --slow or by name */
+    const char *what; /* it tests */
 };
 
 struct test_setting {

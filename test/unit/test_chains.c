@@ -101,7 +101,7 @@ static void test_follow(struct test *t)
         struct path_stop stop[CHAIN_DEPTH + 1];
         struct sampler sampler = sampler_start(test_seed(t), RNG_TEST, 17, i);
         struct walk w = {&scene, &b.chain->all->counts, &b.work->arena, &sampler, 0};
-        int n = path_light(&w, walked, CHAIN_DEPTH + 1), smooth = n > 0;
+        int n = path_light(&w, walked, CHAIN_DEPTH + 1, NULL), smooth = n > 0;
         while (smooth < n && !walked[smooth].prev_delta && walked[smooth].kind == VERTEX_SURFACE)
             smooth++;
         for (int k = 0; k < smooth; k++) {

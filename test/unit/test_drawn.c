@@ -385,12 +385,13 @@ static void check_rays(struct test *t, const struct scene *scene, const struct b
     for (uint64_t k = 0; k < 2 * DRAWS; k++) {
         struct sampler sampler = sampler_start(b->job.seed, RNG_TEST, k, 3);
         double u[3], square[2], pdf;
+        int left_by;
         struct light_point y0;
         struct ray ray;
         u[0] = sampler_number(&sampler, DRAW_LIGHT);
         sampler_pair(&sampler, DRAW_LIGHT_POINT, &u[1]);
         sampler_pair(&sampler, DRAW_EMISSION, square);
-        emission_sample(emission, lights, &scene->geo, u, square, &y0, &ray, &pdf);
+        emission_sample(emission, lights, &scene->geo, u, square, &y0, &ray, &pdf, &left_by);
         int column = emission_column_of(lights, &y0, ray.o, ray.d);
         c.collects = k < DRAWS;
         tally_note(&c, (size_t)column, axis.base[column] * table_ratio(emission, 0, column));

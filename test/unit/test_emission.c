@@ -102,7 +102,8 @@ static bool draw_ray(const struct scene *s, struct rng *r, const struct table *t
 {
     const double u[3] = {rng_uniform(r), rng_uniform(r), rng_uniform(r)};
     const double direction[2] = {rng_uniform(r), rng_uniform(r)};
-    emission_sample(table, &s->lights, &s->geo, u, direction, at, ray, pdf);
+    int column;
+    emission_sample(table, &s->lights, &s->geo, u, direction, at, ray, pdf, &column);
     return *pdf > 0;
 }
 
@@ -158,13 +159,15 @@ static void test_carried(struct test *t, const struct scene *s)
         struct light_point at;
         struct ray ray;
         double u[3], direction[2], pdf;
+        int column;
         arena_reset(&arena);
-        if (path_light(&w, path, 2) < 2)
+        if (path_light(&w, path, 2, NULL) < 2)
             continue;
         u[0] = sampler_number(&same, DRAW_LIGHT);
         sampler_pair(&same, DRAW_LIGHT_POINT, &u[1]);
         sampler_pair(&same, DRAW_EMISSION, direction);
-        double emitted = emission_sample(&known.emission, &s->lights, &s->geo, u, direction, &at, &ray, &pdf).g;
+        double emitted =
+            emission_sample(&known.emission, &s->lights, &s->geo, u, direction, &at, &ray, &pdf, &column).g;
         CHECK(t, fabs(path[1].beta.g * at.pdf * pdf / emitted - 1) < 1e-9, "%g carried, %g emitted with density %g",
               path[1].beta.g, emitted, at.pdf * pdf);
         apart += fabs(light_pdf_emission(&s->lights, &at, ray.d) / pdf - 1) > 0.01;
@@ -187,7 +190,8 @@ static void numbers_of(const struct scene *s, const struct table *table, double 
     struct light_point at;
     struct ray ray;
     double pdf;
-    emission_sample(table, &s->lights, &s->geo, u, direction, &at, &ray, &pdf);
+    int column;
+    emission_sample(table, &s->lights, &s->geo, u, direction, &at, &ray, &pdf, &column);
     light_emission_numbers(&s->lights, &at, ray.o, ray.d, out);
     *ratio = pdf / light_pdf_emission(&s->lights, &at, ray.d);
 }

@@ -49,12 +49,12 @@ static void hear(void *context, bool is_error, const char *text)
 
 static bool load(struct test *t, const char *name, struct scene *scene)
 {
-    char path[TEXT], missed[TEXT];
+    char path[TEXT], listed[TEXT], missed[TEXT];
     struct error err = {.text = ""};
     snprintf(path, sizeof path, "%s/%s", FEATURES, name);
-    struct expected expected = {t, name, fopen(path, "r")};
+    struct expected expected = {t, name, fopen(scene_path(t, path, listed), "r")};
     struct message_sink sink = {hear, &expected};
-    bool ok = CHECK(t, parse_scene(path, NULL, scene, &sink, &err), "%s", err.text);
+    bool ok = CHECK(t, parse_scene(scene_path(t, path, listed), NULL, scene, &sink, &err), "%s", err.text);
     CHECK(t, !next_warning(expected.file, missed), "%s: no warning \"%s\"", name, missed);
     if (expected.file != NULL)
         fclose(expected.file);
@@ -86,8 +86,11 @@ static int by_name(const void *a, const void *b) { return strcmp(a, b); }
 void test_features(struct test *t)
 {
     static char name[MAX_SCENES][NAME];
+    char directory[TEXT] = "";
     int n = 0;
-    DIR *d = opendir(FEATURES);
+    if (scene_path(t, "scenes/features/stage.inc", directory) == directory)
+        *strrchr(directory, '/') = '\0'; /* where the lists lie as files */
+    DIR *d = opendir(directory);
     for (struct dirent *e = d != NULL ? readdir(d) : NULL; e != NULL; e = readdir(d)) {
         size_t length = strlen(e->d_name);
         if (length > 5 && length < NAME && strcmp(e->d_name + length - 5, ".pbrt") == 0 && n < MAX_SCENES)

@@ -17,6 +17,7 @@
 
 #include "base/mem.h"
 #include "format_parts.h"
+#include "fuzz/lists.h"
 #include "parser/parse.h"
 #include "parser/scene_files.h"
 #include "parser_parts.h"
@@ -244,28 +245,21 @@ static void read_scene(struct test *t, struct page *const *page, const char *nam
     free(scene);
 }
 
-/* Each between two lines "== NAME". */
-static void read_fixtures(struct test *t, struct page *const *page)
+static void read_list(struct test *t, struct page *const *page, const char *directory, const char *name)
 {
-    char *all = text_of(t, "test/data/fixtures", "scenes.txt"), shown[64];
-    for (char *name = strstr(all, "\n== "), *next; name != NULL; name = next) {
-        next = strstr(name + 1, "\n== ");
-        snprintf(shown, sizeof shown, "%.*s", (int)strcspn(name + 4, "\n"), name + 4);
-        read_scene(t, page, shown, name, next != NULL ? (size_t)(next - name) : strlen(name));
-    }
+    char *all = text_of(t, directory, name);
+    struct list_file f;
+    for (const char *at = all; list_next(&at, &f);)
+        read_scene(t, page, f.name, f.text, f.size);
     free(all);
 }
 
 static void read_features(struct test *t, struct page *const *page)
 {
     DIR *d = opendir("scenes/features");
-    for (struct dirent *e = d != NULL ? readdir(d) : NULL; e != NULL; e = readdir(d)) {
-        if (strstr(e->d_name, ".pbrt") == NULL)
-            continue;
-        char *text = text_of(t, "scenes/features", e->d_name);
-        read_scene(t, page, e->d_name, text, strlen(text));
-        free(text);
-    }
+    for (struct dirent *e = d != NULL ? readdir(d) : NULL; e != NULL; e = readdir(d))
+        if (strstr(e->d_name, ".txt") != NULL)
+            read_list(t, page, "scenes/features", e->d_name);
     if (d != NULL)
         closedir(d);
 }
@@ -299,7 +293,7 @@ void test_format(struct test *t)
     page[1]->differs = true;
     link_parts(t);
     check_all_types(t, page[0]);
-    read_fixtures(t, page);
+    read_list(t, page, "test/data/fixtures", "scenes.txt");
     read_features(t, page);
     read_script(t, page);
     for (int i = 0; i < 2; i++) {

@@ -67,20 +67,20 @@ void test_frame(struct test *t)
         struct test_entry entry;
         bool passes;
     } cases[] = {
-        {{"fair", fair, false}, true},
-        {{"unlucky", unlucky, false}, true},
-        {{"faint", faint, false}, false},
-        {{"certain", certain, false}, false},
-        {{"not found", not_found, false}, false},
-        {{"NaN at first", nan_at_first, false}, false},
-        {{"NaN again", nan_again, false}, false},
-        {{"NaN not found", nan_not_found, false}, false},
-        {{"wrong fact", wrong_fact, false}, false},
-        {{"wrong fact again", wrong_fact_again, false}, false},
-        {{"two", two, false}, true},
-        {{"beside", beside, false}, true},
-        {{"one is missing", one_is_missing, false}, false},
-        {{"same seed", same_seed, false}, true},
+        {{"fair", fair, false, ""}, true},
+        {{"unlucky", unlucky, false, ""}, true},
+        {{"faint", faint, false, ""}, false},
+        {{"certain", certain, false, ""}, false},
+        {{"not found", not_found, false, ""}, false},
+        {{"NaN at first", nan_at_first, false, ""}, false},
+        {{"NaN again", nan_again, false, ""}, false},
+        {{"NaN not found", nan_not_found, false, ""}, false},
+        {{"wrong fact", wrong_fact, false, ""}, false},
+        {{"wrong fact again", wrong_fact_again, false, ""}, false},
+        {{"two", two, false, ""}, true},
+        {{"beside", beside, false, ""}, true},
+        {{"one is missing", one_is_missing, false, ""}, false},
+        {{"same seed", same_seed, false, ""}, true},
     };
     enum { N = sizeof cases / sizeof cases[0] };
     struct test_entry all[N];

@@ -1,5 +1,5 @@
 /* test_fuzz.c: inputs that fuzzing found worth keeping: each must be read, or refused, as its list states. Every line
- * of test/fuzz/corpus/TARGET.txt is an input. Targets, which test/fuzz/targets.h describes, end the process where they
+ * of test/fuzz/corpus.txt is an input. Targets, which test/fuzz/targets.h describes, end the process where they
  * do not: each has one of its own. */
 #define _POSIX_C_SOURCE 200809L
 #define _DARWIN_C_SOURCE /* mkdtemp, on macOS */
@@ -10,46 +10,39 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/file.h"
 #include "base/mem.h"
+#include "fuzz/lists.h"
 #include "fuzz/targets.h"
 #include "helpers.h"
 #include "suites.h"
 
 /* The inputs of a target, packed: a line each. */
 struct corpus {
-    uint8_t *text;
-    size_t size;
+    char *all;
+    struct list_file part;
     int n;
 };
 
-static struct corpus read_corpus(const char *target)
+static struct corpus read_corpus(struct test *t, const char *target)
 {
-    char path[128];
-    struct error err;
-    struct corpus c = {NULL, 0, 0};
-    snprintf(path, sizeof path, "test/fuzz/corpus/%s.txt", target);
-    if (!file_read(path, &c.text, &c.size, &err))
-        return c;
-    for (size_t i = 0; i < c.size; i++)
-        c.n += c.text[i] == '\n';
+    struct corpus c = {.all = text_of(t, "test/fuzz", "corpus.txt")};
+    const char *at = c.all;
+    while (list_next(&at, &c.part) && strcmp(c.part.name, target) != 0)
+        ;
+    for (size_t i = 0; strcmp(c.part.name, target) == 0 && i < c.part.size; i++)
+        c.n += c.part.text[i] == '\n';
     return c;
 }
 
-/* Line k: bytes as they are, or a backslash and three octal digits. To be given to free(). */
+/* Line k, packed as lists.h says. To be given to free(). */
 static uint8_t *unpack(const struct corpus *c, int k, size_t *size)
 {
-    const uint8_t *p = c->text;
-    uint8_t *out = mem_alloc(c->size, 1);
+    const char *p = c->part.text;
     for (; k > 0; k -= *p++ == '\n')
         ;
-    for (*size = 0; *p != '\n'; (*size)++)
-        if (*p == '\\') {
-            out[*size] = (uint8_t)((p[1] - '0') * 64 + (p[2] - '0') * 8 + (p[3] - '0'));
-            p += 4;
-        } else {
-            out[*size] = *p++;
-        }
+    size_t length = strcspn(p, "\n");
+    uint8_t *out = mem_alloc(length + 1, 1);
+    *size = list_bytes(p, length, out);
     return out;
 }
 
@@ -81,12 +74,12 @@ static int run_alone(const struct fuzz_target *target, const struct corpus *c, i
 /* All of them in one process, or, if that does not end well, each in its own. */
 static void replay(struct test *t, const struct fuzz_target *target, const char *directory)
 {
-    struct corpus c = read_corpus(target->name);
+    struct corpus c = read_corpus(t, target->name);
     bool ok = CHECK(t, c.n > 0, "%s: no inputs", target->name) &&
               CHECK(t, run_alone(target, &c, 0, c.n, directory) == 0, "target %s breaks a promise", target->name);
     for (int i = 0; !ok && i < c.n; i++)
         CHECK(t, run_alone(target, &c, i, i + 1, directory) == 0, "%s: input of line %d", target->name, i + 1);
-    free(c.text);
+    free(c.all);
 }
 
 static void break_promise(const uint8_t *data, size_t size, const char *directory)
@@ -99,9 +92,9 @@ void test_fuzz(struct test *t)
 {
     static const struct fuzz_target BROKEN = {"png", break_promise};
     char directory[256];
-    struct corpus c = read_corpus("png");
+    struct corpus c = read_corpus(t, "png");
     CHECK(t, run_alone(&BROKEN, &c, 0, 1, test_tmp(t)) != 0, "a target that breaks its promise is not noticed");
-    free(c.text);
+    free(c.all);
     /* Hundreds of pictures are written: in memory, where that can be had. */
     snprintf(directory, sizeof directory, "%s/fuzz-XXXXXX", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : test_tmp(t));
     if (!CHECK(t, mkdtemp(directory) != NULL, "%s cannot be made", directory))

@@ -14,19 +14,26 @@
 #include "image/image.h"
 #include "image/tone.h"
 #include "image/zlib.h"
+#include "fuzz/lists.h"
 #include "helpers.h"
 #include "suites.h"
 
-#define FIXTURES "test/data/fixtures/pictures/"
+enum { PATH = 512 };
+
+/* Where test_hdr unpacks the pictures of test/data/fixtures/pictures. */
+static const char *fixture(const struct test *t, char path[PATH], const char *name)
+{
+    snprintf(path, PATH, "%s/pictures/%s", test_tmp(t), name);
+    return path;
+}
 
 /* A fixture in memory, to be given to free(). */
 static uint8_t *load(struct test *t, const char *name, size_t *n)
 {
-    char path[128];
+    char path[PATH];
     uint8_t *data = NULL;
     struct error err = {.text = ""};
-    snprintf(path, sizeof path, "%s%s", FIXTURES, name);
-    CHECK(t, file_read(path, &data, n, &err), "%s", err.text);
+    CHECK(t, file_read(fixture(t, path, name), &data, n, &err), "%s", err.text);
     return data;
 }
 
@@ -144,7 +151,8 @@ static void test_fixtures(struct test *t)
     };
     struct image picture;
     struct error err;
-    if (!CHECK(t, image_read(FIXTURES "picture.pfm", NULL, &picture, &err), "%s", err.text))
+    char path[PATH];
+    if (!CHECK(t, image_read(fixture(t, path, "picture.pfm"), NULL, &picture, &err), "%s", err.text))
         return;
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++)
         check_fixture(t, &picture, CASES[i].name, CASES[i].content);
@@ -303,10 +311,10 @@ static void test_place(struct test *t)
     struct image img, copy;
     struct file_output file;
     struct error err = {.text = ""};
-    char path[256];
-    snprintf(path, sizeof path, "%s/place.float.exr", test_tmp(t));
-    if (!CHECK(t, image_read(FIXTURES "window.exr", NULL, &img, &err), "%s", err.text))
+    char path[PATH];
+    if (!CHECK(t, image_read(fixture(t, path, "window.exr"), NULL, &img, &err), "%s", err.text))
         return;
+    snprintf(path, sizeof path, "%s/place.float.exr", test_tmp(t));
     const struct raster raster = {img.place, img.width, img.height, img.f32, NULL, 0};
     CHECK(t, img.place.x == -7 && img.place.y == 20 && img.place.width == 100 && img.place.height == 80,
           "at %d,%d of %dx%d", img.place.x, img.place.y, img.place.width, img.place.height);
@@ -363,6 +371,9 @@ static void test_tone(struct test *t)
 
 void test_hdr(struct test *t)
 {
+    char path[PATH];
+    struct error err;
+    CHECK(t, list_unpack("test/data/fixtures/pictures", fixture(t, path, ""), &err), "%s", err.text);
     test_half(t);
     test_fixtures(t);
     test_refused(t);

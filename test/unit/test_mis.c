@@ -258,7 +258,7 @@ static void compare_paths(struct comparison *c, int n_paths)
         double raster[2];
         sampler_pair(&d, DRAW_FILM_POINT, raster);
         int n_eye = path_eye(&we, 32 * raster[0], 32 * raster[1], eye, MAX);
-        int n_light = path_light(&wl, light, MAX);
+        int n_light = path_light(&wl, light, MAX, NULL);
         for (int t = 2; t <= n_eye; t++) {
             if (t > 2)
                 compare_hit(c, eye, t);

@@ -1,67 +1,47 @@
 /* test_parser.c: scene files: every directive and type is read, every error is found at its line and column.
  *
- * test/data/fixtures/scenes.txt holds scenes, each below a line "== NAME"; a "!" behind the name leaves out the
- * scene's last newline. Every scene says in its first line what must come of it: "# expect: ok", or LINE:COL and a
- * part of the message of the first error; further lines "# also: ..." name parts of the other errors and "# warn:
- * ..." of the warnings, in order, "# has: ..." parts of what a scene holds (parser_words.c), "# mean: ..." the mean
- * of its image of 8x8 pixels, "# integrator: ..." the one that the user names, and "# row: ..." a row of a table that
- * it shows (test_format.c). Damaged scenes, which must be accepted or refused and never crash, are in test_fuzz.c.
+ * test/data/fixtures/scenes.txt is a list of scenes, as lists.h reads it. Every scene says in its first line what must
+ * come of it: "# expect: ok", or LINE:COL and a part of the message of the first error; further lines "# also: ..."
+ * name parts of the other errors and "# warn: ..." of the warnings, in order, "# has: ..." parts of what a scene holds
+ * (parser_words.c), "# mean: ..." the mean of its image of 8x8 pixels, "# integrator: ..." the one that the user names,
+ * and "# row: ..." a row of a table that it shows (test_format.c). Damaged scenes, which must be accepted or refused and never crash, are in test_fuzz.c.
  */
 #define _POSIX_C_SOURCE 200809L
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "parser/parse.h"
 #include "parser/parser.h"
 #include "parser/scene_files.h"
 #include "base/mem.h"
+#include "fuzz/lists.h"
 #include "helpers.h"
 #include "parser_parts.h"
 #include "suites.h"
 
 enum { MAX_FIXTURES = 400 };
 
-/* Scenes of scenes.txt; their files are made in the test's own directory. */
+/* Scenes; their files are made in the test's own directory. */
 struct fixtures {
-    struct fixture {
-        char name[64];
-        const char *text; /* not ended by a zero */
-        size_t size;
-    } scene[MAX_FIXTURES];
+    struct list_file scene[MAX_FIXTURES];
     int n;
     char *all, *shown; /* what the texts lie in */
 };
 
-static void add_fixture(struct fixtures *f, const char *name, const char *text, size_t size)
-{
-    struct fixture *out = &f->scene[f->n];
-    f->n += f->n + 1 < MAX_FIXTURES;
-    snprintf(out->name, sizeof out->name, "%.*s", (int)strcspn(name, "!\n"), name);
-    out->text = text;
-    out->size = size;
-}
-
 /* The scenes, and the one that doc/scene-format.md shows. */
 static void read_fixtures(struct fixtures *f)
 {
-    static const char MARK[] = "\n== ";
     struct error err;
     size_t size, shown_size = 0;
     f->all = text_read("test/data/fixtures/scenes.txt", &size, &err);
     f->shown = text_read("test/data/fixtures/errors-several.pbrt", &shown_size, &err);
     if (f->all == NULL || f->shown == NULL)
         return;
-    for (char *name = strstr(f->all, MARK), *next; name != NULL; name = next) {
-        char *text = strchr(name + 1, '\n') + 1;
-        next = strstr(text - 1, MARK);
-        const char *end = next != NULL ? next + 1 : f->all + size;
-        add_fixture(f, name + strlen(MARK), text, (size_t)(end - text) - (text[-2] == '!'));
-    }
-    add_fixture(f, "errors-several.pbrt", f->shown, shown_size);
+    for (const char *at = f->all; f->n + 1 < MAX_FIXTURES && list_next(&at, &f->scene[f->n]); f->n++)
+        ;
+    f->scene[f->n++] = (struct list_file){"errors-several.pbrt", f->shown, shown_size, false};
 }
 
 /* The file of a fixture, or of what has become of it. */
@@ -74,14 +54,14 @@ static void write_scene(struct test *t, char path[TEXT], const char *name, const
 
 void link_parts(struct test *t)
 {
-    static const char *const LINKS[][2] = {
-        {"test/data/fixtures/parts", "parts"}, {"test/data/fixtures/pictures", "pictures"}, {"scenes/features", "features"}};
-    char from[TEXT], path[TEXT];
-    for (size_t i = 0; i < sizeof LINKS / sizeof LINKS[0]; i++) {
-        size_t n = strlen(top_directory(from, sizeof from));
-        snprintf(from + n, sizeof from - n, "%s", LINKS[i][0]);
-        snprintf(path, sizeof path, "%s/%s", test_tmp(t), LINKS[i][1]);
-        CHECK(t, symlink(from, path) == 0 || errno == EEXIST, "cannot make a link %s", path);
+    static const char *const FOLDERS[][2] = {
+        {"test/data/fixtures/parts", "parts"}, {"test/data/fixtures/pictures", "pictures"},
+        {"scenes/features", "features"}};
+    char path[TEXT];
+    struct error err;
+    for (size_t i = 0; i < sizeof FOLDERS / sizeof FOLDERS[0]; i++) {
+        snprintf(path, sizeof path, "%s/%s", test_tmp(t), FOLDERS[i][1]);
+        CHECK(t, list_unpack(FOLDERS[i][0], path, &err), "%s", err.text);
     }
 }
 
@@ -165,7 +145,7 @@ static void check_mean(struct test *t, const char *name, const char *expect, str
     }
 }
 
-static void check_fixture(struct test *t, const struct fixture *f)
+static void check_fixture(struct test *t, const struct list_file *f)
 {
     char path[TEXT], expect[TEXT], integrator[TEXT], *text = mem_alloc(f->size + 1, 1);
     const char *name = f->name;

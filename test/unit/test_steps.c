@@ -53,7 +53,7 @@ static int walk(struct test *t, struct room *r, enum transport mode, uint64_t i,
     struct walk w = {&r->scene, &ALL, &r->arena, &r->sampler, threshold};
     arena_reset(&r->arena);
     r->sampler = sampler_start(test_seed(t), mode == RADIANCE ? RNG_EYE : RNG_LIGHT, 1, i);
-    return mode == RADIANCE ? path_eye(&w, (double)(i % 16) + 0.3, 8.5, path, max) : path_light(&w, path, max);
+    return mode == RADIANCE ? path_eye(&w, (double)(i % 16) + 0.3, 8.5, path, max) : path_light(&w, path, max, NULL);
 }
 
 static int walk_eye(struct test *t, struct room *r, uint64_t i, double threshold, struct vertex *path, int max)
@@ -265,7 +265,7 @@ static void joints_in_a_box(struct test *t, const char *scale)
         int n = walk_eye(t, &r, i, 0, eye, 5);
         struct sampler other = sampler_start(test_seed(t), RNG_LIGHT, 1, i);
         struct walk w = {&r.scene, &ALL, &r.arena, &other, 0};
-        int m = path_light(&w, light, 5);
+        int m = path_light(&w, light, 5, NULL);
         for (int s = 2; s <= m; s++)
             light[s - 1].beta = rgb_scale(light[s - 1].beta, i % 2 == 0 ? 1 : 1e9); /* a light of any brightness */
         for (int s = 2; s <= m; s++)

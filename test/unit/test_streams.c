@@ -168,7 +168,7 @@ static vec3 first_lit(const struct tile_pass *pass, const struct counts *counts,
 {
     struct vertex path[3];
     struct walk w = {pass->job->scene, counts, &pass->work->arena, &sampler, 0};
-    int n = path_light(&w, path, 3);
+    int n = path_light(&w, path, 3, NULL);
     return n > 1 ? path[1].p : vec(0, 0, 0);
 }
 

@@ -108,7 +108,7 @@ int primary_eye(struct primary *p, int n, double *px, double *py)
 int primary_light(struct primary *p, int n)
 {
     struct walk w = primary_walk(p, LIGHT_NUMBERS);
-    return path_light(&w, p->chain->light, n);
+    return path_light(&w, p->chain->light, n, NULL);
 }
 
 struct connection primary_lens(struct primary *p, const struct vertex *y, struct strategy *of)

@@ -170,7 +170,7 @@ static void trace_light(struct trainer *r, int i, const struct tree_node *tree, 
     struct sampler sampler;
     const struct walk w = begin_walk(r, i, IMPORTANCE, &sampler);
     struct vertex *light = arena_alloc(&r->work->arena, ((size_t)r->job->max_depth + 1) * sizeof *light);
-    int n = path_light(&w, light, r->job->max_depth + 1);
+    int n = path_light(&w, light, r->job->max_depth + 1, NULL);
     for (const struct vertex *y = light + 1; y < light + n; y++)
         if (vertex_connectible(y))
             vertices[tree_find(tree, place_of(y))]++;

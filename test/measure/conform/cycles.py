@@ -1,4 +1,4 @@
-# cycles.py: a scene of the kit in Blender; cycles.sh calls it with its name, samples, seed and the picture's file.
+# cycles.py: a scene of the kit in Blender; kit.sh calls it with its name, samples, seed and the picture's file.
 # The numbers are those of scenes/conform. x is negated, for Blender sees a right-handed world; corners are reversed.
 import math, sys
 import bpy

@@ -12,7 +12,7 @@ trap 'rm -rf "$work"' EXIT
 alarms() {
     for i in $(seq "$1"); do
         method=$([ $((i % 2)) = 0 ] && echo bdpt || echo asbdpt)
-        SEED=$((100000 + 8 * i)) sh test/measure/conform/ours.sh "$work/run" "$method" 8 "$2"
+        SEED=$((100000 + 8 * i)) sh test/measure/conform/kit.sh ours "$work/run" "$method" 8 "$2"
         rm -rf "$work/run"
     done >"$work/said"
     awk '/DIFFERS$/ { print; n += !alarm; alarm = 1 } /^[0-9]+ scenes:/ { runs++; doubt += $8; alarm = 0 }
@@ -29,7 +29,8 @@ power() {
         sh test/data/mutants/apply.sh "$work/list.txt" "$name" "$work/tree" || exit 1
         make -s -j2 -C "$work/tree" LTO= CFLAGS="-DFAULT=$1" asbdpt-lab >"$work/said" 2>&1 || exit 1
         awk -v name="$name" '$1 == name { $1 = $2 = $3 = ""; print "==", $0 }' "$work/list.txt"
-        PROGRAM=$work/tree/asbdpt-lab sh test/measure/conform/ours.sh "$work/$name" bdpt 8 "$2" | grep -E 'DIFFERS|scenes'
+        PROGRAM=$work/tree/asbdpt-lab sh test/measure/conform/kit.sh ours "$work/$name" bdpt 8 "$2" |
+            grep -E 'DIFFERS|scenes'
     done
 }
 case ${1-} in

@@ -1,4 +1,4 @@
-# runs.awk, after better.awk: reads runs as doc/measured/NAME.csv has them, and compares methods by them. What a run
+# runs.awk, after better.awk: reads the runs of an entry, NAME.csv, and compares methods by them. What a run
 # costs is its squared error times the CPU seconds that it took, so that methods need not have taken the same time. A
 # group of runs is NAME.HALF, of the file and of the column half ("both" is choice and services; "all" without one) or
 # part. With -v missing=FILE its section unknown is read, lines "SCENE METHOD MEASURE": squared errors that no number

@@ -10,8 +10,9 @@ set -e
 render() { ./asbdpt-lab render "$@" -j1 --quiet; }
 
 caustics() {
+    sh scenes/unpack.sh scenes/test/caustics.txt "$dir/scenes"
     while read -r name res spp; do
-        ./asbdpt-lab equal-time "scenes/test/caustic-$name.pbrt" -o "$dir/$name" --spp "$spp" --seeds 5 --res "$res" \
+        ./asbdpt-lab equal-time "$dir/scenes/caustic-$name.pbrt" -o "$dir/$name" --spp "$spp" --seeds 5 --res "$res" \
             -j1 --quiet --methods bdpt,caustics,asbdpt,caustics:with=asbdpt >"$dir/$name.txt"
     done <<SCENES
 ball 36x36 128
