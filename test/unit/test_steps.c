@@ -297,7 +297,7 @@ static void blocked(struct test *t, struct room *r)
         int n = walk_eye(t, r, i, 0, eye, 5);
         struct sampler other = sampler_start(test_seed(t), RNG_LIGHT, 1, i);
         struct walk w = {&r->scene, &ALL, &r->arena, &other, 0};
-        int m = path_light(&w, light, 5);
+        int m = path_light(&w, light, 5, NULL);
         for (int s = 2; s <= m; s++)
             for (int k = 2; k <= n; k++) {
                 const struct vertex *y = &light[s - 1], *z = &eye[k - 1];
