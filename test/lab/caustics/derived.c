@@ -31,7 +31,7 @@ double subpath_length(const struct scene *scene, const struct vertex *path, int 
 
 double path_length(const struct scene *scene, const struct joined *j)
 {
-    if (j->t > 1 && j->z == NULL)
+    if ((j->t > 1 && j->z == NULL) || (j->s > 0 && j->light == NULL))
         return NAN;
     double light = j->s > 1 ? subpath_length(scene, j->light, j->s) : 0;
     if (j->t == 1)

@@ -18,7 +18,7 @@
 double light_distance(const struct light_set *set, vec3 p, vec3 w);
 
 /* subpath_length: of the n >= 1 vertices of a sub-path, the first being on the lens or on a light.
- * path_length: of a path that was tried; NaN if its eye vertices are not told. */
+ * path_length: of a path that was tried; NaN if its eye vertices are not told, or if it has no light point. */
 double subpath_length(const struct scene *scene, const struct vertex *path, int n);
 double path_length(const struct scene *scene, const struct joined *j);
 
