@@ -106,7 +106,8 @@ mkdir "$work/src"
 for folder in material parser geometry image; do
     mkdir "$work/src/$folder"
     for file in src/$folder/*.[ch]; do
-        sed -e 's/LOBE_OREN_NAYAR,/LOBE_PLANTED,/' -e 's/form_coat = {/form_planted = {/' -e 's/&material_disney,/\&material_planted,/' \
+        sed -e 's/LOBE_OREN_NAYAR,/LOBE_PLANTED,/' -e 's/form_coat = {/form_planted = {/' \
+            -e 's/&material_disney,/\&material_planted,/' \
             -e 's/{"spot", SPOT/{"planted", SPOT/' \
             -e 's/{"bilerp", BILERP, TEXTURE_BILERP/{"planted", P, TEXTURE_PLANTED/' \
             -e 's/&shape_curve,/\&shape_planted,/' -e 's/{"sinc", SINC/{"planted", SINC/' \

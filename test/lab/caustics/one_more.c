@@ -136,7 +136,7 @@ static void render_pixel(const struct prepared *p, const struct one_more *more, 
     for (int t = 2; t <= n && each > 0; t++)
         if (shared)
             join(p, index, &sample, &eye[t - 1], t);
-        else if (p->numbers.draws[FIRST_HIT] > 0)
+        else if (p->numbers.draws[FIRST_HIT] > 0 && vertex_connectible(&eye[t - 1]))
             sample_pairs(&sample, &(struct drawn){pool_path(pool, 0), 1, pool->length[0], 1}, &eye[t - 1], t, 1);
     if (each > 0 && number % each == 0) {
         k = number / each;

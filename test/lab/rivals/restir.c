@@ -101,7 +101,8 @@ static void join_own(const struct prepared *p, struct pixel *pixel)
     struct vertex *light = arena_alloc(arena, ((size_t)pass->job->max_depth + 1) * sizeof *light);
     int n = sample_light_path(pass, &p->counts, sample->x, sample->y, (uint64_t)sample->iteration, arena, light);
     for (int t = 2; t <= pixel->n; t++)
-        sample_pairs(sample, &(struct drawn){light, 1, n, 1}, &pixel->eye[t - 1], t, 1);
+        if (vertex_connectible(&pixel->eye[t - 1]))
+            sample_pairs(sample, &(struct drawn){light, 1, n, 1}, &pixel->eye[t - 1], t, 1);
     sample_lens(sample, light, n, 1);
 }
 
