@@ -3,12 +3,27 @@
 
 /* --- the pool ---------------------------------------------------------------------------------------- */
 
+/* Of every so many iterations one is drawn. Were it always the same one, its eye sub-paths would never leave a part of
+ * the pixel, for those are points of nets (sampler.h). */
+bool loop_turn(const struct prepared *p, const struct tile_pass *pass, enum eye_end end, long iteration)
+{
+    const int *first = pass->tile->pixel[0], every = numbers_every(&p->numbers, end);
+    struct sampler sampler = sample_stream(pass, RNG_TURN, first[0], first[1], (uint64_t)(iteration / every));
+    return every == 1 || iteration % every == (long)(sampler_number(&sampler, DRAW_ORDER) * every);
+}
+
+/* Light sub-paths are numbered by their turns: every so-many-th point of a net is no net. */
+static uint64_t number_of_turn(const struct prepared *p, long iteration)
+{
+    return (uint64_t)(iteration / numbers_every(&p->numbers, FIRST_HIT));
+}
+
 /* Trace the light sub-path of pixel (x,y). */
 static void add_light_path(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration)
 {
     struct pool *pool = &pass->work->pool;
     struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
-    pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, &pool->arena, path));
+    pool_add(pool, sample_light_path(pass, &p->counts, x, y, number_of_turn(p, iteration), &pool->arena, path));
 }
 
 void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration)
@@ -48,7 +63,7 @@ int loop_begin(const struct prepared *p, const struct tile_pass *pass, int x, in
     bool pairs = p->numbers.path_pixels > 0 && p->method->draw != NULL;
     *sample = sample_begin(pass, &p->counts, p->numbers.light_points, x, y, iteration);
     if (p->method->build != NULL)
-        sample->choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
+        sample->choice = sample_stream(pass, RNG_SELECT, x, y, number_of_turn(p, iteration));
     return sample_eye_path(sample, eye, p->numbers.light_points > 0 || pairs ? pass->job->max_depth + 2 : 2);
 }
 
@@ -64,11 +79,11 @@ void loop_eye(struct sample *sample, const struct vertex *eye, int n)
 static void join(const struct prepared *p, const struct index *index, struct sample *sample, int number,
                  const struct vertex *z, int t)
 {
-    int C = p->numbers.draws[z->eye_end];
+    int C = p->numbers.draws[z->eye_end], every = numbers_every(&p->numbers, z->eye_end);
     for (int i = 0; i < C && vertex_connectible(z); i++) {
         struct drawn drawn;
         if (p->method->draw(p, index, sample, number, z, i, C, &drawn))
-            sample_pairs(sample, &drawn, z, t, 1.0 / (C * sample->pass->work->pool.n) / drawn.pmf);
+            sample_pairs(sample, &drawn, z, t, every * 1.0 / (C * sample->pass->work->pool.n) / drawn.pmf);
     }
 }
 
@@ -80,8 +95,10 @@ void loop_join(const struct prepared *p, const struct index *index, struct sampl
         add_light_path(p, sample->pass, sample->x, sample->y, sample->iteration);
     }
     int most = sample->pass->job->max_depth;
+    bool later = loop_turn(p, sample->pass, LATER_HIT, sample->iteration);
     for (int t = 2; t <= n && t <= most && p->numbers.path_pixels > 0 && p->method->draw != NULL; t++)
-        join(p, index, sample, number, &eye[t - 1], t);
+        if (later || eye[t - 1].eye_end == FIRST_HIT)
+            join(p, index, sample, number, &eye[t - 1], t);
 }
 
 /* The weights count one sub-path per path_pixels pixels of the film. A tile has K, which is rounded up: `scale` makes
@@ -102,7 +119,8 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass)
 {
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         const struct index *index = NULL;
-        if (p->numbers.path_pixels > 0 && p->method->build != NULL) {
+        bool turn = loop_turn(p, pass, FIRST_HIT, iteration);
+        if (turn && p->numbers.path_pixels > 0 && p->method->build != NULL) {
             loop_fill(p, pass, iteration);
             index = p->method->build(p, pass, iteration);
         }
@@ -111,8 +129,10 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass)
             arena_reset(&pass->work->arena);
             int n = loop_begin(p, pass, x, y, iteration, &sample, pass->work->eye);
             loop_eye(&sample, pass->work->eye, n);
-            loop_join(p, index, &sample, i, pass->work->eye, n);
-            loop_splat(p, &sample, i);
+            if (turn) {
+                loop_join(p, index, &sample, i, pass->work->eye, n);
+                loop_splat(p, &sample, i);
+            }
             sample_end(&sample);
         }
     }

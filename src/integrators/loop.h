@@ -24,12 +24,14 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass);
 
 /* Its steps, for methods whose loop differs in one of them.
  *
+ *   loop_turn   does the iteration have draws of such eye vertices? Of first hits: does it have light sub-paths?
  *   loop_fill   trace the light sub-paths of an iteration into the workspace's pool
  *   loop_begin  begin a sample and trace its eye sub-path into eye [max_depth + 2]; returns the number of vertices
  *   loop_eye    add s = 0 and s = 1 for all vertices of the eye sub-path
  *   loop_join   if no light sub-paths are shared, trace that of the pixel; add what the eye vertices draw
  *   loop_splat  connect to the lens the light sub-path of the tile's pixel of this number, if it has one
  */
+bool loop_turn(const struct prepared *p, const struct tile_pass *pass, enum eye_end end, long iteration);
 void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration);
 int loop_begin(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration,
                struct sample *sample, struct vertex *eye);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 const char *const OFF_ON[] = {"off", "on", NULL};
+const char *const RACES[] = {"off", "on", "all", "quarter", "quarter_first", "path_tracer", NULL};
 
 const struct field *method_has(const struct method *m, const char *name)
 {

@@ -10,85 +10,95 @@
 static const double BOUND = 0.25; /* M of counts.h for each light sub-path of a full tile */
 enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
 
-void method_counts(const struct render_job *job, struct prepared *p, bool credits)
+void method_counts(const struct render_job *job, struct prepared *p)
 {
     const struct parameters *q = &p->parameters;
     double M = BOUND * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
-    p->counts = counts_of(p->numbers, credits && q->credits ? DIRECT_CREDIT : 1, q->credits ? PAIR_CREDIT : 1,
+    int every = numbers_every(&p->numbers, FIRST_HIT);
+    p->counts = counts_of(p->numbers, q->credits ? DIRECT_CREDIT * every : 1, q->credits ? PAIR_CREDIT : 1,
                           (double)rect_pixels(job->film_rect), p->tables);
     p->counts.power = job->power_heuristic;
     for (int end = 0; end < EYE_ENDS; end++) {
         p->counts.pair[end] *= p->draw[end];
-        p->counts.again[end] = q->bound ? p->counts.pair[end] / M : 0;
+        p->counts.again[end] = q->bound ? p->counts.pair[end] * numbers_every(&p->numbers, (enum eye_end)end) / M : 0;
     }
 }
 
-/* A path tracer needs no table but that of direct light, and a plain one not even this. */
-static void become_path_tracer(struct prepared *p, bool plain)
-{
-    struct tables kept = NO_TABLES, *t = p->tables;
-    if (!plain && t->direct.rows > 0) {
-        kept.regions = t->regions;
-        kept.direct = t->direct;
-        t->regions = NO_TABLES.regions;
-        t->direct = NO_TABLES.direct;
-    }
-    tables_free(t);
-    *t = kept;
-    p->size.tile = DEFAULT_TILE_SIZE; /* pixels share no sub-paths */
-    p->size.spread = 1;
-    p->numbers.draws[FIRST_HIT] = p->numbers.draws[LATER_HIT] = 0;
-}
-
-static void learn_tables(const struct render_job *job, struct prepared *p)
+/* direct: of what s = 1 needs alone. */
+static void learn_tables(const struct render_job *job, struct prepared *p, bool direct)
 {
     const struct parameters *q = &p->parameters;
     const struct learn_options options = {
-        .use = p->method->learns_use || q->emission < 1, .pairs = p->method->learns_pairs,
+        .use = !direct && (p->method->learns_use || q->emission < 1), .pairs = !direct && p->method->learns_pairs,
         .direct = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
-        .emission = q->emission, .delta = q->delta, .count = p->method->single};
+        .emission = q->emission, .delta = q->delta, .count = !direct && p->method->single};
     if (options.use || options.pairs || options.direct || options.count)
         learn(job, &options, p->tables);
 }
 
+/* What follows from what was learnt. */
+static void settle(const struct render_job *job, struct prepared *p)
+{
+    for (int end = 0; end < EYE_ENDS; end++) /* of single vertices, a draw is one of so many of a light sub-path */
+        p->draw[end] = p->method->single && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
+    if (p->method->prepare != NULL)
+        p->method->prepare(job, p);
+    method_counts(job, p);
+}
+
+/* Learn and race. Where there is much to learn, a first race finds out whether it may pay. */
+static void choose(const struct render_job *job, struct prepared *p)
+{
+    int asked = p->numbers.path_pixels > 0 ? p->parameters.race : RACE_OFF;
+    p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
+    if (asked == RACE_ON && p->method->learns_pairs) {
+        learn_tables(job, p, true);
+        settle(job, p);
+        race_begin(job->scene, p);
+        if (race_early(job, p))
+            return;
+        tables_free(p->tables);
+        *p->tables = NO_TABLES;
+    }
+    learn_tables(job, p, p->winner == RUNNER_PATH_TRACER && p->method->learns_pairs);
+    settle(job, p);
+    race_begin(job->scene, p);
+    if (asked == RACE_ON)
+        race(job, p);
+}
+
 void method_prepare(const struct render_job *job, struct prepared *p)
 {
-    const struct method *m = p->method;
-    bool plain = false;
     p->numbers = p->parameters.numbers;
-    p->size = (struct pass_size){0, p->parameters.tile, p->parameters.spread};
-    p->tables = mem_alloc(1, sizeof *p->tables);
-    learn_tables(job, p);
     if (p->numbers.draws[LATER_HIT] < 0)
         p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
-    for (int end = 0; end < EYE_ENDS; end++) /* of single vertices, a draw is one of so many of a light sub-path */
-        p->draw[end] = m->single && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
-    if (m->prepare != NULL)
-        m->prepare(job, p);
-    method_counts(job, p, true);
-    if (p->parameters.race && p->numbers.path_pixels > 0) {
-        race(job, p);
-        p->numbers = p->runner[p->winner].numbers;
-        plain = p->runner[p->winner].plain;
-    }
-    if (m->draw != NULL && p->numbers.path_pixels == 0)
-        become_path_tracer(p, plain);
-    method_counts(job, p, !plain);
+    p->size = (struct pass_size){0, p->parameters.tile, p->parameters.spread};
+    p->tables = mem_alloc(1, sizeof *p->tables);
+    *p->tables = NO_TABLES;
+    choose(job, p);
+    p->numbers = p->runner[p->winner].numbers;
+    if (p->method->draw != NULL && p->numbers.path_pixels == 0) /* pixels share no sub-paths */
+        p->size = (struct pass_size){p->size.block, DEFAULT_TILE_SIZE, 1};
+    method_counts(job, p);
 }
 
 void method_numbers(const struct prepared *p, struct method_number out[METHOD_NUMBERS])
 {
+    static const char *const NAMES[RUNNERS] = {"race_all", "race_quarter", "race_quarter_first", "race_path_tracer"};
+    const struct numbers *n = &p->numbers;
     const struct runner *winner = &p->runner[p->winner];
     const struct method_number numbers[] = {
-        {"draws_first_hit", p->numbers.draws[FIRST_HIT]}, {"draws_after", p->numbers.draws[LATER_HIT]},
-        {"light_points_first_hit", p->numbers.light_points}, {"pixels_per_light_path", p->numbers.path_pixels},
+        {"draws_first_hit", n->draws[FIRST_HIT]}, {"draws_after", n->draws[LATER_HIT]},
+        {"light_points_first_hit", n->light_points}, {"pixels_per_light_path", n->path_pixels},
+        {"iterations_per_light_path", numbers_every(n, FIRST_HIT)}, {"iterations_per_draw_after", numbers_every(n, LATER_HIT)},
         {"regions", p->tables->regions.n}};
-    enum { N = sizeof numbers / sizeof *numbers };
+    int used = (int)(sizeof numbers / sizeof *numbers);
     memset(out, 0, METHOD_NUMBERS * sizeof *out); /* a NULL name ends the list */
     memcpy(out, numbers, sizeof numbers);
-    for (int i = 0; i < p->n_runners && winner->price > 0; i++)
-        out[N + i] = (struct method_number){p->runner[i].name, p->runner[i].variance * p->runner[i].price /
-                                                                 (winner->variance * winner->price)};
+    for (int i = 0; i < RUNNERS; i++)
+        if (p->runner[i].price > 0)
+            out[used++] = (struct method_number){NAMES[i], p->runner[i].variance * p->runner[i].price /
+                                                               (winner->variance * winner->price)};
 }
 
 void method_release(struct prepared *p)

@@ -24,6 +24,6 @@ struct method_number {
 void method_numbers(const struct prepared *p, struct method_number out[METHOD_NUMBERS]);
 
 /* method_counts: p->counts, of p->numbers and p->tables. */
-void method_counts(const struct render_job *job, struct prepared *p, bool credits);
+void method_counts(const struct render_job *job, struct prepared *p);
 
 #endif

@@ -220,7 +220,7 @@ static void prepare(const struct render_job *job, struct prepared *p)
     struct spcbpt *own = p->own;
     double pixels = (double)rect_pixels(job->film_rect), K = fmin(sqr(p->size.tile), pixels) / p->numbers.path_pixels;
     int n = int_within(own->training * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT;
-    method_counts(job, p, true);
+    method_counts(job, p);
     struct counts counts = p->counts;
     counts.power = false;
     struct trainer r = {job, &counts, workspaces_new(1, job->max_depth), patience_begin(job), 0, {.n = 0}};
