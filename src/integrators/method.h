@@ -137,4 +137,8 @@ const struct field *method_has(const struct method *m, const char *name);
  * method_release (prepare.h) must follow. */
 bool method_read(const struct method *m, const struct scene *scene, struct prepared *p, struct error *err);
 
+/* method_counts: p->counts, of p->numbers, p->draw and p->tables. Direct light has the more credit the rarer light
+ * sub-paths are: rare splats of it would be noise. */
+void method_counts(const struct render_job *job, struct prepared *p);
+
 #endif

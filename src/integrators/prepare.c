@@ -7,38 +7,22 @@
 #include "integrators/race.h"
 #include "learning/learn.h"
 
-static const double BOUND = 0.25; /* M of counts.h for each light sub-path of a full tile */
 enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
 
-void method_counts(const struct render_job *job, struct prepared *p)
+/* What a runner needs. A path tracer of a method that learns much has few light sub-paths, and learns less from fewer. */
+static void learn_for(const struct render_job *job, struct prepared *p, int runner)
 {
     const struct parameters *q = &p->parameters;
-    double M = BOUND * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
-    int every = numbers_every(&p->numbers, FIRST_HIT);
-    p->counts = counts_of(p->numbers, q->credits ? DIRECT_CREDIT * every : 1, q->credits ? PAIR_CREDIT : 1,
-                          (double)rect_pixels(job->film_rect), p->tables);
-    p->counts.power = job->power_heuristic;
-    for (int end = 0; end < EYE_ENDS; end++) {
-        p->counts.pair[end] *= p->draw[end];
-        p->counts.again[end] = q->bound ? p->counts.pair[end] * numbers_every(&p->numbers, (enum eye_end)end) / M : 0;
-    }
-}
-
-/* direct: of what s = 1 needs alone. */
-static void learn_tables(const struct render_job *job, struct prepared *p, bool direct)
-{
-    const struct parameters *q = &p->parameters;
+    bool few = runner == RUNNER_PATH_TRACER && p->method->learns_pairs;
+    bool light = !few || p->runner[runner].numbers.path_pixels > 0;
     const struct learn_options options = {
-        .use = !direct && (p->method->learns_use || q->emission < 1), .pairs = !direct && p->method->learns_pairs,
+        .use = light && (p->method->learns_use || q->emission < 1), .pairs = !few && p->method->learns_pairs,
         .direct = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
-        .emission = q->emission, .delta = q->delta, .count = !direct && p->method->single};
+        .emission = q->emission, .delta = q->delta, .count = light && p->method->single, .few = few};
+    tables_free(p->tables);
+    *p->tables = NO_TABLES;
     if (options.use || options.pairs || options.direct || options.count)
         learn(job, &options, p->tables);
-}
-
-/* What follows from what was learnt. */
-static void settle(const struct render_job *job, struct prepared *p)
-{
     for (int end = 0; end < EYE_ENDS; end++) /* of single vertices, a draw is one of so many of a light sub-path */
         p->draw[end] = p->method->single && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
     if (p->method->prepare != NULL)
@@ -46,23 +30,20 @@ static void settle(const struct render_job *job, struct prepared *p)
     method_counts(job, p);
 }
 
-/* Learn and race. Where there is much to learn, a first race finds out whether it may pay. */
-static void choose(const struct render_job *job, struct prepared *p)
+/* Where there is much to learn, a first race finds out whether it may pay. */
+static void learn_and_race(const struct render_job *job, struct prepared *p)
 {
-    int asked = p->numbers.path_pixels > 0 ? p->parameters.race : RACE_OFF;
-    p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
+    bool small = rect_pixels(job->film_rect) < RACE_LEAST_PIXELS;
+    int asked = p->numbers.path_pixels == 0 || (small && p->parameters.race == RACE_ON) ? RACE_OFF : p->parameters.race;
+    race_begin(job->scene, p);
     if (asked == RACE_ON && p->method->learns_pairs) {
-        learn_tables(job, p, true);
-        settle(job, p);
-        race_begin(job->scene, p);
+        learn_for(job, p, RUNNER_PATH_TRACER);
         if (race_early(job, p))
             return;
-        tables_free(p->tables);
-        *p->tables = NO_TABLES;
     }
-    learn_tables(job, p, p->winner == RUNNER_PATH_TRACER && p->method->learns_pairs);
-    settle(job, p);
-    race_begin(job->scene, p);
+    p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
+    learn_for(job, p, p->winner);
+    race_begin(job->scene, p); /* `prepare` may have changed the numbers */
     if (asked == RACE_ON)
         race(job, p);
 }
@@ -74,8 +55,7 @@ void method_prepare(const struct render_job *job, struct prepared *p)
         p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
     p->size = (struct pass_size){0, p->parameters.tile, p->parameters.spread};
     p->tables = mem_alloc(1, sizeof *p->tables);
-    *p->tables = NO_TABLES;
-    choose(job, p);
+    learn_and_race(job, p);
     p->numbers = p->runner[p->winner].numbers;
     if (p->method->draw != NULL && p->numbers.path_pixels == 0) /* pixels share no sub-paths */
         p->size = (struct pass_size){p->size.block, DEFAULT_TILE_SIZE, 1};
@@ -87,11 +67,12 @@ void method_numbers(const struct prepared *p, struct method_number out[METHOD_NU
     static const char *const NAMES[RUNNERS] = {"race_all", "race_quarter", "race_quarter_first", "race_path_tracer"};
     const struct numbers *n = &p->numbers;
     const struct runner *winner = &p->runner[p->winner];
+    int draws = n->path_pixels > 0;
     const struct method_number numbers[] = {
-        {"draws_first_hit", n->draws[FIRST_HIT]}, {"draws_after", n->draws[LATER_HIT]},
+        {"draws_first_hit", draws * n->draws[FIRST_HIT]}, {"draws_after", draws * n->draws[LATER_HIT]},
         {"light_points_first_hit", n->light_points}, {"pixels_per_light_path", n->path_pixels},
-        {"iterations_per_light_path", numbers_every(n, FIRST_HIT)}, {"iterations_per_draw_after", numbers_every(n, LATER_HIT)},
-        {"regions", p->tables->regions.n}};
+        {"iterations_per_light_path", numbers_every(n, FIRST_HIT)},
+        {"iterations_per_draw_after", numbers_every(n, LATER_HIT)}, {"regions", p->tables->regions.n}};
     int used = (int)(sizeof numbers / sizeof *numbers);
     memset(out, 0, METHOD_NUMBERS * sizeof *out); /* a NULL name ends the list */
     memcpy(out, numbers, sizeof numbers);

@@ -5,10 +5,9 @@
 
 #include "base/number.h"
 #include "base/parallel.h"
-#include "integrators/prepare.h"
 #include "learning/patience.h"
 
-enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32 }; /* a pixel of RARE, SIDE x SIDE at most */
+enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32 }; /* a pixel of SIDE, SIDE x SIDE at most */
 static const double FIREFLY = 11;
 
 /* Prices, fitted to CPU times; only their ratios count. That of a light vertex includes its splat. */
@@ -90,7 +89,7 @@ static void start_lap(const struct render_job *job, const struct prepared *p, co
                       struct patience *patience, struct lap *l)
 {
     struct pixel_rect film = job->film_rect;
-    int side = int_within(sqrt((double)rect_pixels(film) / RARE), 1, SIDE);
+    int side = int_within(sqrt((double)rect_pixels(film) / SIDE), 1, SIDE);
     *l = (struct lap){.job = *job, .by = *p, .patience = patience};
     l->pixels = (struct tile_pixels){film, (rect_width(film) + side - 1) / side, (rect_height(film) + side - 1) / side,
                                      0, 0};

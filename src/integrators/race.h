@@ -4,7 +4,7 @@
  * runner makes at least one RARE-th as often, in one of RARE iterations of a tile. Only where no lobe is sharp the path
  * tracer has no light sub-paths at all.
  *
- * The race minimises the variance of a sample times its price. Each runner takes SAMPLES samples of some pixels twice,
+ * The race minimises the variance of a sample times its price [Grittmann 2022]. Each runner takes SAMPLES samples of some pixels twice,
  * with random numbers that the render does not use. A pixel is one of a cell of pixels, and splats anywhere in the cell
  * count as its own. The variance is the squared difference of the two, plus the squares of what is made in one of k
  * iterations, times k: that is sampled in every iteration, but weighed as in the render. Both are relative to the
@@ -20,6 +20,8 @@
 #define ASBDPT_RACE_H
 
 #include "integrators/method.h"
+
+enum { RACE_LEAST_PIXELS = 32 * 32 }; /* a smaller picture is rendered by the first: too few pixels show anything */
 
 /* What each runner is for users, by enum runner_name. */
 extern const char *const runner_helps[RUNNERS];

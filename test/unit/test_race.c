@@ -6,6 +6,9 @@
 
 #include "bench.h"
 #include "helpers.h"
+#include "integrators/loop.h"
+#include "lab/stats.h"
+#include "lab/verify.h"
 #include "suites.h"
 
 /* A floor that a point light shines on, the eye above it; something small of the given material out of sight. */
@@ -36,7 +39,7 @@ static bool settle(struct test *t, const struct scene *scene, struct settled *ou
         return false;
     const struct tables *known = b.prepared.tables;
     *out = (struct settled){.winner = b.prepared.winner, .numbers = b.prepared.numbers, .counts = b.prepared.counts};
-    out->learnt = known->pairs.rows > 0 || known->emission.rows > 0;
+    out->learnt = known->pairs.rows > 0;
     memcpy(out->runner, b.prepared.runner, sizeof out->runner);
     bench_free(&b);
     return true;
@@ -57,9 +60,12 @@ static void test_where_they_pay(struct test *t)
     static const char *const scenes[] = {"scenes/cornell-box.pbrt", "scenes/bathroom.pbrt", "scenes/corridor.pbrt"};
     struct settled s;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++)
-        if (settle_file(t, scenes[i], &s))
-            CHECK(t, s.numbers.path_pixels > 0 && s.counts.pair[FIRST_HIT] > 0 && s.counts.lens > 0,
-                  "%s has no light sub-paths", scenes[i]);
+        if (settle_file(t, scenes[i], &s)) {
+            double cheaper = s.runner[RUNNER_QUARTER].price / s.runner[RUNNER_ALL].price;
+            CHECK(t, s.winner != RUNNER_PATH_TRACER && s.counts.pair[FIRST_HIT] > 0 && s.counts.lens > 0,
+                  "%s: a path tracer renders", scenes[i]);
+            CHECK(t, cheaper < 0.9, "%s: a quarter of the light sub-paths costs %.3f times as much", scenes[i], cheaper);
+        }
 }
 
 /* Under an open sky a path tracer wins before anything is learnt about light sub-paths. */
@@ -103,6 +109,8 @@ static void test_nothing_is_given_up(struct test *t)
             CHECK(t, without ? least == 0 : least >= 1.0 / 32, "a point light beside %s: %s makes some paths %g times "
                   "as often as the first runner", materials[i], RACES[RACE_RUNNERS + k], least);
         }
+        CHECK(t, s.runner[RUNNER_QUARTER].numbers.path_pixels == 4 && s.runner[RUNNER_QUARTER_FIRST].numbers.path_pixels == 4,
+              "a quarter is none");
         if (i == 0)
             CHECK(t, s.winner == RUNNER_PATH_TRACER && !s.learnt && s.counts.lens == 0 &&
                   s.counts.pair[FIRST_HIT] == 0 && s.counts.pair[LATER_HIT] == 0 && s.counts.hit[LATER_HIT] == 1,
@@ -146,6 +154,124 @@ static void test_lamp_alone(struct test *t)
     scene_free(&scene);
 }
 
+/* Of every 16 iterations of a tile one has light sub-paths, each as often, in another order in every tile. */
+static void test_turns(struct test *t)
+{
+    enum { EVERY = 16, BLOCKS = 400, TILES = 2 };
+    struct scene scene;
+    struct bench b;
+    double count[EVERY] = {0}, even[EVERY];
+    int same = 0, last[TILES] = {0, 0};
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 32, 32, &scene))
+        return;
+    if (bench_new(t, &scene, set_method(&scene, "asbdpt race=off"), 5, 0, &b)) {
+        struct tile_pass pass = bench_pass(&b, 0, 1);
+        b.prepared.numbers.every[FIRST_HIT] = b.prepared.numbers.every[LATER_HIT] = EVERY;
+        for (long i = 0; i < BLOCKS * EVERY; i++)
+            for (int tile = 0; tile < TILES; tile++) {
+                pass.tile->pixel[0][0] = tile;
+                bool turn = loop_turn(&b.prepared, &pass, FIRST_HIT, i);
+                CHECK(t, turn == loop_turn(&b.prepared, &pass, LATER_HIT, i), "draws without light sub-paths");
+                count[i % EVERY] += turn;
+                last[tile] = turn ? (int)(i % EVERY) : last[tile];
+                if (i % EVERY == EVERY - 1 && tile == TILES - 1)
+                    same += last[0] == last[1];
+            }
+        double all = 0;
+        for (int i = 0; i < EVERY; i++) {
+            all += count[i];
+            even[i] = (double)TILES * BLOCKS / EVERY;
+        }
+        CHECK(t, all == TILES * BLOCKS, "%g turns of %d", all, TILES * BLOCKS);
+        CHECK(t, same < BLOCKS / 4, "two tiles have the same turn in %d of %d blocks", same, BLOCKS);
+        TEST_ACCEPT(t, stats_chi2_test(count, even, EVERY), "turns");
+        bench_free(&b);
+    }
+    scene_free(&scene);
+}
+
+/* The light sub-paths of turn n are those that iteration n would have had. */
+static void test_streams_of_turns(struct test *t)
+{
+    struct scene scene;
+    struct bench b;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 8, 8, &scene))
+        return;
+    if (bench_new(t, &scene, set_method(&scene, "asbdpt race=off"), 5, 0, &b)) {
+        struct tile_pass pass = bench_pass(&b, 0, 1);
+        const struct pool *pool = &b.work->pool;
+        loop_fill(&b.prepared, &pass, 3);
+        int n = pool->n;
+        vec3 p = pool_path(pool, 5)[0].p, last = pool_path(pool, n - 1)[0].p;
+        b.prepared.numbers.every[FIRST_HIT] = b.prepared.numbers.every[LATER_HIT] = 16;
+        loop_fill(&b.prepared, &pass, 3 * 16 + 11);
+        CHECK(t, pool->n == n && length(sub(p, pool_path(pool, 5)[0].p)) == 0 &&
+              length(sub(last, pool_path(pool, n - 1)[0].p)) == 0, "the fourth turn of 16 is no fourth point");
+        bench_free(&b);
+    }
+    scene_free(&scene);
+}
+
+/* Light that a path tracer misses, or nearly: of the sun on a bent strip of mirror, and of a small lamp in a glass ball,
+ * by day. */
+static const char SUN_ON_MIRROR[] =
+    "LookAt 0 4 -4  0 0 .6  0 1 0 Camera \"perspective\" \"float fov\" 36\n"
+    "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24 PixelFilter \"box\" WorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [.2 .2 .2]\n"
+    "LightSource \"distant\" \"rgb L\" [3 3 3] \"point from\" [0 1 -1.4] \"point to\" [0 0 0]\n"
+    "Material \"matte\" \"rgb Kd\" [.6 .6 .6] " QUAD("-20 0 -20  20 0 -20  20 0 20  -20 0 20")
+    "Material \"mirror\" Translate 0 0 .3 Rotate -90 1 0 0\n"
+    "Shape \"cylinder\" \"float radius\" 1.5 \"float zmin\" 0 \"float zmax\" .6 \"float phimax\" 180 WorldEnd\n";
+static const char LAMP_IN_GLASS[] =
+    "LookAt 4 3 0  2 0 0  0 1 0 Camera \"perspective\" \"float fov\" 30\n"
+    "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24 PixelFilter \"box\" WorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
+    "Material \"matte\" \"rgb Kd\" [.6 .6 .6] " QUAD("-20 0 -20  20 0 -20  20 0 20  -20 0 20")
+    "TransformBegin Translate 0 .8 0 Material \"glass\" Shape \"sphere\" \"float radius\" .4\n"
+    "AreaLightSource \"diffuse\" \"rgb L\" [4e5 4e5 4e5] Shape \"sphere\" \"float radius\" .001 TransformEnd WorldEnd\n";
+
+/* The default and each runner show what is there without a race. A path tracer alone does not. */
+static void test_expectations(struct test *t)
+{
+    enum { BATCHES = 16, SPP = 32, TILE = 24, WAYS = RUNNERS + 2 };
+    static const char *const scenes[] = {SUN_ON_MIRROR, LAMP_IN_GLASS}, *const names[] = {"the sun", "the lamp"};
+    for (int i = 0; i < 2; i++) {
+        struct scene scene;
+        struct batches right;
+        if (!scene_from_text(t, scenes[i], &scene))
+            return;
+        right = render_batches(t, &scene, set_method(&scene, "asbdpt race=off"), 5, SPP, BATCHES, TILE, 1);
+        for (int k = 0; k < WAYS; k++) {
+            char way[64] = "pt";
+            if (k <= RUNNERS)
+                snprintf(way, sizeof way, "asbdpt race=%s", k < RUNNERS ? RACES[RACE_RUNNERS + k] : "on");
+            struct batches x = render_batches(t, &scene, set_method(&scene, way), 5, SPP, BATCHES, TILE, (uint64_t)k + 2);
+            double p = verify_batches(&x, &right, 1).p, ratio = batches_mean(&x, NULL) / batches_mean(&right, NULL);
+            if (k > RUNNERS)
+                TEST_REJECT(t, p, "%s, %s: %.4f of the light", names[i], way, ratio);
+            else
+                TEST_ACCEPT(t, p, "%s, %s: %.4f of the light", names[i], way, ratio);
+            batches_free(&x);
+        }
+        batches_free(&right);
+        scene_free(&scene);
+    }
+}
+
+/* The parameter names the runner that it says. */
+static void test_names(struct test *t)
+{
+    static const char *const pairs[][2] = {{"asbdpt race=all", "asbdpt race=off"},
+                                           {"asbdpt race=quarter", "asbdpt race=off pathpixels=4"}};
+    const struct render_options o = {.end = 2, .n_threads = 1, .max_depth = 4};
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
+        return;
+    for (int i = 0; i < 2; i++)
+        CHECK(t, same_picture(t, &scene, pairs[i][0], pairs[i][1], o), "%s is not %s", pairs[i][0], pairs[i][1]);
+    scene_free(&scene);
+}
+
 /* counts_of: exact. */
 static void test_counts(struct test *t)
 {
@@ -174,4 +300,8 @@ void test_race(struct test *t)
     test_nothing_is_given_up(t);
     test_wish(t);
     test_lamp_alone(t);
+    test_names(t);
+    test_turns(t);
+    test_streams_of_turns(t);
+    test_expectations(t);
 }
