@@ -7,7 +7,7 @@
 static const double BOUND = 0.25; /* M of counts.h for each light sub-path of a full tile */
 
 const char *const OFF_ON[] = {"off", "on", NULL};
-const char *const RACES[] = {"off", "on", "all", "quarter", "quarter_first", "path_tracer", NULL};
+const char *const RACES[] = {"off", "on", "all", "quarter", "quarter_first", "path_tracer", "one_point", NULL};
 
 const struct field *method_has(const struct method *m, const char *name)
 {

@@ -80,7 +80,7 @@ struct runner {
     struct numbers numbers;
     double variance, price; /* of a sample: relative to the square of the brightness; any unit. 0: not measured */
 };
-enum runner_name { RUNNER_ALL, RUNNER_QUARTER, RUNNER_QUARTER_FIRST, RUNNER_PATH_TRACER, RUNNERS };
+enum runner_name { RUNNER_ALL, RUNNER_QUARTER, RUNNER_QUARTER_FIRST, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
 
 /* A method that is ready to render. It does not change while it renders. */
 struct prepared {

@@ -13,7 +13,7 @@ enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer 
 static void learn_for(const struct render_job *job, struct prepared *p, int runner)
 {
     const struct parameters *q = &p->parameters;
-    bool few = runner == RUNNER_PATH_TRACER && p->method->learns_pairs;
+    bool few = runner >= RUNNER_PATH_TRACER && p->method->learns_pairs;
     bool light = !few || p->runner[runner].numbers.path_pixels > 0;
     const struct learn_options options = {
         .use = light && (p->method->learns_use || q->emission < 1), .pairs = !few && p->method->learns_pairs,
@@ -57,14 +57,16 @@ void method_prepare(const struct render_job *job, struct prepared *p)
     p->tables = mem_alloc(1, sizeof *p->tables);
     learn_and_race(job, p);
     p->numbers = p->runner[p->winner].numbers;
-    if (p->method->draw != NULL && p->numbers.path_pixels == 0) /* pixels share no sub-paths */
+    bool shared = p->numbers.path_pixels > 0 && numbers_every(&p->numbers, FIRST_HIT) == 1;
+    if (p->method->draw != NULL && !shared) /* pixels share next to no sub-paths: those of a tile may be neighbours */
         p->size = (struct pass_size){p->size.block, DEFAULT_TILE_SIZE, 1};
     method_counts(job, p);
 }
 
 void method_numbers(const struct prepared *p, struct method_number out[METHOD_NUMBERS])
 {
-    static const char *const NAMES[RUNNERS] = {"race_all", "race_quarter", "race_quarter_first", "race_path_tracer"};
+    static const char *const NAMES[RUNNERS] = {"race_all", "race_quarter", "race_quarter_first", "race_path_tracer",
+                                                "race_one_point"};
     const struct numbers *n = &p->numbers;
     const struct runner *winner = &p->runner[p->winner];
     int draws = n->path_pixels > 0;

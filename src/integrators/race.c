@@ -167,35 +167,44 @@ const char *const runner_helps[RUNNERS] = {
     [RUNNER_ALL] = "as the parameters say: pathpixels, connections, later, lightpoints",
     [RUNNER_QUARTER] = "a light sub-path for four times as many pixels",
     [RUNNER_QUARTER_FIRST] = "so, too; one light vertex for each eye vertex that the camera sees, for others seldom one",
-    [RUNNER_PATH_TRACER] = "light sub-paths in one of 32 iterations of a tile; none where no surface is glossy or clear"};
+    [RUNNER_PATH_TRACER] = "light sub-paths in one of 32 iterations of a tile; none where no surface is glossy or clear",
+    [RUNNER_ONE_POINT] = "so, too; one light point for each eye vertex"};
 
 void race_begin(const struct scene *scene, struct prepared *p)
 {
     struct numbers *all = &p->runner[RUNNER_ALL].numbers, *quarter = &p->runner[RUNNER_QUARTER].numbers;
     struct numbers *first = &p->runner[RUNNER_QUARTER_FIRST].numbers, *pt = &p->runner[RUNNER_PATH_TRACER].numbers;
+    struct numbers *one = &p->runner[RUNNER_ONE_POINT].numbers;
     *all = *quarter = *first = *pt = p->numbers;
     quarter->path_pixels = first->path_pixels = 4 * all->path_pixels;
     first->draws[FIRST_HIT] = all->draws[FIRST_HIT] > 0;
     first->every[LATER_HIT] = pt->every[FIRST_HIT] = pt->every[LATER_HIT] = RARE;
-    pt->light_points = 1;
     if (!is_sharp(scene))
-        *pt = (struct numbers)NUMBERS_OF_PT;
+        *pt = (struct numbers){.light_points = all->light_points};
+    *one = *pt;
+    one->light_points = 1;
+}
+
+static int find_winner(const struct prepared *p, int first)
+{
+    int winner = first;
+    for (int i = first; i < RUNNERS; i++) {
+        const struct runner *k = &p->runner[i], *best = &p->runner[winner];
+        winner = k->variance * k->price < best->variance * best->price ? i : winner;
+    }
+    return winner;
 }
 
 bool race_early(const struct render_job *job, struct prepared *p)
 {
-    struct runner *pt = &p->runner[RUNNER_PATH_TRACER];
-    bool wins = compete(job, p, pt, 1) > pt->variance / 2;
-    p->winner = wins ? RUNNER_PATH_TRACER : RUNNER_ALL;
+    struct runner *pt = &p->runner[RUNNER_PATH_TRACER], *one = &p->runner[RUNNER_ONE_POINT];
+    bool wins = compete(job, p, pt, RUNNERS - RUNNER_PATH_TRACER) > one->variance / 2;
+    p->winner = wins ? find_winner(p, RUNNER_PATH_TRACER) : RUNNER_ALL;
     return wins;
 }
 
 void race(const struct render_job *job, struct prepared *p)
 {
-    bool all = compete(job, p, p->runner, RUNNERS) >= 0;
-    p->winner = RUNNER_ALL;
-    for (int i = 0; i < RUNNERS && all; i++) {
-        const struct runner *k = &p->runner[i], *best = &p->runner[p->winner];
-        p->winner = k->variance * k->price < best->variance * best->price ? i : p->winner;
-    }
+    int n = p->runner[RUNNER_PATH_TRACER].price > 0 ? RUNNER_PATH_TRACER : RUNNERS; /* the others have competed */
+    p->winner = compete(job, p, p->runner, n) >= 0 ? find_winner(p, RUNNER_ALL) : RUNNER_ALL;
 }

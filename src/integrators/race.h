@@ -2,7 +2,7 @@
  *
  * Runners differ in their numbers of samples (struct numbers). None gives light up: whatever the first can make, every
  * runner makes at least one RARE-th as often, in one of RARE iterations of a tile. Only where no lobe is sharp the path
- * tracer has no light sub-paths at all.
+ * tracers have no light sub-paths at all.
  *
  * The race minimises the variance of a sample times its price [Grittmann 2022]. Each runner takes SAMPLES samples of some pixels twice,
  * with random numbers that the render does not use. A pixel is one of a cell of pixels, and splats anywhere in the cell
@@ -11,8 +11,9 @@
  * brightness of pixel and picture, and grow only in proportion above FIREFLY. Light that the camera sees directly is
  * left out: it is the same for all. The price counts vertices and connections, so the same runner wins on every machine.
  *
- * Light sub-paths cannot help against the noise of direct light at first hits. If that is more than half of the
- * variance of the path tracer, it wins before anything is learnt about light sub-paths.
+ * Light sub-paths cannot help against the noise of direct light at first hits. The path tracers, with as many light
+ * points as the first runner and with one, compete first. If that noise is more than half of the variance of the latter,
+ * the better of the two wins before anything is learnt about light sub-paths.
  *
  * Tests: test_race.c.
  */
@@ -27,8 +28,8 @@ enum { RACE_LEAST_PIXELS = 32 * 32 }; /* a smaller picture is rendered by the fi
 extern const char *const runner_helps[RUNNERS];
 
 /* race_begin: add the runners to *p, whose numbers are those of the first.
- * race_early: does the path tracer win, before anything but direct light is learnt?
- * race: let all compete in *p, which is prepared for the first.
+ * race_early: does a path tracer win, before more is learnt than it needs itself?
+ * race: let all others compete in *p, which is prepared for the first.
  * Both set p->winner. If job->watch ends a race, the first wins. */
 void race_begin(const struct scene *scene, struct prepared *p);
 bool race_early(const struct render_job *job, struct prepared *p);

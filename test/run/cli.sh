@@ -388,7 +388,7 @@ prints 'bounds  *(4, 5, 6) to (6, 7, 8)' \
 prints '; chosen$' "$lab" info "$box" --res 40 --race
 # Every runner is explained: help has those of the race, in their order.
 sed -n '/^  runner /,/^  at first/s/^  \([a-z_]*\)  *[0-9].*/\1/p' stdout.txt >runners.txt
-check [ "$(wc -l <runners.txt)" -eq 4 ]
+check [ "$(wc -l <runners.txt)" -eq 5 ]
 expect 0 '' "$program" help integrators
 check [ "$(sed -n '/^Runners: /,$s/^    \([a-z_][a-z_]*\)    *[a-z].*/\1/p' stdout.txt)" = "$(cat runners.txt)" ]
 expect 2 'pt has no race' "$lab" info "$box" --res 40 --race --integrator pt
@@ -442,7 +442,7 @@ check [ $told -ge 12 ]
 expect 0 '' "$lab" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o worth.png
 check [ -s worth.png ]
 # The race, which would choose a path tracer here, is left out.
-prints '^  path_tracer .*; chosen$' "$lab" info "$scenes/forest.pbrt" --race --integrator asbdpt --res 48x32
+prints '^  \(path_tracer\|one_point\) .*; chosen$' "$lab" info "$scenes/forest.pbrt" --race --integrator asbdpt --res 48x32
 expect 0 '' "$lab" worth "$scenes/forest.pbrt" --pixel 12,12 --res 24x16 --spp 4 --quiet -o worth.png
 expect 1 'learns nothing about pairs' "$lab" worth "$box" --pixel 3,9 --res 12x12 -P select=pool -o worth.png
 
