@@ -9,7 +9,8 @@
 
 enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
 
-/* What a runner needs. A path tracer of a method that learns much has few light sub-paths, and learns less from fewer. */
+/* What a runner needs. A path tracer of a method that learns much has few light sub-paths: it learns less, from
+ * fewer. */
 static void learn_for(const struct render_job *job, struct prepared *p, int runner)
 {
     const struct parameters *q = &p->parameters;

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "learning/patience.h"
 
-enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32 }; /* a pixel of SIDE, SIDE x SIDE at most */
+enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32 };
 static const double FIREFLY = 11;
 
 /* Prices, fitted to CPU times; only their ratios count. That of a light vertex includes its splat. */
@@ -89,7 +89,7 @@ static void start_lap(const struct render_job *job, const struct prepared *p, co
                       struct patience *patience, struct lap *l)
 {
     struct pixel_rect film = job->film_rect;
-    int side = int_within(sqrt((double)rect_pixels(film) / SIDE), 1, SIDE);
+    int side = int_within(sqrt((double)rect_pixels(film) / (2 * SAMPLES)), 1, SIDE); /* at most a sample of each */
     *l = (struct lap){.job = *job, .by = *p, .patience = patience};
     l->pixels = (struct tile_pixels){film, (rect_width(film) + side - 1) / side, (rect_height(film) + side - 1) / side,
                                      0, 0};
@@ -114,20 +114,19 @@ static double variance(double a, double b) { return huber(fabs(a - b) / sqrt(2.0
 static double judge(struct runner *k, const struct lap *a, const double *unit)
 {
     const struct lap *b = a + 1;
-    double direct = 0, every = a->every[LATER_HIT], n = pixels_count(a->pixels);
+    double direct = 0, n = pixels_count(a->pixels), parts = 2 * SAMPLES * a->every[LATER_HIT] * n;
     k->price = (a->price + b->price) / (a->samples + b->samples);
     k->variance = 1e-30; /* not 0: others are divided by it */
     for (int i = 0; i < n; i++) {
         direct += variance(a->direct[i] / unit[i], b->direct[i] / unit[i]) / n;
         k->variance += variance(a->often[i] / unit[i], b->often[i] / unit[i]) / n;
         for (int j = 0; j < SAMPLES; j++)
-            k->variance += (huber(a->rare[j][i] / unit[i]) + huber(b->rare[j][i] / unit[i])) / (2 * SAMPLES * every * n);
+            k->variance += (huber(a->rare[j][i] / unit[i]) + huber(b->rare[j][i] / unit[i])) / parts;
     }
     return direct;
 }
 
-/* Let runners compete; what they have taken part in must not change. Returns the variance of direct light of the last
- * one; -1 if job->watch ends it. */
+/* Let n runners compete. Returns the variance of direct light of the last one; -1 if job->watch ends it. */
 static double compete(const struct render_job *job, const struct prepared *p, struct runner *first, int n)
 {
     struct patience patience = patience_begin(job);
@@ -154,20 +153,20 @@ static double compete(const struct render_job *job, const struct prepared *p, st
 
 /* --- the race ---------------------------------------------------------------------------------------- */
 
-/* May a lobe be so sharp that s = 0 and s = 1 find next to nothing of what it makes of a small light? */
-static bool is_sharp(const struct scene *scene)
+/* If not, a lobe may be so sharp that s = 0 and s = 1 find next to nothing of what it makes of a small light. */
+static bool is_diffuse(const struct scene *scene)
 {
-    bool sharp = false;
+    bool diffuse = true;
     for (int i = 0; i < scene->n_materials; i++)
-        sharp |= scene->material[i]->row->may_be_delta || scene->material[i]->rough.u >= 0;
-    return sharp;
+        diffuse &= scene->material[i]->row->diffuse;
+    return diffuse;
 }
 
 const char *const runner_helps[RUNNERS] = {
     [RUNNER_ALL] = "as the parameters say: pathpixels, connections, later, lightpoints",
     [RUNNER_QUARTER] = "a light sub-path for four times as many pixels",
-    [RUNNER_QUARTER_FIRST] = "so, too; one light vertex for each eye vertex that the camera sees, for others seldom one",
-    [RUNNER_PATH_TRACER] = "light sub-paths in one of 32 iterations of a tile; none where no surface is glossy or clear",
+    [RUNNER_QUARTER_FIRST] = "so, too; one light vertex for each eye vertex that the camera sees, seldom for others",
+    [RUNNER_PATH_TRACER] = "light sub-paths in one of 32 iterations of a tile; none where all is diffuse",
     [RUNNER_ONE_POINT] = "so, too; one light point for each eye vertex"};
 
 void race_begin(const struct scene *scene, struct prepared *p)
@@ -179,7 +178,7 @@ void race_begin(const struct scene *scene, struct prepared *p)
     quarter->path_pixels = first->path_pixels = 4 * all->path_pixels;
     first->draws[FIRST_HIT] = all->draws[FIRST_HIT] > 0;
     first->every[LATER_HIT] = pt->every[FIRST_HIT] = pt->every[LATER_HIT] = RARE;
-    if (!is_sharp(scene))
+    if (is_diffuse(scene))
         *pt = (struct numbers){.light_points = all->light_points};
     *one = *pt;
     one->light_points = 1;

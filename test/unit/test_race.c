@@ -64,7 +64,8 @@ static void test_where_they_pay(struct test *t)
             double cheaper = s.runner[RUNNER_QUARTER].price / s.runner[RUNNER_ALL].price;
             CHECK(t, s.winner < RUNNER_PATH_TRACER && s.counts.pair[FIRST_HIT] > 0 && s.counts.lens > 0,
                   "%s: a path tracer renders", scenes[i]);
-            CHECK(t, cheaper < 0.9, "%s: a quarter of the light sub-paths costs %.3f times as much", scenes[i], cheaper);
+            CHECK(t, cheaper < 0.9, "%s: a quarter of the light sub-paths costs %.3f times as much", scenes[i],
+                  cheaper);
         }
 }
 
@@ -109,8 +110,8 @@ static void test_nothing_is_given_up(struct test *t)
             CHECK(t, without ? least == 0 : least >= 1.0 / 32, "a point light beside %s: %s makes some paths %g times "
                   "as often as the first runner", materials[i], RACES[RACE_RUNNERS + k], least);
         }
-        CHECK(t, s.runner[RUNNER_QUARTER].numbers.path_pixels == 4 && s.runner[RUNNER_QUARTER_FIRST].numbers.path_pixels == 4,
-              "a quarter is none");
+        CHECK(t, s.runner[RUNNER_QUARTER].numbers.path_pixels == 4 &&
+              s.runner[RUNNER_QUARTER_FIRST].numbers.path_pixels == 4, "a quarter is none");
         if (i == 0)
             CHECK(t, s.winner >= RUNNER_PATH_TRACER && !s.learnt && s.counts.lens == 0 &&
                   s.counts.pair[FIRST_HIT] == 0 && s.counts.pair[LATER_HIT] == 0 && s.counts.hit[LATER_HIT] == 1,
@@ -212,8 +213,8 @@ static void test_streams_of_turns(struct test *t)
     scene_free(&scene);
 }
 
-/* Light that a path tracer misses, or nearly: of the sun on a bent strip of mirror, and of a small lamp in a glass ball,
- * by day. */
+/* Light that a path tracer misses, or nearly: of the sun on a bent strip of mirror, and of a small lamp in a glass
+ * ball, by day. */
 static const char SUN_ON_MIRROR[] =
     "LookAt 0 4 -4  0 0 .6  0 1 0 Camera \"perspective\" \"float fov\" 36\n"
     "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24 PixelFilter \"box\" WorldBegin\n"
@@ -228,7 +229,8 @@ static const char LAMP_IN_GLASS[] =
     "LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
     "Material \"matte\" \"rgb Kd\" [.6 .6 .6] " QUAD("-20 0 -20  20 0 -20  20 0 20  -20 0 20")
     "TransformBegin Translate 0 .8 0 Material \"glass\" Shape \"sphere\" \"float radius\" .4\n"
-    "AreaLightSource \"diffuse\" \"rgb L\" [4e5 4e5 4e5] Shape \"sphere\" \"float radius\" .001 TransformEnd WorldEnd\n";
+    "AreaLightSource \"diffuse\" \"rgb L\" [4e5 4e5 4e5] Shape \"sphere\" \"float radius\" .001\n"
+    "TransformEnd WorldEnd\n";
 
 /* The default and each runner show what is there without a race. A path tracer alone does not. */
 static void test_expectations(struct test *t)
@@ -245,7 +247,8 @@ static void test_expectations(struct test *t)
             char way[64] = "pt";
             if (k <= RUNNERS)
                 snprintf(way, sizeof way, "asbdpt race=%s", k < RUNNERS ? RACES[RACE_RUNNERS + k] : "on");
-            struct batches x = render_batches(t, &scene, set_method(&scene, way), 5, SPP, BATCHES, TILE, (uint64_t)k + 2);
+            const char *name = set_method(&scene, way);
+            struct batches x = render_batches(t, &scene, name, 5, SPP, BATCHES, TILE, (uint64_t)k + 2);
             double p = verify_batches(&x, &right, 1).p, ratio = batches_mean(&x, NULL) / batches_mean(&right, NULL);
             if (k > RUNNERS)
                 TEST_REJECT(t, p, "%s, %s: %.4f of the light", names[i], way, ratio);
