@@ -26,7 +26,8 @@ enum rng_purpose {
     RNG_TEST,
     RNG_RECORD,
     RNG_START, /* independent states, of which Markov chains start */
-    RNG_CHAIN
+    RNG_CHAIN,
+    RNG_TURN
 };
 
 static inline uint32_t rng_u32(struct rng *r)

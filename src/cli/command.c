@@ -62,12 +62,12 @@ static void print_parameters(const struct field *p)
 static void print_runners(void)
 {
     printf("\n");
-    print_wrapped("Runners: with race=on, ways to render compete before the render. From samples that no image uses, "
-                  "asbdpt predicts the variance of each, and the price of its samples. The runner with the least "
-                  "variance times price renders. asbdpt-lab info --race SCENE.pbrt shows the predictions.", 0, 0);
-    for (int i = 0; i < MAX_RUNNERS; i++) {
-        printf("    %-20s ", runner_kinds[i].name);
-        print_wrapped(runner_kinds[i].help, 25, 25);
+    print_wrapped("Runners: ways to render. With race=on each takes a few samples that no image uses, and the one with "
+                  "the least variance times price renders. None gives light up. asbdpt-lab info --race SCENE.pbrt shows "
+                  "what was found.", 0, 0);
+    for (int i = 0; i < RUNNERS; i++) {
+        printf("    %-20s ", RACES[RACE_RUNNERS + i]);
+        print_wrapped(runner_helps[i], 25, 25);
     }
 }
 

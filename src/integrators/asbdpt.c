@@ -118,7 +118,8 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
 
 /* --- the loop ---------------------------------------------------------------------------------------- */
 
-/* An iteration without light sub-paths, K = 0, is one of a path tracer, to which a race may lead (race.h). */
+/* After a race (race.h) only one of `every` iterations may have light sub-paths, or draws of later hits. What is drawn
+ * then counts `every` times. In the other iterations K = 0: they are those of a path tracer. */
 static void render_iteration(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     const int longest = pass->job->max_depth; /* t of a vertex that can be joined to one of s >= 2 */
@@ -126,19 +127,23 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
     loop_fill(p, pass, iteration); /* K light sub-paths, and their vertices by region */
     const int K = pass->work->pool.n;
     const struct index *index = K > 0 ? build(p, pass, iteration) : NULL;
+    int draws[EYE_ENDS];
+    for (int end = 0; end < EYE_ENDS; end++)
+        draws[end] = loop_draws(p, pass, (enum eye_end)end, iteration);
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
         struct sample sample;
         arena_reset(&pass->work->arena);
         int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
         for (int t = 2; t <= n; t++) {
             const struct vertex *z = &eye[t - 1];
-            const int C = K > 0 && t <= longest && vertex_connectible(z) ? p->numbers.draws[z->eye_end] : 0;
+            const int C = t <= longest && vertex_connectible(z) ? draws[z->eye_end] : 0;
+            const double every = numbers_every(&p->numbers, z->eye_end);
             struct drawn light;
             sample_hit(&sample, eye, t);  /* s = 0 */
             sample_direct(&sample, z, t); /* s = 1 */
             for (int j = 0; j < C; j++)   /* s >= 2 */
                 if (draw(p, index, &sample, z, j, C, &light))
-                    sample_pairs(&sample, &light, z, t, 1.0 / (C * K) / light.pmf);
+                    sample_pairs(&sample, &light, z, t, every / (C * K) / light.pmf);
         }
         loop_splat(p, &sample); /* t = 1 */
         sample_end(&sample);

@@ -14,15 +14,32 @@ void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long it
     }
 }
 
+/* Of every so many iterations one is drawn. Were it always the same one, its eye sub-paths would never leave a part of
+ * the pixel, for those are points of nets (sampler.h). */
+bool loop_turn(const struct prepared *p, const struct tile_pass *pass, enum eye_end end, long iteration)
+{
+    const int *first = pass->tile->pixel[0], every = numbers_every(&p->numbers, end);
+    if (every == 1)
+        return true;
+    struct sampler sampler = sample_stream(pass, RNG_TURN, first[0], first[1], (uint64_t)(iteration / every));
+    return iteration % every == (long)(sampler_number(&sampler, DRAW_ORDER) * every);
+}
+
+/* Light sub-paths are numbered by their turns: every so-many-th point of a net is no net. */
+static uint64_t number_of_turn(const struct prepared *p, long iteration)
+{
+    return (uint64_t)(iteration / numbers_every(&p->numbers, FIRST_HIT));
+}
+
 void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
     pool_clear(pool);
-    if (p->numbers.path_pixels == 0)
+    if (p->numbers.path_pixels == 0 || !loop_turn(p, pass, FIRST_HIT, iteration))
         return;
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i += p->numbers.path_pixels) {
         struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
-        pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, &pool->arena, path));
+        pool_add(pool, sample_light_path(pass, &p->counts, x, y, number_of_turn(p, iteration), &pool->arena, path));
     }
 }
 
@@ -32,18 +49,25 @@ int loop_begin(const struct prepared *p, const struct tile_pass *pass, int numbe
     *sample = sample_begin(pass, &p->counts, p->numbers.light_points, x, y, iteration);
     sample->number = number;
     if (p->method->selector != NULL)
-        sample->choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
+        sample->choice = sample_stream(pass, RNG_SELECT, x, y, number_of_turn(p, iteration));
     return sample_eye_path(sample, eye, pass->job->max_depth + 2);
+}
+
+int loop_draws(const struct prepared *p, const struct tile_pass *pass, enum eye_end end, long iteration)
+{
+    return pass->work->pool.n > 0 && loop_turn(p, pass, end, iteration) ? p->numbers.draws[end] : 0;
 }
 
 void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
                int t)
 {
-    const int K = sample->pass->work->pool.n, C = K > 0 ? p->numbers.draws[z->eye_end] : 0;
+    const struct tile_pass *pass = sample->pass;
+    const int K = pass->work->pool.n, C = loop_draws(p, pass, z->eye_end, sample->iteration);
+    const double every = numbers_every(&p->numbers, z->eye_end);
     struct drawn y;
-    for (int i = 0; i < C && t <= sample->pass->job->max_depth && vertex_connectible(z); i++)
+    for (int i = 0; i < C && t <= pass->job->max_depth && vertex_connectible(z); i++)
         if (p->method->selector->draw(p, index, sample, z, i, C, &y))
-            sample_pairs(sample, &y, z, t, 1.0 / (C * K) / y.pmf);
+            sample_pairs(sample, &y, z, t, every / (C * K) / y.pmf);
 }
 
 /* The weights count one sub-path per path_pixels pixels of the film. A tile has K, which is rounded up: `scale` makes

@@ -4,7 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double BOUND = 0.25; /* M of counts.h for each light sub-path of a full tile */
+
 const char *const OFF_ON[] = {"off", "on", NULL};
+const char *const RACES[] = {"off", "on", "all", "quarter", "quarter_first", "path_tracer", "one_point", NULL};
 
 const struct field *method_has(const struct method *m, const char *name)
 {
@@ -27,4 +30,17 @@ bool method_read(const struct method *m, const struct scene *scene, struct prepa
     if (!ok)
         free(p->own);
     return ok;
+}
+
+void method_counts(const struct render_job *job, struct prepared *p)
+{
+    const struct parameters *q = &p->parameters;
+    double M = BOUND * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
+    int every = numbers_every(&p->numbers, FIRST_HIT);
+    p->counts = counts_of(p->numbers, q->credits ? DIRECT_CREDIT * every : 1, q->credits ? PAIR_CREDIT : 1,
+                          (double)rect_pixels(job->film_rect), p->tables);
+    for (int end = 0; end < EYE_ENDS; end++) {
+        p->counts.pair[end] *= p->draw[end];
+        p->counts.bound[end] = q->bound ? p->counts.pair[end] * numbers_every(&p->numbers, (enum eye_end)end) / M : 0;
+    }
 }

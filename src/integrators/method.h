@@ -52,7 +52,7 @@ struct parameters {
               "share of light sub-paths that leave lights as if nothing were learnt", NULL)
 #define PARAMETER_RACE(DEFAULT) \
     PARAMETER("race", FIELD_WORD, race, DEFAULT, 0, 0, \
-              "find out before the render whether fewer light sub-paths and connections are enough, or none", OFF_ON)
+              "who renders: the winner of a race before it, or this runner; off: all", RACES)
 #define PARAMETER_POINTS(DEFAULT) \
     PARAMETER("lightpoints", FIELD_INTEGER, numbers.light_points, DEFAULT, 1, 64, \
               "points on lights that an eye vertex that the camera sees is joined to", NULL)
@@ -72,16 +72,15 @@ struct parameters {
 #define PARAMETERS_SHARED(RACE, POINTS, GUIDE, EMISSION, TILE, SPREAD) \
     PARAMETER_RACE(RACE), PARAMETER_POINTS(POINTS), PARAMETER_GUIDE(GUIDE), PARAMETER_EMISSION(EMISSION), \
     PARAMETER_TILES(TILE, SPREAD)
-extern const char *const OFF_ON[];
+extern const char *const OFF_ON[], *const RACES[];
+enum { RACE_OFF, RACE_ON, RACE_RUNNERS }; /* then all runners */
 
-/* A way to render that competes in a race (race.h), and what the race predicts of it. */
+/* A way to render that competes in a race (race.h), and what the race has found. */
 struct runner {
-    const char *name;
     struct numbers numbers;
-    bool plain; /* lights are chosen by power */
-    double variance, price; /* of a sample: relative to the square of the pixel's brightness; any unit */
+    double variance, price; /* of a sample: relative to the square of the brightness; any unit. 0: not measured */
 };
-enum { MAX_RUNNERS = 5 };
+enum runner_name { RUNNER_ALL, RUNNER_QUARTER, RUNNER_QUARTER_FIRST, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
 
 /* A method that is ready to render. It does not change while it renders. */
 struct prepared {
@@ -94,8 +93,8 @@ struct prepared {
     struct tables *tables;    /* owned */
     struct scene *uniform;    /* the job's scene if it chooses lights uniformly, else NULL; owned */
     struct pass_size size;    /* any block, tiles of DEFAULT_TILE_SIZE, unless parameters or `prepare` change it */
-    struct runner runner[MAX_RUNNERS];
-    int n_runners, winner;    /* 0 runners: there was no race */
+    struct runner runner[RUNNERS];
+    int winner;               /* of a race, or as the parameter says */
 };
 
 /* What a selector has made of a pool, in the pool's arena; each has a struct of its own. */
@@ -141,5 +140,9 @@ const struct field *method_has(const struct method *m, const char *name);
 /* method_read: read all parameters into *p, all else of which is empty. False with a message if one is not valid; else
  * method_release (prepare.h) must follow. */
 bool method_read(const struct method *m, const struct scene *scene, struct prepared *p, struct error *err);
+
+/* method_counts: p->counts, of p->numbers, p->draw and p->tables. Direct light has the more credit the rarer light
+ * sub-paths are: rare splats of it would be noise. */
+void method_counts(const struct render_job *job, struct prepared *p);
 
 #endif

@@ -7,87 +7,82 @@
 #include "integrators/race.h"
 #include "learning/learn.h"
 
-static const double BOUND = 0.25; /* M of counts.h for each light sub-path of a full tile */
 enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
 
-void method_counts(const struct render_job *job, struct prepared *p, bool credits)
+/* What a runner needs. A path tracer of a method that learns much has few light sub-paths: it learns less, from
+ * fewer. */
+static void learn_for(const struct render_job *job, struct prepared *p, int runner)
 {
     const struct parameters *q = &p->parameters;
-    double M = BOUND * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
-    p->counts = counts_of(p->numbers, credits && q->credits ? DIRECT_CREDIT : 1, q->credits ? PAIR_CREDIT : 1,
-                          (double)rect_pixels(job->film_rect), p->tables);
-    for (int end = 0; end < EYE_ENDS; end++) {
-        p->counts.pair[end] *= p->draw[end];
-        p->counts.bound[end] = q->bound ? p->counts.pair[end] / M : 0;
-    }
-}
-
-/* A path tracer needs no table but that of direct light, and a plain one not even this. */
-static void become_path_tracer(struct prepared *p, bool plain)
-{
-    struct tables kept = NO_TABLES, *t = p->tables;
-    if (!plain && t->direct.rows > 0) {
-        kept.regions = t->regions;
-        kept.direct = t->direct;
-        t->regions = NO_TABLES.regions;
-        t->direct = NO_TABLES.direct;
-    }
-    tables_free(t);
-    *t = kept;
-    p->size.tile = DEFAULT_TILE_SIZE; /* pixels share no sub-paths */
-    p->size.spread = 1;
-    p->numbers.draws[FIRST_HIT] = p->numbers.draws[LATER_HIT] = 0;
-}
-
-static void learn_tables(const struct render_job *job, struct prepared *p)
-{
-    const struct parameters *q = &p->parameters;
+    bool few = runner >= RUNNER_PATH_TRACER && p->method->learns_pairs;
+    bool light = !few || p->runner[runner].numbers.path_pixels > 0;
     const struct learn_options options = {
-        .use = p->method->learns_use || q->emission < 1, .pairs = p->method->learns_pairs,
+        .use = light && (p->method->learns_use || q->emission < 1), .pairs = !few && p->method->learns_pairs,
         .direct = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
-        .emission = q->emission, .delta = q->delta, .count = p->method->vertices};
+        .emission = q->emission, .delta = q->delta, .count = light && p->method->vertices, .few = few};
+    tables_free(p->tables);
+    *p->tables = NO_TABLES;
     if (options.use || options.pairs || options.direct || options.count)
         learn(job, &options, p->tables);
+    for (int end = 0; end < EYE_ENDS; end++) /* of single vertices, a draw is one of so many of a light sub-path */
+        p->draw[end] = p->method->vertices && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
+    if (p->method->prepare != NULL)
+        p->method->prepare(job, p);
+    method_counts(job, p);
+}
+
+/* Where there is much to learn, a first race finds out whether it may pay. */
+static void learn_and_race(const struct render_job *job, struct prepared *p)
+{
+    bool small = rect_pixels(job->film_rect) < RACE_LEAST_PIXELS;
+    int asked = p->numbers.path_pixels == 0 || (small && p->parameters.race == RACE_ON) ? RACE_OFF : p->parameters.race;
+    race_begin(job->scene, p);
+    if (asked == RACE_ON && p->method->learns_pairs) {
+        learn_for(job, p, RUNNER_PATH_TRACER);
+        if (race_early(job, p))
+            return;
+    }
+    p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
+    learn_for(job, p, p->winner);
+    race_begin(job->scene, p); /* `prepare` may have changed the numbers */
+    if (asked == RACE_ON)
+        race(job, p);
 }
 
 void method_prepare(const struct render_job *job, struct prepared *p)
 {
-    const struct method *m = p->method;
-    bool plain = false;
     p->numbers = p->parameters.numbers;
-    p->size = (struct pass_size){0, p->parameters.tile, p->parameters.spread};
-    p->tables = mem_alloc(1, sizeof *p->tables);
-    learn_tables(job, p);
     if (p->numbers.draws[LATER_HIT] < 0)
         p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
-    for (int end = 0; end < EYE_ENDS; end++) /* of single vertices, a draw is one of so many of a light sub-path */
-        p->draw[end] = m->vertices && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
-    if (m->prepare != NULL)
-        m->prepare(job, p);
-    method_counts(job, p, true);
-    if (p->parameters.race && p->numbers.path_pixels > 0) {
-        race(job, p);
-        p->numbers = p->runner[p->winner].numbers;
-        plain = p->runner[p->winner].plain;
-    }
-    if (m->selector != NULL && p->numbers.path_pixels == 0)
-        become_path_tracer(p, plain);
-    method_counts(job, p, !plain);
+    p->size = (struct pass_size){0, p->parameters.tile, p->parameters.spread};
+    p->tables = mem_alloc(1, sizeof *p->tables);
+    learn_and_race(job, p);
+    p->numbers = p->runner[p->winner].numbers;
+    bool shared = p->numbers.path_pixels > 0 && numbers_every(&p->numbers, FIRST_HIT) == 1;
+    if (p->method->selector != NULL && !shared) /* pixels share next to no sub-paths: those of a tile may be neighbours */
+        p->size = (struct pass_size){p->size.block, DEFAULT_TILE_SIZE, 1};
+    method_counts(job, p);
 }
 
 void method_numbers(const struct prepared *p, struct method_number out[METHOD_NUMBERS])
 {
+    static const char *const NAMES[RUNNERS] = {"race_all", "race_quarter", "race_quarter_first", "race_path_tracer",
+                                                "race_one_point"};
+    const struct numbers *n = &p->numbers;
     const struct runner *winner = &p->runner[p->winner];
+    int draws = n->path_pixels > 0;
     const struct method_number numbers[] = {
-        {"draws_first_hit", p->numbers.draws[FIRST_HIT]}, {"draws_after", p->numbers.draws[LATER_HIT]},
-        {"light_points_first_hit", p->numbers.light_points}, {"pixels_per_light_path", p->numbers.path_pixels},
-        {"regions", p->tables->regions.n}};
-    enum { N = sizeof numbers / sizeof *numbers };
+        {"draws_first_hit", draws * n->draws[FIRST_HIT]}, {"draws_after", draws * n->draws[LATER_HIT]},
+        {"light_points_first_hit", n->light_points}, {"pixels_per_light_path", n->path_pixels},
+        {"iterations_per_light_path", numbers_every(n, FIRST_HIT)},
+        {"iterations_per_draw_after", numbers_every(n, LATER_HIT)}, {"regions", p->tables->regions.n}};
+    int used = (int)(sizeof numbers / sizeof *numbers);
     memset(out, 0, METHOD_NUMBERS * sizeof *out); /* a NULL name ends the list */
     memcpy(out, numbers, sizeof numbers);
-    for (int i = 0; i < p->n_runners && winner->price > 0; i++)
-        out[N + i] = (struct method_number){p->runner[i].name, p->runner[i].variance * p->runner[i].price /
-                                                                 (winner->variance * winner->price)};
+    for (int i = 0; i < RUNNERS; i++)
+        if (p->runner[i].price > 0)
+            out[used++] = (struct method_number){NAMES[i], p->runner[i].variance * p->runner[i].price /
+                                                               (winner->variance * winner->price)};
 }
 
 void method_release(struct prepared *p)

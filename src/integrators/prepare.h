@@ -23,7 +23,4 @@ struct method_number {
 /* method_numbers: what was chosen for this scene, for --stats; runners with variance times price over the winner's. */
 void method_numbers(const struct prepared *p, struct method_number out[METHOD_NUMBERS]);
 
-/* method_counts: p->counts, of p->numbers and p->tables. */
-void method_counts(const struct render_job *job, struct prepared *p, bool credits);
-
 #endif

@@ -1,26 +1,20 @@
-/* race.h: should there be a light sub-path for each pixel of this scene, for every four, or none? And are connections
- * at first hits enough? A race before the render decides it.
+/* race.h: how often does this scene need light sub-paths? A race before the render decides it.
  *
- * Runners differ in their numbers of samples (struct numbers). The first has the most. It takes SAMPLES samples of some
- * pixels with random numbers that the render does not use, and as many with others. The difference shows its variance.
- * Each pixel is one of a cell of pixels, and splats anywhere in the cell count as its own.
+ * Runners differ in their numbers of samples (struct numbers). None gives light up: whatever the first can make, every
+ * runner makes at least one RARE-th as often, in one of RARE iterations of a tile. Only where all lobes are diffuse the
+ * path tracers have no light sub-paths at all.
  *
- * What another runner would have made of the same paths follows from their weights [Grittmann 2022]. Let S be the sum
- * in (1) of mis.h, of p_i over all strategies i of a path. Let S_k be that of runner k, and x what the path
- * contributes to the first runner. To runner k it contributes x S / S_k, in S_k / S times as many samples. So its
- * second moment, x^2, becomes x^2 S / S_k. Three kinds of strategies have other counts: connections at a first hit,
- * later connections, and splats. Their shares in S are measured: the race takes the same samples again, each time with
- * half the count of one kind. S_k / S follows, if the bound of draws stays that of the first runner (counts.h). What a
- * draw made changes the variance by less: the change is divided by the credit of a draw.
- *
- * Few contributions of more than FIREFLY times the brightness of their pixel would decide everything. Their squares are
- * replaced by a line, as in the loss of [Huber 1964]. Direct light at a first hit has less variance than its second
- * moment says, since its samples are stratified. Its growth is multiplied by the share that is variance. A path tracer
- * that chooses lights by power has other direct light, so it takes samples of its own. Light that the camera sees
- * directly is left out: it is the same for all runners, and a pixel on a light's edge would hide all other noise.
- *
- * The runner of the least variance times price wins. The price counts vertices and connections, so the same runner wins
+ * The race minimises the variance of a sample times its price [Grittmann 2022]. Each runner takes SAMPLES samples of
+ * some pixels twice, with random numbers that the render does not use. A pixel is one of a cell of pixels, and splats
+ * anywhere in the cell count as its own. The variance is the squared difference of the two, plus the squares of what is
+ * made in one of k iterations, times k: that is sampled in every iteration, but weighed as in the render. Both are
+ * relative to the brightness of pixel and picture, and grow only in proportion above FIREFLY. Light that the camera
+ * sees directly is left out: it is the same for all. The price counts vertices and connections, so the same runner wins
  * on every machine.
+ *
+ * Light sub-paths cannot help against the noise of direct light at first hits. The path tracers compete first, one with
+ * as many light points as the first runner, and one with a single one. If that noise is more than half of the variance
+ * of the latter, the better of the two wins before anything is learnt about light sub-paths.
  *
  * Tests: test_race.c.
  */
@@ -29,18 +23,17 @@
 
 #include "integrators/method.h"
 
-/* The runners that there are, as `info --race` calls them, and what each is for users. */
-struct runner_kind {
-    const char *name, *help;
-};
-extern const struct runner_kind runner_kinds[MAX_RUNNERS];
+enum { RACE_LEAST_PIXELS = 32 * 32 }; /* a smaller picture is rendered by the first: too few pixels show anything */
 
-/* race: add the runners to *p, which is prepared for the first, with what is predicted of them, and choose the winner.
- * If job->watch ends the race, the first wins. */
+/* What each runner is for users, by enum runner_name. */
+extern const char *const runner_helps[RUNNERS];
+
+/* race_begin: add the runners to *p, whose numbers are those of the first.
+ * race_early: does a path tracer win, before more is learnt than it needs itself?
+ * race: let all others compete in *p, which is prepared for the first.
+ * Both set p->winner. If job->watch ends a race, the first wins. */
+void race_begin(const struct scene *scene, struct prepared *p);
+bool race_early(const struct render_job *job, struct prepared *p);
 void race(const struct render_job *job, struct prepared *p);
-
-/* race_path_tracer_sees_all: are s = 0 and s = 1 enough? They miss light from a delta light that reaches a surface
- * through a delta lobe. */
-bool race_path_tracer_sees_all(const struct scene *scene);
 
 #endif

@@ -274,10 +274,10 @@ void learn(const struct render_job *job, const struct learn_options *options, st
 {
     struct learning l = {.job = job, .options = options, .tables = out,
                          .work = workspaces_new(job->n_threads, job->max_depth), .patience = patience_begin(job)};
-    bool alone = options->direct && !options->use && !options->pairs;
+    bool few = options->few || (options->direct && !options->use && !options->pairs);
     double pixels = (double)rect_pixels(job->film_rect);
-    long n = alone ? int_within(pixels / DIRECT_PIXELS, DIRECT_LEAST, LEARN_MOST)
-                   : int_within(pixels * LEARN_PER_PIXEL, LEARN_LEAST, LEARN_MOST);
+    long n = few ? int_within(pixels / DIRECT_PIXELS, DIRECT_LEAST, LEARN_MOST)
+                 : int_within(pixels * LEARN_PER_PIXEL, LEARN_LEAST, LEARN_MOST);
     long n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT, half = n / 2 / CHUNK * CHUNK;
     bool regions = options->use || options->direct || options->pairs;
     if (regions)

@@ -23,6 +23,7 @@ enum { REGIONS = 1536, REGION_CELLS = 8 }; /* at most so many; along the diagona
 struct learn_options {
     bool use, direct, pairs; /* of struct tables */
     bool count;              /* its light_vertices; with `use` they are counted, too */
+    bool few;                /* by as few sub-paths as `direct` alone */
     double emission;         /* delta of the table of emission, which needs `use`; 1: do not learn it */
     double delta;            /* of the table of pairs */
 };

@@ -43,6 +43,7 @@ struct material_row {
     size_t size;                /* of the struct to be filled */
     int most_lobes;             /* that it has itself, besides those of its FIELD_MATERIALs */
     bool may_be_delta;          /* may one of these be a mirror, or smooth glass? */
+    bool diffuse;               /* none of these can be sharp */
     bool may_be_brushed;        /* may they depend on where u and v run, be `rough` as it may? */
     /* Add the lobes; a black one may be among them. */
     void (*lobes)(struct lobe_list *list, const struct material *m);

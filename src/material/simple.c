@@ -30,7 +30,7 @@ static const struct field MATTE[] = {
     COLOUR_FIELD("Kd", AT(Kd), 0.5), {"sigma", .kind = FIELD_FLOAT_TEXTURE, .place = AT(sigma)}, LAST_FIELDS};
 
 const struct material_row material_matte = {
-    .name = "matte", .fields = MATTE, .size = sizeof(struct simple), .most_lobes = 1, .lobes = matte};
+    .name = "matte", .fields = MATTE, .size = sizeof(struct simple), .most_lobes = 1, .diffuse = true, .lobes = matte};
 
 /* A smooth mirror of one reflectance at all angles. */
 static void mirror(struct lobe_list *list, const struct material *m)
@@ -168,7 +168,7 @@ static const struct field MIX[] = {
     COLOUR_FIELD("amount", AT(amount), 0.5), {.name = NULL}};
 
 const struct material_row material_mix = {
-    .name = "mix", .fields = MIX, .size = sizeof(struct simple), .lobes = mix, .may_be_brushed = true};
+    .name = "mix", .fields = MIX, .size = sizeof(struct simple), .diffuse = true, .lobes = mix, .may_be_brushed = true};
 
 /* A layered material that is a table. */
 static void fourier(struct lobe_list *list, const struct material *m)
@@ -193,7 +193,8 @@ struct material *material_medium(double g)
 {
     static const struct field NONE[] = {{.name = NULL}};
     static const struct material_row ROW = {
-        .name = "medium", .fields = NONE, .size = sizeof(struct simple), .most_lobes = 1, .lobes = medium};
+        .name = "medium", .fields = NONE, .size = sizeof(struct simple), .most_lobes = 1, .diffuse = true,
+        .lobes = medium};
     struct material *m = material_new(&ROW);
     ((struct simple *)m)->g = g;
     return m;

@@ -362,12 +362,23 @@ static void warn_of_media(struct loading *l)
                       "integrators will differ; check each MediumInterface", p.x, p.y, p.z);
 }
 
+/* Are s = 0 and s = 1 enough? They miss light from a delta light that reaches a surface through a delta lobe. */
+static bool path_tracer_sees_all(const struct scene *scene)
+{
+    bool delta_light = false, delta_lobe = false;
+    for (int i = 0; i < scene->lights.n; i++)
+        delta_light |= light_is_delta(&scene->lights.light[i]);
+    for (int i = 0; i < scene->n_materials; i++)
+        delta_lobe |= scene->material[i]->row->may_be_delta;
+    return !(delta_light && delta_lobe);
+}
+
 /* Parameters may leave out connections that nothing else makes up for. */
 static void warn_of_loss(struct loading *l, const struct prepared *p)
 {
     const struct numbers *n = &p->parameters.numbers;
     bool complete = n->path_pixels > 0 && n->draws[FIRST_HIT] > 0 && n->draws[LATER_HIT] > 0;
-    if (method_has(p->method, "later") != NULL && !complete && !race_path_tracer_sees_all(l->scene))
+    if (method_has(p->method, "later") != NULL && !complete && !path_tracer_sees_all(l->scene))
         warn_of_scene(l, "with connections, later or pathpixels 0 the image may lack light of point, spot and distant "
                       "lights that mirrors or glass send to a surface");
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const struct tables NO_TABLES = {.use = NULL};
+const struct tables NO_TABLES = {.regions = {.n = 1}};
 
 void tables_free(struct tables *t)
 {

@@ -105,10 +105,11 @@ static const char *winner(struct corpus *c)
         struct prepared p;
         if (!render_prepare(&c->scene, &o, render_crop(&c->scene), &job, &p, NULL))
             continue;
-        const char *name = p.n_runners > 0 ? strchr(p.runner[p.winner].name, '_') + 1 : NULL;
+        bool raced = p.parameters.race == RACE_ON;
+        int won = p.winner;
         method_release(&p);
-        if (name != NULL)
-            return name;
+        if (raced)
+            return RACES[RACE_RUNNERS + won];
     }
     return "-";
 }

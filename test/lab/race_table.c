@@ -5,13 +5,12 @@
 
 struct race_result race_result(const struct prepared *p)
 {
-    struct race_result r = {.n = p->n_runners, .winner = p->winner};
+    struct race_result r = {.winner = p->winner};
     memcpy(r.runner, p->runner, sizeof r.runner);
     return r;
 }
 
-/* "quarter" of "race_quarter". */
-static const char *name(const struct runner *k) { return strchr(k->name, '_') + 1; }
+static const char *name(int runner) { return RACES[RACE_RUNNERS + runner]; }
 
 /* Variance times price, over the winner's. */
 static double relative_cost(const struct race_result *r, const struct runner *k)
@@ -20,16 +19,35 @@ static double relative_cost(const struct race_result *r, const struct runner *k)
     return k->variance * k->price / (winner->variance * winner->price);
 }
 
+/* "light sub-paths in one of 32 iterations", "a light sub-path for 4 pixels". */
+static void print_light(FILE *f, const struct numbers *n)
+{
+    int every = numbers_every(n, FIRST_HIT);
+    if (n->path_pixels == 0)
+        fputs("no light sub-paths", f);
+    else if (every > 1)
+        fprintf(f, "light sub-paths in one of %d iterations", every);
+    else if (n->path_pixels > 1)
+        fprintf(f, "a light sub-path for %d pixels", n->path_pixels);
+    else
+        fputs("a light sub-path for each pixel", f);
+}
+
 void race_print_winner(FILE *f, const struct race_result *r)
 {
+    const struct runner *winner = &r->runner[r->winner];
     const char *before = "\n  That of the others, over its own:";
-    if (r->n == 0 || !(r->runner[r->winner].price > 0))
+    if (!(winner->price > 0))
         return;
-    fprintf(f, "RACE: the runner %s renders, because it has the least predicted variance times price.",
-            name(&r->runner[r->winner]));
-    for (int i = 0; i < r->n; i++)
-        if (i != r->winner) {
-            fprintf(f, "%s %s %.3g", before, name(&r->runner[i]), relative_cost(r, &r->runner[i]));
+    fprintf(f, "RACE: the runner %s renders: ", name(r->winner));
+    print_light(f, &winner->numbers);
+    if (r->runner[RUNNER_ALL].price > 0)
+        fputs(". It has the least variance times price.", f);
+    else
+        fputs(", since most noise is of direct light, which they do not reduce.", f);
+    for (int i = 0; i < RUNNERS; i++)
+        if (i != r->winner && r->runner[i].price > 0) {
+            fprintf(f, "%s %s %.3g", before, name(i), relative_cost(r, &r->runner[i]));
             before = ",";
         }
     fputs("\n", f);
@@ -37,28 +55,30 @@ void race_print_winner(FILE *f, const struct race_result *r)
 
 void race_print_table(FILE *f, const struct race_result *r)
 {
-    fprintf(f, "race          %d runners\n", r->n);
-    if (r->n > 0)
-        fprintf(f, "  %-14s %8s %6s %6s %12s %10s %8s %8s\n", "runner", "at first", "later", "points", "pixels each",
-                "variance", "price", "product");
-    for (int i = 0; i < r->n; i++) {
+    if (!(r->runner[r->winner].price > 0)) {
+        fputs("race          none\n", f);
+        return;
+    }
+    fprintf(f, "race          %d runners\n  %-14s %8s %6s %6s %10s %8s %8s  light\n", RUNNERS, "runner", "at first",
+            "later", "points", "variance", "price", "product");
+    for (int i = 0; i < RUNNERS; i++) {
         const struct runner *k = &r->runner[i];
         const struct numbers *n = &k->numbers;
-        fprintf(f, "  %-14s %8d %6d %6d", name(k), n->path_pixels > 0 ? n->draws[FIRST_HIT] : 0,
-                n->path_pixels > 0 ? n->draws[LATER_HIT] : 0, n->light_points);
-        if (n->path_pixels > 0)
-            fprintf(f, " %12d", n->path_pixels);
-        else
-            fprintf(f, " %12s", "no paths");
-        if (relative_cost(r, k) >= 0)
+        double later = (double)n->draws[LATER_HIT] / numbers_every(n, LATER_HIT);
+        fprintf(f, "  %-14s %8.3g %6.2g %6d", name(i), (double)n->draws[FIRST_HIT] / numbers_every(n, FIRST_HIT), later,
+                n->light_points);
+        if (!(k->price > 0))
+            fprintf(f, " %10s %8s %8s", "-", "-", "-"); /* it did not have to start */
+        else if (relative_cost(r, k) >= 0)
             fprintf(f, " %10.4g %8.4g %8.3f", k->variance, k->price, relative_cost(r, k));
         else
             fprintf(f, " %10.4g %8.4g %8s", k->variance, k->price, "-"); /* no sample has met any light */
-        fprintf(f, "%s\n", i == r->winner ? "  chosen" : "");
+        fputs("  ", f);
+        print_light(f, n);
+        fprintf(f, "%s\n", i == r->winner ? "; chosen" : "");
     }
-    if (r->n > 0)
-        fputs("  at first, later: light vertices for an eye vertex; points: light points at a first hit; pixels each:\n"
-              "  for a light sub-path; variance: predicted, relative to brightness, of all samples of the race;\n"
-              "  product: variance times price, over that of the chosen one\n",
-              f);
+    fputs("  at first, later: light vertices for an eye vertex, in the mean over iterations; points: light points at a\n"
+          "  first hit; variance: of a sample, relative to brightness; product: variance times price, over that of\n"
+          "  the chosen one; -: the path tracer has won before anything was learnt\n",
+          f);
 }

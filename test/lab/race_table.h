@@ -10,8 +10,8 @@
 #include "integrators/method.h"
 
 struct race_result {
-    struct runner runner[MAX_RUNNERS];
-    int n, winner; /* n = 0: there was no race */
+    struct runner runner[RUNNERS];
+    int winner;
 };
 struct race_result race_result(const struct prepared *p);
 

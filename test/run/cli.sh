@@ -386,13 +386,13 @@ says '^size          3x2$' '^B             0 to 1, mean 0.166667$'
 printf 'WorldBegin Translate 5 6 7 Material "none" AreaLightSource "diffuse" Shape "sphere" WorldEnd\n' >lamp.pbrt
 prints 'bounds  *(4, 5, 6) to (6, 7, 8)' \
     "$lab" info lamp.pbrt # bounds are those of the surfaces that rays pass through, too
-prints '  chosen$' "$lab" info "$box" --res 24 --race
+prints '; chosen$' "$lab" info "$box" --res 40 --race
 # Every runner is explained: help has those of the race, in their order.
 sed -n '/^  runner /,/^  at first/s/^  \([a-z_]*\)  *[0-9].*/\1/p' stdout.txt >runners.txt
 check [ "$(wc -l <runners.txt)" -eq 5 ]
 expect 0 '' "$program" help integrators
 check [ "$(sed -n '/^Runners: /,$s/^    \([a-z_][a-z_]*\)    *[a-z].*/\1/p' stdout.txt)" = "$(cat runners.txt)" ]
-expect 2 'pt has no race' "$lab" info "$box" --res 24 --race --integrator pt
+expect 2 'pt has no race' "$lab" info "$box" --res 40 --race --integrator pt
 
 # --- trace
 # trace: a sample told in words and drawn; what it says to have added is what a render's film holds.
@@ -421,7 +421,7 @@ check awk '/<svg x=/ { n = 0 }
 prints '^CHOICE of what to connect with: ' "$lab" trace "$box" $one --spp 4 --brightest -P select=vertices \
     --integrator asbdpt --all
 check grep -Eq '^  \([2-9],[2-9]\) +y_[0-9(]+\)? - z_[0-9] +0\.' stdout.txt # with its probability
-prints '^RACE: the runner [a-z_]* renders, ' "$lab" trace "$box" $one --integrator asbdpt
+prints '^RACE: the runner [a-z_]* renders: ' "$lab" trace "$box" --pixel 3,9 --res 40 --integrator asbdpt
 
 # How a method chooses is said in the words of the page that renders.
 awk -F "'" '/^const ABOUT = / { on = 1 }
@@ -443,7 +443,7 @@ check [ $told -ge 12 ]
 expect 0 '' "$lab" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o worth.png
 check [ -s worth.png ]
 # The race, which would choose a path tracer here, is left out.
-prints '^  \(guided\|plain\) .* chosen$' "$lab" info "$scenes/forest.pbrt" --race --integrator asbdpt --res 24x16
+prints '^  \(path_tracer\|one_point\) .*; chosen$' "$lab" info "$scenes/forest.pbrt" --race --integrator asbdpt --res 48x32
 expect 0 '' "$lab" worth "$scenes/forest.pbrt" --pixel 12,12 --res 24x16 --spp 4 --quiet -o worth.png
 expect 1 'learns nothing about pairs' "$lab" worth "$box" --pixel 3,9 --res 12x12 -P select=pool -o worth.png
 

@@ -154,23 +154,14 @@ static void compare(struct subject *s, const char *way)
         printf("    p = %-8.3g %.4f of bdpt's light by %s\n", p, ratio, way);
 }
 
-/* Each runner that competes in this scene, by the parameters that make it the only one. */
+/* Each runner alone. */
 static void compare_runners(struct subject *s)
 {
-    struct bench b;
-    char way[MAX_RUNNERS][128];
-    int n = 0;
-    if (!bench_new(s->all->t, &s->scene, set_method(&s->scene, "asbdpt"), s->made.max_depth, 0, &b))
-        return;
-    for (; n < b.prepared.n_runners; n++) {
-        const struct runner *r = &b.prepared.runner[n];
-        snprintf(way[n], sizeof way[n], "asbdpt race=off connections=%d later=%d pathpixels=%d lightpoints=%d%s",
-                 r->numbers.draws[FIRST_HIT], r->numbers.draws[LATER_HIT], r->numbers.path_pixels,
-                 r->numbers.light_points, r->plain ? " guide=off" : "");
+    for (int i = 0; i < RUNNERS; i++) {
+        char way[64];
+        snprintf(way, sizeof way, "asbdpt race=%s", RACES[RACE_RUNNERS + i]);
+        compare(s, way);
     }
-    bench_free(&b);
-    for (int i = 0; i < n; i++)
-        compare(s, way[i]);
 }
 
 /* One of these, with the numbers of its list. */

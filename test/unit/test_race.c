@@ -2,9 +2,13 @@
  * numbers and credits. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "bench.h"
 #include "helpers.h"
+#include "integrators/loop.h"
+#include "lab/stats.h"
+#include "lab/verify.h"
 #include "suites.h"
 
 /* A floor that a point light shines on, the eye above it; something small of the given material out of sight. */
@@ -21,11 +25,11 @@ static const char FLOOR[] = "LookAt 0 0 4  0 0 0  0 1 0\n"
 
 /* What asbdpt has settled for the scene and its settings. */
 struct settled {
+    struct runner runner[RUNNERS];
+    int winner;
     struct numbers numbers;
     struct counts counts; /* not the tables, which go */
     bool learnt;          /* is anything known but lights? */
-    bool complete;        /* does each runner make every path that the method can make? */
-    double path_tracer;   /* variance times price of the best path tracer, over the winner's; 0: there was no race */
 };
 
 static bool settle(struct test *t, const struct scene *scene, struct settled *out)
@@ -34,17 +38,9 @@ static bool settle(struct test *t, const struct scene *scene, struct settled *ou
     if (!bench_new(t, scene, "asbdpt", 5, 0, &b))
         return false;
     const struct tables *known = b.prepared.tables;
-    bool learnt = known->use != NULL || known->pairs.rows > 0 || known->emission.rows > 0;
-    bool complete = true;
-    double best = 0;
-    for (const struct runner *k = b.prepared.runner; k < b.prepared.runner + b.prepared.n_runners; k++) {
-        complete &= k->numbers.path_pixels > 0 && k->numbers.draws[FIRST_HIT] > 0 && k->numbers.draws[LATER_HIT] > 0;
-        if (k->numbers.path_pixels == 0 && (best == 0 || k->variance * k->price < best))
-            best = k->variance * k->price;
-    }
-    const struct runner *winner = &b.prepared.runner[b.prepared.winner];
-    *out = (struct settled){b.prepared.numbers, b.prepared.counts, learnt, complete,
-                            best > 0 ? best / (winner->variance * winner->price) : 0};
+    *out = (struct settled){.winner = b.prepared.winner, .numbers = b.prepared.numbers, .counts = b.prepared.counts};
+    out->learnt = known->pairs.rows > 0;
+    memcpy(out->runner, b.prepared.runner, sizeof out->runner);
     bench_free(&b);
     return true;
 }
@@ -64,27 +60,42 @@ static void test_where_they_pay(struct test *t)
     static const char *const scenes[] = {"scenes/cornell-box.pbrt", "scenes/bathroom.pbrt", "scenes/corridor.pbrt"};
     struct settled s;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++)
-        if (settle_file(t, scenes[i], &s))
-            CHECK(t, s.numbers.path_pixels > 0 && s.counts.pair[FIRST_HIT] > 0 && s.counts.lens > 0,
-                  "%s has no light sub-paths", scenes[i]);
+        if (settle_file(t, scenes[i], &s)) {
+            double cheaper = s.runner[RUNNER_QUARTER].price / s.runner[RUNNER_ALL].price;
+            CHECK(t, s.winner < RUNNER_PATH_TRACER && s.counts.pair[FIRST_HIT] > 0 && s.counts.lens > 0,
+                  "%s: a path tracer renders", scenes[i]);
+            CHECK(t, cheaper < 0.9, "%s: a quarter of the light sub-paths costs %.3f times as much", scenes[i],
+                  cheaper);
+        }
 }
 
-/* Under an open sky a path tracer is the best runner, or nearly. */
+/* Under an open sky a path tracer wins before anything is learnt about light sub-paths. */
 static void test_where_nothing_pays(struct test *t)
 {
     static const char *const scenes[] = {"scenes/forest.pbrt", "scenes/sky.pbrt"};
     struct settled s;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++)
         if (settle_file(t, scenes[i], &s))
-            CHECK(t, s.path_tracer < 1.25, "%s: %d pixels for a light sub-path, a path tracer is %.2f times as bad",
-                  scenes[i], s.numbers.path_pixels, s.path_tracer);
+            CHECK(t, s.winner >= RUNNER_PATH_TRACER && !s.learnt && !(s.runner[RUNNER_ALL].price > 0),
+                  "%s: %s renders, %s", scenes[i], RACES[RACE_RUNNERS + s.winner], s.learnt ? "learnt" : "not learnt");
 }
 
-/* Paths that only light sub-paths find keep these alive, whatever was measured; else a path tracer, which keeps no
- * table but that of direct light, is enough here. */
-static void test_where_nothing_else_does(struct test *t)
+/* How often runner k takes what eye vertices of this kind draw (t > 1), or splats, for each time of the first. */
+static double how_often(const struct settled *s, int k, enum eye_end end, bool splats)
 {
-    static const char *const materials[] = {"matte", "mirror", "glass", "uber"};
+    const struct numbers *n = &s->runner[k].numbers, *all = &s->runner[RUNNER_ALL].numbers;
+    if (n->path_pixels == 0)
+        return 0;
+    double paths = splats ? (double)all->path_pixels / n->path_pixels : (double)n->draws[end] / all->draws[end];
+    return paths / numbers_every(n, end);
+}
+
+/* No runner gives light up: what the first makes each makes at least 1/32 times as often. A path tracer without light
+ * sub-paths competes where all is matte alone. */
+static void test_nothing_is_given_up(struct test *t)
+{
+    static const char *const materials[] = {"matte", "mirror", "glass", "uber", "disney", "plastic", "metal",
+                                            "substrate", "translucent"};
     for (size_t i = 0; i < sizeof materials / sizeof materials[0]; i++) {
         char text[2048];
         struct scene scene;
@@ -92,15 +103,19 @@ static void test_where_nothing_else_does(struct test *t)
         snprintf(text, sizeof text, FLOOR, materials[i]);
         if (!scene_from_text(t, text, &scene))
             continue;
-        if (settle(t, &scene, &s)) {
-            CHECK(t, (s.numbers.path_pixels > 0) == (i > 0), "a point light beside %s: %d", materials[i],
-                  s.numbers.path_pixels);
-            CHECK(t, s.complete == (i > 0), "a point light beside %s: a runner lacks paths", materials[i]);
-            CHECK(t, i > 0 || (!s.learnt && s.numbers.draws[FIRST_HIT] == 0 && s.counts.lens == 0 &&
-                               s.counts.pair[FIRST_HIT] == 0 && s.counts.pair[LATER_HIT] == 0 &&
-                               s.counts.hit[LATER_HIT] == 1 && s.counts.direct[FIRST_HIT] == 1),
-                  "a path tracer knows, or counts, more than it uses");
+        for (int k = 0; k < RUNNERS && settle(t, &scene, &s); k++) {
+            double least = fmin(how_often(&s, k, FIRST_HIT, true),
+                                fmin(how_often(&s, k, FIRST_HIT, false), how_often(&s, k, LATER_HIT, false)));
+            bool without = i == 0 && k >= RUNNER_PATH_TRACER;
+            CHECK(t, without ? least == 0 : least >= 1.0 / 32, "a point light beside %s: %s makes some paths %g times "
+                  "as often as the first runner", materials[i], RACES[RACE_RUNNERS + k], least);
         }
+        CHECK(t, s.runner[RUNNER_QUARTER].numbers.path_pixels == 4 &&
+              s.runner[RUNNER_QUARTER_FIRST].numbers.path_pixels == 4, "a quarter is none");
+        if (i == 0)
+            CHECK(t, s.winner >= RUNNER_PATH_TRACER && !s.learnt && s.counts.lens == 0 &&
+                  s.counts.pair[FIRST_HIT] == 0 && s.counts.pair[LATER_HIT] == 0 && s.counts.hit[LATER_HIT] == 1,
+                  "a path tracer knows, or counts, more than it uses");
         scene_free(&scene);
     }
 }
@@ -122,34 +137,6 @@ static void test_wish(struct test *t)
     scene_free(&scene);
 }
 
-/* Runners that the first predicts, by being the first themselves: price is a matter of numbers alone, and variance,
- * which both have measured by a few samples, is about what it was said to be. */
-static void test_predictions(struct test *t)
-{
-    static const char *const scenes[] = {"scenes/bathroom.pbrt", "scenes/forest.pbrt"};
-    static const char *const runners[] = {"asbdpt", "asbdpt pathpixels=4", "asbdpt pathpixels=4 connections=1 later=0"};
-    for (int i = 0; i < 6; i++) {
-        static struct runner said[3];
-        struct scene scene;
-        struct bench b;
-        if (!scene_from_file(t, scenes[i / 3], 192, 128, &scene))
-            continue;
-        if (bench_new(t, &scene, set_method(&scene, runners[i % 3]), 5, 0, &b)) {
-            struct runner own = b.prepared.runner[0];
-            for (int k = 0; k < 3 && i % 3 == 0; k++)
-                said[k] = b.prepared.runner[k];
-            CHECK(t, said[1].price < 0.9 * said[0].price, "%s: a quarter of the light sub-paths costs %.3f times as much",
-                  scenes[i / 3], said[1].price / said[0].price);
-            double variance = own.variance / said[i % 3].variance, price = own.price / said[i % 3].price;
-            CHECK(t, fabs(price - 1) < 0.02, "%s, %s: %.3f times the price", scenes[i / 3], said[i % 3].name, price);
-            CHECK(t, variance > 0.6 && variance < 1.7, "%s, %s: %.2f times the variance", scenes[i / 3],
-                  said[i % 3].name, variance);
-            bench_free(&b);
-        }
-        scene_free(&scene);
-    }
-}
-
 /* The edge of a lamp is noise in the image, but the same for all runners: of a lamp alone none is predicted. */
 static void test_lamp_alone(struct test *t)
 {
@@ -161,34 +148,135 @@ static void test_lamp_alone(struct test *t)
     struct bench b;
     if (!scene_from_text(t, LAMP, &scene) || !bench_new(t, &scene, set_method(&scene, "asbdpt"), 5, 0, &b))
         return;
-    CHECK(t, b.prepared.n_runners == MAX_RUNNERS, "%d runners", b.prepared.n_runners);
-    for (int i = 0; i < b.prepared.n_runners; i++)
-        CHECK(t, b.prepared.runner[i].variance < 1e-20, "%s: a variance of %g", b.prepared.runner[i].name,
+    for (int i = 0; i < RUNNERS; i++)
+        CHECK(t, b.prepared.runner[i].variance < 1e-20, "%s: a variance of %g", RACES[RACE_RUNNERS + i],
               b.prepared.runner[i].variance);
     bench_free(&b);
     scene_free(&scene);
 }
 
-/* Of a point light on two walls direct light has little variance, however much more of it a runner has to make. */
-static void test_even_light(struct test *t)
+/* Of every 16 iterations of a tile one has light sub-paths, each as often, in another order in every tile. */
+static void test_turns(struct test *t)
 {
-    static const char WALLS[] = "LookAt 0 0 4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 40\n"
-                                "Film \"image\" \"integer xresolution\" 160 \"integer yresolution\" 160 WorldBegin\n"
-                                "LightSource \"point\" \"point from\" [1 2 3] \"rgb I\" [20 20 20]\n"
-                                "Material \"matte\" \"rgb Kd\" [.8 .8 .8] "
-                                QUAD("-9 -9 0  9 -9 0  9 9 0  -9 9 0") QUAD("-3 -9 0  -3 -9 9  -3 9 9  -3 9 0")
-                                "WorldEnd\n";
+    enum { EVERY = 16, BLOCKS = 400, TILES = 2 };
     struct scene scene;
-    struct bench b[2];
-    if (!scene_from_text(t, WALLS, &scene) ||
-        !bench_new(t, &scene, set_method(&scene, "asbdpt"), 5, 0, &b[0]) ||
-        !bench_new(t, &scene, set_method(&scene, "asbdpt pathpixels=4"), 5, 0, &b[1]))
+    struct bench b;
+    double count[EVERY] = {0}, even[EVERY];
+    int same = 0, last[TILES] = {0, 0};
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 32, 32, &scene))
         return;
-    double said = b[0].prepared.runner[1].variance, own = b[1].prepared.runner[0].variance;
-    CHECK(t, own > 0.45 * said && own < 1.5 * said, "a quarter of light sub-paths: variance %g, said to be %g", own,
-          said);
-    bench_free(&b[0]);
-    bench_free(&b[1]);
+    if (bench_new(t, &scene, set_method(&scene, "asbdpt race=off"), 5, 0, &b)) {
+        struct tile_pass pass = bench_pass(&b, 0, 1);
+        b.prepared.numbers.every[FIRST_HIT] = b.prepared.numbers.every[LATER_HIT] = EVERY;
+        for (long i = 0; i < BLOCKS * EVERY; i++)
+            for (int tile = 0; tile < TILES; tile++) {
+                pass.tile->pixel[0][0] = tile;
+                bool turn = loop_turn(&b.prepared, &pass, FIRST_HIT, i);
+                CHECK(t, turn == loop_turn(&b.prepared, &pass, LATER_HIT, i), "draws without light sub-paths");
+                count[i % EVERY] += turn;
+                last[tile] = turn ? (int)(i % EVERY) : last[tile];
+                if (i % EVERY == EVERY - 1 && tile == TILES - 1)
+                    same += last[0] == last[1];
+            }
+        double all = 0;
+        for (int i = 0; i < EVERY; i++) {
+            all += count[i];
+            even[i] = (double)TILES * BLOCKS / EVERY;
+        }
+        CHECK(t, all == TILES * BLOCKS, "%g turns of %d", all, TILES * BLOCKS);
+        CHECK(t, same < BLOCKS / 4, "two tiles have the same turn in %d of %d blocks", same, BLOCKS);
+        TEST_ACCEPT(t, stats_chi2_test(count, even, EVERY), "turns");
+        bench_free(&b);
+    }
+    scene_free(&scene);
+}
+
+/* The light sub-paths of turn n are those that iteration n would have had. */
+static void test_streams_of_turns(struct test *t)
+{
+    struct scene scene;
+    struct bench b;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 8, 8, &scene))
+        return;
+    if (bench_new(t, &scene, set_method(&scene, "asbdpt race=off"), 5, 0, &b)) {
+        struct tile_pass pass = bench_pass(&b, 0, 1);
+        const struct pool *pool = &b.work->pool;
+        loop_fill(&b.prepared, &pass, 3);
+        int n = pool->n;
+        vec3 p = pool_path(pool, 5)[0].p, last = pool_path(pool, n - 1)[0].p;
+        b.prepared.numbers.every[FIRST_HIT] = b.prepared.numbers.every[LATER_HIT] = 16;
+        long turn = 3 * 16;
+        while (!loop_turn(&b.prepared, &pass, FIRST_HIT, turn))
+            turn++;
+        loop_fill(&b.prepared, &pass, turn ^ 1);
+        CHECK(t, turn < 4 * 16 && pool->n == 0, "%d light sub-paths out of turn", pool->n);
+        loop_fill(&b.prepared, &pass, turn);
+        CHECK(t, pool->n == n && length(sub(p, pool_path(pool, 5)[0].p)) == 0 &&
+              length(sub(last, pool_path(pool, n - 1)[0].p)) == 0, "the fourth turn of 16 is no fourth point");
+        bench_free(&b);
+    }
+    scene_free(&scene);
+}
+
+/* Light that a path tracer misses, or nearly: of the sun on a bent strip of mirror, and of a small lamp in a glass
+ * ball, by day. */
+static const char SUN_ON_MIRROR[] =
+    "LookAt 0 4 -4  0 0 .6  0 1 0 Camera \"perspective\" \"float fov\" 36\n"
+    "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24 PixelFilter \"box\" WorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [.2 .2 .2]\n"
+    "LightSource \"distant\" \"rgb L\" [3 3 3] \"point from\" [0 1 -1.4] \"point to\" [0 0 0]\n"
+    "Material \"matte\" \"rgb Kd\" [.6 .6 .6] " QUAD("-20 0 -20  20 0 -20  20 0 20  -20 0 20")
+    "Material \"mirror\" Translate 0 0 .3 Rotate -90 1 0 0\n"
+    "Shape \"cylinder\" \"float radius\" 1.5 \"float zmin\" 0 \"float zmax\" .6 \"float phimax\" 180 WorldEnd\n";
+static const char LAMP_IN_GLASS[] =
+    "LookAt 4 3 0  2 0 0  0 1 0 Camera \"perspective\" \"float fov\" 30\n"
+    "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24 PixelFilter \"box\" WorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
+    "Material \"matte\" \"rgb Kd\" [.6 .6 .6] " QUAD("-20 0 -20  20 0 -20  20 0 20  -20 0 20")
+    "TransformBegin Translate 0 .8 0 Material \"glass\" Shape \"sphere\" \"float radius\" .4\n"
+    "AreaLightSource \"diffuse\" \"rgb L\" [4e5 4e5 4e5] Shape \"sphere\" \"float radius\" .001\n"
+    "TransformEnd WorldEnd\n";
+
+/* The default and each runner show what is there without a race. A path tracer alone does not. */
+static void test_expectations(struct test *t)
+{
+    enum { BATCHES = 16, SPP = 32, TILE = 24, WAYS = RUNNERS + 2 };
+    static const char *const scenes[] = {SUN_ON_MIRROR, LAMP_IN_GLASS}, *const names[] = {"the sun", "the lamp"};
+    for (int i = 0; i < 2; i++) {
+        struct scene scene;
+        struct batches right;
+        if (!scene_from_text(t, scenes[i], &scene))
+            return;
+        right = render_batches(t, &scene, set_method(&scene, "asbdpt race=off"), 5, SPP, BATCHES, TILE, 1);
+        for (int k = 0; k < WAYS; k++) {
+            char way[64] = "pt";
+            if (k <= RUNNERS)
+                snprintf(way, sizeof way, "asbdpt race=%s", k < RUNNERS ? RACES[RACE_RUNNERS + k] : "on");
+            const char *name = set_method(&scene, way);
+            struct batches x = render_batches(t, &scene, name, 5, SPP, BATCHES, TILE, (uint64_t)k + 2);
+            double p = verify_batches(&x, &right, 1).p, ratio = batches_mean(&x, NULL) / batches_mean(&right, NULL);
+            if (k > RUNNERS)
+                TEST_REJECT(t, p, "%s, %s: %.4f of the light", names[i], way, ratio);
+            else
+                TEST_ACCEPT(t, p, "%s, %s: %.4f of the light", names[i], way, ratio);
+            batches_free(&x);
+        }
+        batches_free(&right);
+        scene_free(&scene);
+    }
+}
+
+/* The parameter names the runner that it says. */
+static void test_names(struct test *t)
+{
+    static const char *const pairs[][2] = {{"asbdpt race=all", "asbdpt race=off"},
+                                           {"asbdpt race=quarter", "asbdpt race=off pathpixels=4"}};
+    const struct render_options o = {.end = 2, .n_threads = 1, .max_depth = 4};
+    struct scene scene;
+    if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
+        return;
+    for (int i = 0; i < 2; i++)
+        CHECK(t, same_picture(t, &scene, pairs[i][0], pairs[i][1], o), "%s is not %s", pairs[i][0], pairs[i][1]);
     scene_free(&scene);
 }
 
@@ -204,6 +292,11 @@ static void test_counts(struct test *t)
     const struct counts pt = counts_of(path_tracer, 1, 1, 100, &NO_TABLES);
     CHECK(t, pt.pair[FIRST_HIT] == 0 && pt.lens == 0 && pt.hit[LATER_HIT] == 1, "a path tracer");
     const struct counts lt = counts_of((struct numbers){.path_pixels = 1}, 5, 1, 100, &NO_TABLES);
+    struct numbers rare = n;
+    rare.every[FIRST_HIT] = rare.every[LATER_HIT] = 8;
+    const struct counts r = counts_of(rare, 5, 2, 100, &NO_TABLES);
+    CHECK(t, r.pair[FIRST_HIT] == 6.0 / 8 && r.pair[LATER_HIT] == 2.0 / 8 && r.lens == 25.0 / 8 &&
+          r.direct[LATER_HIT] == 1, "light sub-paths in one of 8 iterations");
     CHECK(t, lt.hit[FIRST_HIT] == 0 && lt.direct[LATER_HIT] == 0 && lt.lens == 100, "a light tracer");
 }
 
@@ -212,9 +305,11 @@ void test_race(struct test *t)
     test_counts(t);
     test_where_they_pay(t);
     test_where_nothing_pays(t);
-    test_where_nothing_else_does(t);
+    test_nothing_is_given_up(t);
     test_wish(t);
-    test_predictions(t);
     test_lamp_alone(t);
-    test_even_light(t);
+    test_names(t);
+    test_turns(t);
+    test_streams_of_turns(t);
+    test_expectations(t);
 }

@@ -179,7 +179,6 @@ void one_more_prepare(const struct render_job *job, struct prepared *p)
     p->numbers = own->method.numbers;
     p->tables->regions.n = own->method.tables->regions.n;
     memcpy(p->runner, own->method.runner, sizeof p->runner);
-    p->n_runners = own->method.n_runners;
     p->winner = own->method.winner;
 }
 

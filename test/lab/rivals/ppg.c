@@ -348,7 +348,7 @@ static void prepare(const struct render_job *job, struct prepared *p)
     long pixels = (long)rect_pixels(job->film_rect);
     vec3 low, high;
     int passes = 0;
-    method_counts(job, p, true);
+    method_counts(job, p);
     find_box(job, &low, &high);
     sdtree_init(&own->tree, low, high);
     for (long n = 1; 2 * n - 1 <= own->training && !t.learning.patience.over; n *= 2) {

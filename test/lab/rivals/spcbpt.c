@@ -221,7 +221,7 @@ static void prepare(const struct render_job *job, struct prepared *p)
     struct spcbpt *own = p->own;
     double pixels = (double)rect_pixels(job->film_rect), K = fmin(sqr(p->size.tile), pixels) / p->numbers.path_pixels;
     int n = int_within(own->training * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT;
-    method_counts(job, p, true);
+    method_counts(job, p);
     struct trainer r = {job, &p->counts, workspaces_new(1, job->max_depth), patience_begin(job), 0, {.n = 0}};
     double *vertices = mem_alloc((size_t)own->subspaces, sizeof *vertices);
     for (int i = 0; i < n && goes_on(&r, i); i++)
