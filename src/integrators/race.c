@@ -197,7 +197,8 @@ static int find_winner(const struct prepared *p, int first)
 bool race_early(const struct render_job *job, struct prepared *p)
 {
     struct runner *pt = &p->runner[RUNNER_PATH_TRACER], *one = &p->runner[RUNNER_ONE_POINT];
-    bool wins = compete(job, p, pt, RUNNERS - RUNNER_PATH_TRACER) > one->variance / 2;
+    double direct = compete(job, p, pt, RUNNERS - RUNNER_PATH_TRACER);
+    bool wins = direct > 2 * (one->variance - direct);
     p->winner = wins ? find_winner(p, RUNNER_PATH_TRACER) : RUNNER_ALL;
     return wins;
 }

@@ -13,8 +13,8 @@
  * on every machine.
  *
  * Light sub-paths cannot help against the noise of direct light at first hits. The path tracers compete first, one with
- * as many light points as the first runner, and one with a single one. If that noise is more than half of the variance
- * of the latter, the better of the two wins before anything is learnt about light sub-paths.
+ * as many light points as the first runner, and one with a single one. If that noise is twice all other of the latter,
+ * the better of the two wins before more is learnt about light sub-paths than they need.
  *
  * Tests: test_race.c.
  */

@@ -17,8 +17,8 @@ for scene; do
     echo "scene $(basename "$scene" .pbrt)"
     ./asbdpt-lab info "$scene" --race --res "$size" --quiet || exit 1
 done >"$dir/predicted"
-off=asbdpt:race=off few=connections=1:later=0
 ./asbdpt-lab equal-time "$@" -o "$dir" --res "$size" --spp "${SPP:-32}" --seeds "${SEEDS:-3}" --quiet --methods \
-    $off,$off:pathpixels=4,$off:pathpixels=4:$few,$off:pathpixels=0,pt >"$dir/said" || exit 1
+    asbdpt:race=all,asbdpt:race=quarter,asbdpt:race=quarter_first,asbdpt:race=path_tracer,asbdpt:race=one_point \
+    >"$dir/said" || exit 1
 awk -F , -v most="${PRICE:-0.12}" -f test/measure/evidence/predictions.awk "$dir/predicted" "$dir/runs.csv" "$dir/equal-time.md" \
     >"$dir/race.txt"

@@ -69,15 +69,20 @@ static void test_where_they_pay(struct test *t)
         }
 }
 
-/* Under an open sky a path tracer wins before anything is learnt about light sub-paths. */
+/* Under an open sky a path tracer is the best runner, or nearly. */
 static void test_where_nothing_pays(struct test *t)
 {
     static const char *const scenes[] = {"scenes/forest.pbrt", "scenes/sky.pbrt"};
     struct settled s;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++)
-        if (settle_file(t, scenes[i], &s))
-            CHECK(t, s.winner >= RUNNER_PATH_TRACER && !s.learnt && !(s.runner[RUNNER_ALL].price > 0),
-                  "%s: %s renders, %s", scenes[i], RACES[RACE_RUNNERS + s.winner], s.learnt ? "learnt" : "not learnt");
+        if (settle_file(t, scenes[i], &s)) {
+            double best = INFINITY;
+            for (int k = RUNNER_PATH_TRACER; k < RUNNERS; k++)
+                best = fmin(best, s.runner[k].variance * s.runner[k].price);
+            best /= s.runner[s.winner].variance * s.runner[s.winner].price;
+            CHECK(t, best < 1.25, "%s: %s renders, path tracers are %.2f times as bad", scenes[i],
+                  RACES[RACE_RUNNERS + s.winner], best);
+        }
 }
 
 /* How often runner k takes what eye vertices of this kind draw (t > 1), or splats, for each time of the first. */
@@ -231,7 +236,7 @@ static const char SUN_ON_MIRROR[] =
 static const char LAMP_IN_GLASS[] =
     "LookAt 4 3 0  2 0 0  0 1 0 Camera \"perspective\" \"float fov\" 30\n"
     "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24 PixelFilter \"box\" WorldBegin\n"
-    "LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
+    "LightSource \"infinite\" \"rgb L\" [.05 .05 .05]\n"
     "Material \"matte\" \"rgb Kd\" [.6 .6 .6] " QUAD("-20 0 -20  20 0 -20  20 0 20  -20 0 20")
     "TransformBegin Translate 0 .8 0 Material \"glass\" Shape \"sphere\" \"float radius\" .4\n"
     "AreaLightSource \"diffuse\" \"rgb L\" [4e5 4e5 4e5] Shape \"sphere\" \"float radius\" .001\n"
@@ -240,7 +245,7 @@ static const char LAMP_IN_GLASS[] =
 /* The default and each runner show what is there without a race. A path tracer alone does not. */
 static void test_expectations(struct test *t)
 {
-    enum { BATCHES = 16, SPP = 32, TILE = 24, WAYS = RUNNERS + 2 };
+    enum { BATCHES = 16, SPP = 64, TILE = 24, WAYS = RUNNERS + 2 };
     static const char *const scenes[] = {SUN_ON_MIRROR, LAMP_IN_GLASS}, *const names[] = {"the sun", "the lamp"};
     for (int i = 0; i < 2; i++) {
         struct scene scene;

@@ -3,9 +3,8 @@
 # its own; winners, how often the predicted runner was the best and the mean and the worst of its error over that of
 # the best, right and costs the same in words; scenes, a row each. Exit status 1 if prices are wrong by more than `most`.
 function runner_of(label) {
-    few = label ~ /later=0/
-    return label == "pt" ? "plain" : label ~ /pathpixels=0/ ? "guided" : \
-        few ? "quarter_first" : label ~ /pathpixels=4/ ? "quarter" : "all"
+    sub(/.*race=/, "", label)
+    return label
 }
 function keep(name, s, value) {
     if (value ~ /^[0-9]/ && value !~ /[a-z]/) error[name, s, runner] = value + 0
@@ -13,9 +12,8 @@ function keep(name, s, value) {
 FILENAME ~ /predicted$/ {
     split($0, part, / +/)
     if (part[1] == "scene") scene[++n] = s = part[2]
-    else if (part[1] == "" && part[8] ~ /^[0-9.]+$/ || part[9] ~ /^[0-9.]+$/) {
-        at = part[6] == "no" ? 9 : 8
-        price[s, part[2]] = part[at]
+    else if (part[1] == "" && part[6] ~ /^[-0-9.e]+$/ && part[7] ~ /^[-0-9.]+$/) {
+        price[s, part[2]] = part[7] + 0
         if (/chosen$/) winner[s] = part[2]
     }
     next
@@ -27,14 +25,14 @@ FILENAME ~ /runs.csv$/ {
 }
 /^(mse8|relmse|8x8): squared/ { measure = $0; sub(/:.*/, "", measure) }
 /^\| method \|/ && measure != "" { columns = split($0, name, / *\| */) - 1; for (i in name) sub(/,.*/, "", name[i]) }
-/^\| (asbdpt:|pt)/ && measure != "" {
+/^\| asbdpt:/ && measure != "" {
     split($0, cell, / *\| */)
     runner = runner_of(cell[2])
     for (i = 3; i <= columns; i++) keep(measure, name[i], cell[i])
 }
 function mean_cost(measure) { return cases[measure] ? exp(logs[measure] / cases[measure]) : 0 }
 END {
-    kinds = split("all quarter quarter_first guided plain", runners, " ")
+    kinds = split("all quarter quarter_first path_tracer one_point", runners, " ")
     for (k = 1; k <= n; k++) {
         s = scene[k]; sum = count = 0
         for (i = 1; i <= kinds; i++)
