@@ -1,8 +1,8 @@
 /* exr_read.c: OpenEXR files read, see exr.h and image.h. [OpenEXR]
  *
- * Read are single pictures with full-resolution channels, in rows or in tiles, of which only the finest level counts. Of
- * the attributes only those that say where the pixels are matter here. Like pbrt-v3, this program takes the data window
- * for the picture; the display window is the whole of which that is a part. */
+ * Read are single pictures with full-resolution channels, in rows or in tiles, of which only the finest level counts.
+ * Of the attributes only those that say where the pixels are matter here. Like pbrt-v3, this program takes the data
+ * window for the picture; the display window is the whole of which that is a part. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,18 +1,20 @@
 /* asbdpt.c: the default, `select = subspaces`: eye vertices draw light vertices by their worth to the eye's region.
  *
- * As in vertices.c a light vertex represents the sub-path that ends there, and an eye vertex draws C of the light
- * vertices that the K sub-paths of a tile and iteration have. Here the probability depends on both ends. Let ratio(e,l)
- * tell what a light vertex in region l is worth to an eye vertex in region e (table.h), and L_v the luminance of
- * beta_v. Then
+ * A light vertex y_{s-1} represents the sub-path y_0 ... y_{s-1} that ends there. An eye vertex draws C of the light
+ * vertices that the K sub-paths of a tile and iteration have, with a probability that depends on both ends. Let
+ * ratio(e,l) tell what a light vertex in region l is worth to an eye vertex in region e (table.h), and L_v the
+ * luminance of beta_v. Then
  *     P(v|z) = ratio(e(z), l(v)) L_v / sum over the pool.
- * A draw has two steps, first the region and then the vertex, each by bisection of cumulative sums. So the C strata of
- * one eye vertex are distributed over space. (An alias table for each region e would need all vertices. The sums of a
- * region e need only the regions that have any.)
+ * A draw has two steps, first the region and then the vertex, each by bisection of cumulative sums, which keeps the C
+ * strata of an eye vertex apart. Alias tables in their place cost 3 to 9 % more instructions: a region draws too rarely
+ * from one to pay for its building.
  *
  * The MIS weights take this into account: the strategies count as
  *     n = x / (1 + x / M),      x = 2 C ratio(e(z), l(y)) / N,      M = K / 4
  * samples, where N is the mean number of connectible vertices of a light sub-path, and K that of a full tile. 2 is the
- * credit of a draw, and M a bound; direct light at a first hit has the credit 4 (counts.h).
+ * credit of a draw, and M a bound (counts.h). A draw takes y in proportion to L_v, too. The other strategies cannot
+ * know L_v of a walk that they have not made, so n has its mean. Any n that is a function of the path alone keeps the
+ * weights valid.
  *
  * [Su 2022] has subspaces of eye and light sub-paths and a matrix of probabilities between them. Here the regions are
  * cells of grids, and the table is learnt from trial connections.
@@ -118,8 +120,9 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
 
 /* --- the loop ---------------------------------------------------------------------------------------- */
 
-/* After a race (race.h) only one of `every` iterations may have light sub-paths, or draws of later hits. What is drawn
- * then counts `every` times. In the other iterations K = 0: they are those of a path tracer. */
+/* loop_render (loop.h), written out for the reader. After a race (race.h) only one of `every` iterations may have light
+ * sub-paths, or draws of later hits. What is drawn then counts `every` times. In the other iterations K = 0: they are
+ * those of a path tracer. */
 static void render_iteration(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     const int longest = pass->job->max_depth; /* t of a vertex that can be joined to one of s >= 2 */

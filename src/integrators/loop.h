@@ -5,11 +5,12 @@
  *     for each pixel, and each vertex z of its eye sub-path:
  *         add s = 0 and s = 1                                                 hit, direct
  *         C times: draw light vertices y with probability P, and add
- *             the connections of z to them, divided by C K P                  pair
+ *             the connections of z to them, divided by C K P / every          pair
  *     for each light sub-path: add its connections to the lens                lens
  *
- * K is the number of sub-paths of the pool. For a given pool, the expectation of what z draws is the mean over the K
- * sub-paths, whatever P is, as long as every vertex that can contribute has a chance. So the estimate is unbiased.
+ * K is the number of sub-paths of the pool; of `every`, see struct numbers. For a given pool, the expectation of what z
+ * draws is the mean over the K sub-paths, whatever P is, as long as every vertex that can contribute has a chance. So
+ * the estimate is unbiased.
  *
  * Tests: test_render.c, test_asbdpt.c.
  */

@@ -32,6 +32,13 @@ bool method_read(const struct method *m, const struct scene *scene, struct prepa
     return ok;
 }
 
+struct pass_size method_size(const struct prepared *p)
+{
+    bool shared = p->numbers.path_pixels > 0 && numbers_every(&p->numbers, FIRST_HIT) == 1;
+    const struct pass_size alone = {p->size.block, DEFAULT_TILE_SIZE, 1};
+    return p->method->selector == NULL || shared ? p->size : alone;
+}
+
 void method_counts(const struct render_job *job, struct prepared *p)
 {
     const struct parameters *q = &p->parameters;

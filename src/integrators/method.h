@@ -1,7 +1,7 @@
 /* method.h: a method is one file and one row. Methods differ in how many samples they take of each kind, and in how
  * they choose light vertices for an eye vertex.
  *
- * A row describes a method completely; the table of all rows is in render/job.h. Before the first sample, a method
+ * A row describes a method completely; the table of all rows is render/rows.c. Before the first sample, a method
  * reads its parameters and is prepared: tables are learnt, a race may decide on the numbers of samples, and the counts
  * in the weights follow. Then it renders tile passes (tile_pass.h) on all threads.
  *
@@ -32,7 +32,8 @@
  */
 struct parameters {
     struct numbers numbers; /* those of the row, unless parameters change them; later draws -1: as many as others */
-    int guide, race, credits, bound; /* off or on */
+    int guide, credits, bound; /* off or on */
+    int race;               /* RACE_OFF, RACE_ON, or a runner: RACE_RUNNERS + enum runner_name */
     double emission;        /* share of light sub-paths that start by power alone; 1: all */
     double delta;           /* share of choices that ignore what was learnt */
     int metric;             /* enum metric */
@@ -141,8 +142,11 @@ const struct field *method_has(const struct method *m, const char *name);
  * method_release (prepare.h) must follow. */
 bool method_read(const struct method *m, const struct scene *scene, struct prepared *p, struct error *err);
 
-/* method_counts: p->counts, of p->numbers, p->draw and p->tables. Direct light has the more credit the rarer light
+/* method_size: p->size, or that of a path tracer if p->numbers are those of one: its pixels share next to no sub-paths,
+ * so those of a tile may be neighbours.
+ * method_counts: p->counts, of p->numbers, p->draw and p->tables. Direct light has the more credit the rarer light
  * sub-paths are: rare splats of it would be noise. */
+struct pass_size method_size(const struct prepared *p);
 void method_counts(const struct render_job *job, struct prepared *p);
 
 #endif

@@ -58,9 +58,7 @@ void method_prepare(const struct render_job *job, struct prepared *p)
     p->tables = mem_alloc(1, sizeof *p->tables);
     learn_and_race(job, p);
     p->numbers = p->runner[p->winner].numbers;
-    bool shared = p->numbers.path_pixels > 0 && numbers_every(&p->numbers, FIRST_HIT) == 1;
-    if (p->method->selector != NULL && !shared) /* pixels share next to no sub-paths: those of a tile may be neighbours */
-        p->size = (struct pass_size){p->size.block, DEFAULT_TILE_SIZE, 1};
+    p->size = method_size(p);
     method_counts(job, p);
 }
 

@@ -97,6 +97,7 @@ static void start_lap(const struct render_job *job, const struct prepared *p, co
     l->job.enough = enough;
     l->job.enough_context = l;
     l->by.numbers = k->numbers;
+    l->by.size = method_size(&l->by);
     method_counts(job, &l->by);
     for (int end = 0; end < EYE_ENDS; end++) {
         l->every[end] = numbers_every(&k->numbers, (enum eye_end)end);
@@ -172,12 +173,12 @@ const char *const runner_helps[RUNNERS] = {
 void race_begin(const struct scene *scene, struct prepared *p)
 {
     struct numbers *all = &p->runner[RUNNER_ALL].numbers, *quarter = &p->runner[RUNNER_QUARTER].numbers;
-    struct numbers *first = &p->runner[RUNNER_QUARTER_FIRST].numbers, *pt = &p->runner[RUNNER_PATH_TRACER].numbers;
-    struct numbers *one = &p->runner[RUNNER_ONE_POINT].numbers;
-    *all = *quarter = *first = *pt = p->numbers;
-    quarter->path_pixels = first->path_pixels = 4 * all->path_pixels;
-    first->draws[FIRST_HIT] = all->draws[FIRST_HIT] > 0;
-    first->every[LATER_HIT] = pt->every[FIRST_HIT] = pt->every[LATER_HIT] = RARE;
+    struct numbers *quarter_first = &p->runner[RUNNER_QUARTER_FIRST].numbers;
+    struct numbers *pt = &p->runner[RUNNER_PATH_TRACER].numbers, *one = &p->runner[RUNNER_ONE_POINT].numbers;
+    *all = *quarter = *quarter_first = *pt = p->numbers;
+    quarter->path_pixels = quarter_first->path_pixels = 4 * all->path_pixels;
+    quarter_first->draws[FIRST_HIT] = all->draws[FIRST_HIT] > 0;
+    quarter_first->every[LATER_HIT] = pt->every[FIRST_HIT] = pt->every[LATER_HIT] = RARE;
     if (is_diffuse(scene))
         *pt = (struct numbers){.light_points = all->light_points};
     *one = *pt;

@@ -1,20 +1,20 @@
 /* race.h: how often does this scene need light sub-paths? A race before the render decides it.
  *
- * Runners differ in their numbers of samples (struct numbers). None gives light up: whatever the first can make, every
- * runner makes at least one RARE-th as often, in one of RARE iterations of a tile. Only where all lobes are diffuse the
- * path tracers have no light sub-paths at all.
+ * Runners differ in their numbers of samples (struct numbers). None gives light up: every runner keeps all strategies,
+ * the path tracers in one of RARE iterations of a tile. Only if all lobes are diffuse, path tracers trace no light
+ * sub-paths at all: then s = 0 and s = 1 find all light.
  *
  * The race minimises the variance of a sample times its price [Grittmann 2022]. Each runner takes SAMPLES samples of
- * some pixels twice, with random numbers that the render does not use. A pixel is one of a cell of pixels, and splats
- * anywhere in the cell count as its own. The variance is the squared difference of the two, plus the squares of what is
- * made in one of k iterations, times k: that is sampled in every iteration, but weighed as in the render. Both are
- * relative to the brightness of pixel and picture, and grow only in proportion above FIREFLY. Light that the camera
- * sees directly is left out: it is the same for all. The price counts vertices and connections, so the same runner wins
- * on every machine.
+ * some pixels twice, with random numbers that the render does not use. The film is cut into at most 16 x 16 cells, and
+ * one pixel of each is sampled. Splats anywhere in a cell count as its pixel's. The variance is the squared difference
+ * of the two, plus the squares of what is made in one of k iterations, times k: that is sampled in every iteration, but
+ * weighed as in the render. Both are relative to the brightness of pixel and picture, and grow only in proportion above
+ * FIREFLY. Light that the camera sees directly is left out: it is the same for all. The price counts vertices and
+ * connections, so the same runner wins on every machine.
  *
- * Light sub-paths cannot help against the noise of direct light at first hits. The path tracers compete first, one with
- * as many light points as the first runner, and one with a single one. If that noise is twice all other of the latter,
- * the better of the two wins before more is learnt about light sub-paths than they need.
+ * Light sub-paths cannot help against the noise of direct light at first hits. Two path tracers compete first, with
+ * as many light points as RUNNER_ALL and with one. If direct light at first hits makes two thirds of the variance of
+ * RUNNER_ONE_POINT, the better of the two wins before more is learnt about light sub-paths than they need.
  *
  * Tests: test_race.c.
  */

@@ -231,6 +231,9 @@ static void fill_pool(struct learning *l, const struct counts *counts, struct po
     alias_build(&pool->alias, L, pool->n_candidates);
 }
 
+/* The worth of a trial: unweighted, what light of luminance 1 at y sends to the camera by an eye vertex of throughput 1
+ * at z. It counts by the throughput of z. The share of light vertices in a region is its base (table.h), so ratios have
+ * the mean 1. */
 static void trace_trials(struct learning *l, const struct counts *counts, struct workspace *work, long i,
                          struct lessons *out)
 {

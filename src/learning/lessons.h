@@ -23,7 +23,7 @@ struct lessons {
     size_t n, capacity;
 };
 
-/* lessons_add: unless its numbers are useless for sums: w x > 0, or w > 0 and x = 0, and neither is huge. */
+/* lessons_add: add it if w > 0 and x >= 0, and neither is so extreme that sums could overflow; else drop it. */
 void lessons_add(struct lessons *list, struct lesson lesson);
 
 /* What learning knows so far. */

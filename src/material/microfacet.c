@@ -18,8 +18,8 @@ double fresnel_dielectric(double cos_i, double eta_a, double eta_b)
     return 0.5 * (sqr(parallel) + sqr(perpendicular));
 }
 
-/* [Lagarde 2013] Where there is hardly a boundary (eta 1, k 0) rounding would make it less than 0, and grazing light 0/0,
- * which fmax drops. */
+/* [Lagarde 2013] Where there is hardly a boundary (eta 1, k 0) rounding would make it less than 0, and grazing light
+ * 0/0, which fmax drops. */
 static double conductor_channel(double cos_i, double eta, double k)
 {
     double cos2 = cos_i * cos_i, sin2 = 1 - cos2;

@@ -5,17 +5,19 @@
  *   pair    s >= 2, t >= 2 connection to a light vertex
  *   lens    s >= 2, t = 1  connection of a light vertex to the lens
  *
- * The number n of a strategy for a path is a function of the two ends of the connecting edge: of their places
- * (tables.h) and of the kind of the eye end. A walk that arrives at the second end knows both, so every strategy
+ * The number n of a strategy for a path is a function of the two ends of the connecting edge: of their places and of
+ * the kind of the eye end. A place is a *region*, a cube of space and a side of its surfaces, or on a light a *cell*: a
+ * light, a group of lights, or a part of the sky. A *ratio* tells how much more often a place is chosen than if nothing
+ * had been learnt (tables.h); then it is 1. A walk that arrives at the second end knows both, so every strategy
  * computes the same number for the same path.
  *
  * The balance heuristic compares second moments. The samples of some strategies are better distributed than independent
  * samples and have less variance. Such a strategy deserves a higher count, a credit [Grittmann 2019]. The weights still
- * add up to 1. Stratified draws have the credit 2. The credit of direct light at a first hit is 4: the first numbers of
- * an eye sub-path are spread evenly over the iterations of a pixel (sampler.h), so the mean of N samples of direct
- * light has less than 1/N of the variance of one. Such a sample should count as E[X^2] / (N V_N) samples, X its
- * contribution and V_N the variance of the mean. For N = 16 that ratio is between 1 and 64 in most scenes. One constant
- * costs 3 % more squared error than to measure it before each render.
+ * add up to 1. Stratified draws have the credit 2. The credit of direct light at a first hit is 4, times `every` of
+ * struct numbers: the first numbers of an eye sub-path are spread evenly over the iterations of a pixel (sampler.h), so
+ * the mean of N samples of direct light has less than 1/N of the variance of one. Such a sample should count as E[X^2]
+ * / (N V_N) samples, X its contribution and V_N the variance of the mean. For N = 16 that ratio is between 1 and 64 in
+ * most scenes. One constant costs 3 % more squared error than to measure it before each render.
  *
  * Draws from a pool have a bound M: where few light vertices are useful, the same ones are drawn again and again. Draws
  * that would count as x samples of an endless pool count as x / (1 + x / M), less than M.
@@ -35,8 +37,9 @@ struct numbers {
                            * does not use the strategies of path tracing, s = 0 (t >= 3) and s = 1 */
     int draws[EYE_ENDS];  /* light vertices that an eye vertex is joined to; BDPT: all vertices of one sub-path, once */
     int path_pixels;      /* pixels per light sub-path; 0: there are no light sub-paths */
-    int every[EYE_ENDS];  /* draws are made in one of so many iterations of a tile, light sub-paths traced in those of
-                           * first hits; 0, 1: in each. A power of two, alike for both ends unless first hits have 1 */
+    int every[EYE_ENDS];  /* draws by such eye vertices happen in one of so many iterations of a tile, and count so many
+                           * times; that of first hits holds for light sub-paths, too. 0, 1: in each. A power of two,
+                           * alike for both ends unless first hits have 1 */
 };
 static inline int numbers_every(const struct numbers *n, enum eye_end end)
 {
@@ -55,7 +58,7 @@ static inline int numbers_every(const struct numbers *n, enum eye_end end)
 struct counts {
     double hit[EYE_ENDS];    /* t >= 3; by the kind of z_{t-2} */
     double direct[EYE_ENDS]; /* times the ratio of tables->direct */
-    double pair[EYE_ENDS];   /* times the ratio of tables->pairs: x */
+    double pair[EYE_ENDS];   /* times the ratio of tables->pairs: x over `every` */
     double lens;             /* light sub-paths, those of all pixels of the film */
     const struct tables *tables;
     double bound[EYE_ENDS];  /* times the ratio of tables->pairs: x / M; 0: no bound */

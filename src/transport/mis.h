@@ -5,7 +5,7 @@
  * strategy s times the number of samples that it takes. The balance heuristic gives the path the weight
  *     (1)  w_s = p_s / sum_i p_i.                                                                      [V97 9.2.2]
  * test/unit/oracle.c is this definition, slow and plain: it multiplies out each p_i, one strategy after the other.
- * Read it first. This file is its fast form.
+ * This file is its fast form.
  *
  * Ratios. p_i and p_{i+1} differ in one vertex: x_i is sampled from the eye in p_i and from the light in p_{i+1}. So
  *     (2)  p_i / p_s = (n_i / n_s) prod_{j=i}^{s-1} R_j / F_j        for i < s.                   [V97 eq. 10.9]

@@ -1,8 +1,8 @@
 /* observer.h: functions that are called with every path that a method makes.
  *
- * A render is a sum of weighted paths. sample.c calls the observers in the one place where it adds a path, so they get
- * the same numbers as the film. Added up in their order, the contributions with t >= 2 are the value that the film
- * receives, to the last bit. Without an observer this costs the comparison of a pointer.
+ * A render is a sum of weighted paths. sample.c calls the observers where it adds a path to the sample or to the
+ * splats, so they get the same numbers as the film. Added up in their order, the contributions with t >= 2 are the
+ * value that the film receives, to the last bit. Without an observer this costs the comparison of a pointer.
  *
  * Tests: test_trace.c.
  */

@@ -71,12 +71,12 @@ function quantile(x, n, share,    at, i) {
     i = int(at)
     return i < n ? x[i] + (at - i) * (x[i + 1] - x[i]) : x[n]
 }
-function line(label, m, x, n,    i, worse, better) {
+function line(label, m, x, n,    i, worse, better, sum) {
     if (n == 0) return
     sort(x, n)
-    for (i = 1; i <= n; i++) { worse += x[i] > 1.15; better += x[i] < 0.87 }
-    printf "%-16s %-12s %4d %7.3f %7.3f %7.3f %7.3f %7.3f %8.3f %7.1f %% %7.1f %%\n", label, measure[m], n,
-        quantile(x, n, 0.1), quantile(x, n, 0.25), quantile(x, n, 0.5), quantile(x, n, 0.75), quantile(x, n, 0.9), x[n],
+    for (i = 1; i <= n; i++) { worse += x[i] > 1.15; better += x[i] < 0.87; sum += log(x[i]) }
+    printf "%-16s %-12s %4d %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %8.3f %7.1f %% %7.1f %%\n", label, measure[m], n,
+        exp(sum / n), quantile(x, n, 0.1), quantile(x, n, 0.25), quantile(x, n, 0.5), quantile(x, n, 0.75), quantile(x, n, 0.9), x[n],
         100 * worse / n, 100 * better / n
 }
 # Of the scenes that have the value, of either set or of one.
@@ -92,7 +92,7 @@ function group(label, what, value, most,    m, i, n, x, own) {
     }
 }
 function head(title) {
-    printf "\n%s\n%-16s %-12s %4s %7s %7s %7s %7s %7s %8s %9s %9s\n", title, "", "error", "n", "10 %", "25 %", "50 %",
+    printf "\n%s\n%-16s %-12s %4s %7s %7s %7s %7s %7s %7s %8s %9s %9s\n", title, "", "error", "n", "mean", "10 %", "25 %", "50 %",
         "75 %", "90 %", "worst", "over 1.15", "under .87"
 }
 END {

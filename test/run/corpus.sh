@@ -98,7 +98,7 @@ expect 2 '' "$lab" corpus "$box" --methods nothing
     echo '3,failed,-,status 1: no'
 } >known.csv
 printf '1\ta/b\tc\ttune\n2\ta/b\td\treport\n3\ta/b\te\ttune\n' >known.txt
-prints '^both  *relmse  *2  *0.650  *0.875  *1.250  *1.625  *1.850  *2.000  *50.0 %  *50.0 %' \
+prints '^both  *relmse  *2  *1.000  *0.650  *0.875  *1.250  *1.625  *1.850  *2.000  *50.0 %  *50.0 %' \
     awk -f "$measure/corpus.awk" known.txt known.csv
 says '^report  *8x8  *1  *2.000' '^no delta  *mse8  *1  *0.500' '^delta  *mse8  *1  *2.000' '    pt misses light in 1' \
     '    1: status 1: no'
