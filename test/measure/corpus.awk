@@ -1,16 +1,19 @@
-# corpus.awk: the tables of corpus.md from the list of scenes and the lines of corpus_run.sh.
+# corpus.awk: the tables of corpus.md from the list of scenes and the lines of corpus_run.sh, or from both in one file, in
+# which the set of a scene is a line, too: NUMBER,set,SET.
 #   awk -f test/measure/corpus.awk DIR/list.txt OUT/*.csv                     tables
 #   awk -v scores=yes -f test/measure/corpus.awk DIR/list.txt OUT/*.csv       a line for each scene, for corpus_svg.awk:
 #                                                   NUMBER SET RUNNER, asbdpt over the better by relmse, pt over bdpt
+#   awk -v page=sets -f test/measure/corpus.awk FILE                          the first table for a page; page=runners: the
+#                                                   second, by mse8; page=sentence: of `report`, by mse8, in words
 BEGIN {
     power = ":lightsamplestrategy=power"
     split("mse8 relmse 8x8 mse8,power relmse,power 8x8,power", measure, " ")
-    n_measures = 6
+    n_measures = page == "sentence" || page == "runners" ? 1 : page ? 3 : 6
+    FORM = "%-16s %-12s %4d %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %8.3f %7.1f %% %7.1f %%\n"
 }
-# The first file, and what is listed in no file of results.
-FNR == 1 { file++ }
-file == 1 { split($0, field, "\t"); set[field[1]] = field[4]; next }
+/\t/ { split($0, field, "\t"); set[field[1]] = field[4]; next }
 { split($0, field, ",") }
+field[2] == "set" { set[field[1]] = field[3] }
 field[2] == "scene" {
     for (i = 7; i <= 13; i++) {
         split(field[i], pair, "=")
@@ -75,9 +78,14 @@ function line(label, m, x, n,    i, worse, better, sum) {
     if (n == 0) return
     sort(x, n)
     for (i = 1; i <= n; i++) { worse += x[i] > 1.15; better += x[i] < 0.87; sum += log(x[i]) }
-    printf "%-16s %-12s %4d %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %8.3f %7.1f %% %7.1f %%\n", label, measure[m], n,
-        exp(sum / n), quantile(x, n, 0.1), quantile(x, n, 0.25), quantile(x, n, 0.5), quantile(x, n, 0.75), quantile(x, n, 0.9), x[n],
-        100 * worse / n, 100 * better / n
+    if (page == "sentence") {
+        printf "%.2f of the time of the better one in the median, at most %.2f in a quarter of them, and over 1.15 in " \
+            "%.0f %%\n", quantile(x, n, 0.5), quantile(x, n, 0.25), 100 * worse / n
+        return
+    }
+    form = page ? "| %s | %s | %d | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.3g | %.0f %% | %.0f %% |\n" : FORM
+    printf form, label, measure[m], n, exp(sum / n), quantile(x, n, 0.1), quantile(x, n, 0.25), quantile(x, n, 0.5),
+        quantile(x, n, 0.75), quantile(x, n, 0.9), x[n], 100 * worse / n, 100 * better / n
 }
 # Of the scenes that have the value, of either set or of one.
 function group(label, what, value, most,    m, i, n, x, own) {
@@ -92,6 +100,12 @@ function group(label, what, value, most,    m, i, n, x, own) {
     }
 }
 function head(title) {
+    if (page == "sentence") return
+    if (page) {
+        print "| scenes | error | n | mean | 10 % | 25 % | 50 % | 75 % | 90 % | worst | over 1.15 | under 0.87 |"
+        print "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
+        return
+    }
     printf "\n%s\n%-16s %-12s %4s %7s %7s %7s %7s %7s %7s %8s %9s %9s\n", title, "", "error", "n", "mean", "10 %", "25 %", "50 %",
         "75 %", "90 %", "worst", "over 1.15", "under .87"
 }
@@ -103,21 +117,28 @@ END {
                     duel(scene[i], 2)
         exit
     }
-    printf "%d scenes measured, %d that could not be loaded again\n", n_scenes, n_failed
-    for (why in reasons) printf "    %d: %s\n", reasons[why], why
-    for (m in failed) printf "    %s failed in %d\n", m, failed[m]
-    for (m in missing) printf "    %s misses light in %d\n", m, missing[m]
-    for (i = 1; i <= n_scenes; i++) still += !noisy(scene[i])
-    printf "    %d without noise that one could see\n", still
-    head("error x CPU time of asbdpt over the better of pt and bdpt")
-    group("tune", "set", "tune", n_measures)
-    group("report", "set", "report", n_measures)
-    group("both", "", "", n_measures)
+    if (!page) {
+        printf "%d scenes measured, %d that could not be loaded again\n", n_scenes, n_failed
+        for (why in reasons) printf "    %d: %s\n", reasons[why], why
+        for (m in failed) printf "    %s failed in %d\n", m, failed[m]
+        for (m in missing) printf "    %s misses light in %d\n", m, missing[m]
+        for (i = 1; i <= n_scenes; i++) still += !noisy(scene[i])
+        printf "    %d without noise that one could see\n", still
+    }
+    if (page != "runners") {
+        head("error x CPU time of asbdpt over the better of pt and bdpt")
+        if (page != "sentence") group("tune", "set", "tune", n_measures)
+        group("report", "set", "report", n_measures)
+        if (page == "sentence") exit
+        group("both", "", "", n_measures)
+        if (page) exit
+    }
     head("by what the race has chosen")
     for (i = 1; i <= n_scenes; i++) {
         chosen = runner[scene[i]]
-        if (!told[chosen]++) group(chosen, "runner", chosen, 3)
+        if (!told[chosen]++) group(chosen, "runner", chosen, page ? 1 : 3)
     }
+    if (page) exit
     head("by what a scene has")
     n = split("delta sky lamps mirror medium", what, " ")
     for (k = 1; k <= n; k++) { group(what[k], what[k], 1, 3); group("no " what[k], what[k], 0, 3) }
