@@ -66,7 +66,7 @@ static void print_runners(void)
                   "the least variance times price renders. None gives light up. asbdpt-lab info --race SCENE.pbrt shows "
                   "what was found.", 0, 0);
     for (int i = 0; i < RUNNERS; i++) {
-        printf("    %-20s ", RACES[RACE_RUNNERS + i]);
+        printf("    %-20s ", runner_name(i));
         print_wrapped(runner_helps[i], 25, 25);
     }
 }

@@ -131,8 +131,7 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
     const int K = pass->work->pool.n;
     const struct index *index = K > 0 ? build(p, pass, iteration) : NULL;
     int draws[EYE_ENDS];
-    for (int end = 0; end < EYE_ENDS; end++)
-        draws[end] = loop_draws(p, pass, (enum eye_end)end, iteration);
+    loop_draws(p, pass, iteration, draws);
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
         struct sample sample;
         arena_reset(&pass->work->arena);

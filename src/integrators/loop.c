@@ -53,16 +53,19 @@ int loop_begin(const struct prepared *p, const struct tile_pass *pass, int numbe
     return sample_eye_path(sample, eye, pass->job->max_depth + 2);
 }
 
-int loop_draws(const struct prepared *p, const struct tile_pass *pass, enum eye_end end, long iteration)
+void loop_draws(const struct prepared *p, const struct tile_pass *pass, long iteration, int draws[EYE_ENDS])
 {
-    return pass->work->pool.n > 0 && loop_turn(p, pass, end, iteration) ? p->numbers.draws[end] : 0;
+    for (int end = 0; end < EYE_ENDS; end++) {
+        bool turn = pass->work->pool.n > 0 && loop_turn(p, pass, (enum eye_end)end, iteration);
+        draws[end] = turn ? p->numbers.draws[end] : 0;
+    }
 }
 
 void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
-               int t)
+               int t, const int draws[EYE_ENDS])
 {
     const struct tile_pass *pass = sample->pass;
-    const int K = pass->work->pool.n, C = loop_draws(p, pass, z->eye_end, sample->iteration);
+    const int K = pass->work->pool.n, C = draws[z->eye_end];
     const double every = numbers_every(&p->numbers, z->eye_end);
     struct drawn y;
     for (int i = 0; i < C && t <= pass->job->max_depth && vertex_connectible(z); i++)
@@ -88,6 +91,8 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass)
         loop_fill(p, pass, iteration);
         const struct index *index =
             pass->work->pool.n > 0 ? p->method->selector->build(p, pass, iteration) : NULL;
+        int draws[EYE_ENDS];
+        loop_draws(p, pass, iteration, draws);
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);
@@ -95,7 +100,7 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass)
             for (int t = 2; t <= n; t++) {
                 sample_hit(&sample, eye, t);
                 sample_direct(&sample, &eye[t - 1], t);
-                loop_join(p, index, &sample, &eye[t - 1], t);
+                loop_join(p, index, &sample, &eye[t - 1], t, draws);
             }
             loop_splat(p, &sample);
             sample_end(&sample);

@@ -23,7 +23,7 @@
  *
  *   guide         s = 1 chooses lights by what they are worth to a region
  *   emission      light sub-paths start in directions that the camera can use (emission.h)
- *   race          fewer light sub-paths, or none, if a race before the render finds them enough (race.h)
+ *   race          fewer light sub-paths and connections if a race before the render finds them enough (race.h)
  *   lightpoints   points on lights that a first hit is joined to
  *   later         fewer draws for a later eye vertex than for a first hit
  *   credits       direct light at a first hit and draws count as more samples in the weights (counts.h)
@@ -33,7 +33,7 @@
 struct parameters {
     struct numbers numbers; /* those of the row, unless parameters change them; later draws -1: as many as others */
     int guide, credits, bound; /* off or on */
-    int race;               /* RACE_OFF, RACE_ON, or a runner: RACE_RUNNERS + enum runner_name */
+    int race;               /* RACE_OFF, RACE_ON, or a runner: RACE_RUNNERS + enum runner_number */
     double emission;        /* share of light sub-paths that start by power alone; 1: all */
     double delta;           /* share of choices that ignore what was learnt */
     int metric;             /* enum metric */
@@ -81,7 +81,10 @@ struct runner {
     struct numbers numbers;
     double variance, price; /* of a sample: relative to the square of the brightness; any unit. 0: not measured */
 };
-enum runner_name { RUNNER_ALL, RUNNER_QUARTER, RUNNER_QUARTER_FIRST, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
+enum runner_number { RUNNER_ALL, RUNNER_QUARTER, RUNNER_QUARTER_FIRST, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
+
+/* runner_name: as -P race= has it. */
+static inline const char *runner_name(int runner) { return RACES[RACE_RUNNERS + runner]; }
 
 /* A method that is ready to render. It does not change while it renders. */
 struct prepared {

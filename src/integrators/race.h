@@ -25,7 +25,7 @@
 
 enum { RACE_LEAST_PIXELS = 32 * 32 }; /* a smaller picture is rendered by the first: too few pixels show anything */
 
-/* What each runner is for users, by enum runner_name. */
+/* What each runner is for users, by enum runner_number. */
 extern const char *const runner_helps[RUNNERS];
 
 /* race_begin: add the runners to *p, whose numbers are those of the first.

@@ -97,7 +97,7 @@ struct bsdf_sample {
     double eta; /* (index on wi's side)/(index on wo's side) for refraction, else 1 */
 };
 
-/* What lobe_albedo_guess, lobe_eval (but for the scale) and lobe_sample are of a LOBE_FORM. None is delta. */
+/* lobe_albedo_guess, lobe_eval without the scale, and lobe_sample of a LOBE_FORM. No form is delta. */
 struct lobe_form {
     double (*guess)(const struct lobe *l);
     struct bsdf_value (*eval)(const struct lobe *l, vec3 wo, vec3 wi, bool reflect, enum transport mode);

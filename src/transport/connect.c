@@ -130,7 +130,7 @@ struct connection connect_vertices(const struct scene *scene, const struct count
     return c;
 }
 
-/* --- ends that are drawn anew ------------------------------------------------------------------------ */
+/* --- ends that belong to no walk --------------------------------------------------------------------- */
 
 bool light_draw(const struct scene *scene, const struct counts *counts, const struct vertex *z, struct sampler *sampler,
                 int i, int n, struct light_point *at, double *pdf)

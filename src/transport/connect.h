@@ -3,8 +3,8 @@
  *   s = 0    the eye sub-path's last vertex is itself on a light       connect_hit
  *   s >= 1   light vertex y_{s-1} and eye vertex z_{t-1} are joined    connect_vertices
  *
- * Two ends are not of a walk but drawn anew for the other end: y_0 if s = 1, by light_point, and z_0 if t = 1, by
- * lens_point. Strategy (1,1) is left to (0,2).
+ * Two kinds of ends belong to no walk. If s = 1, light_point draws y_0 for the other end. If t = 1, lens_point draws
+ * z_0. Strategy (1,1) is left to (0,2).
  *
  * A connection's value is the unweighted contribution C* of [V97 10.2]: the product of throughputs, both scattering
  * factors, geometry factor and visibility, for *one* sample of its strategy [PBRT3 16.3.3]. Its weight is that of the
@@ -29,8 +29,8 @@ struct connection {
 struct connection connect_hit(const struct scene *scene, const struct counts *counts, const struct vertex *prev,
                               const struct vertex *z);
 
-/* connect_vertices: y is a light vertex, z an eye vertex, not both drawn anew. The vertices of y's walk are in front of
- * it in memory. With the lens the value is for the whole film: its splat is divided by counts->lens. */
+/* connect_vertices: y is a light vertex, z an eye vertex. At most one of them is a drawn end. The vertices of y's walk
+ * are in front of it in memory. With the lens the value is for the whole film: its splat is divided by counts->lens. */
 struct connection connect_vertices(const struct scene *scene, const struct counts *counts, const struct vertex *y,
                                    const struct vertex *z);
 

@@ -39,8 +39,8 @@ enum vertex_kind {
  * A vertex within a medium (scene/medium.h) has the fields of a SURFACE, with ng 0, prim_id WITHIN_MEDIUM and pdf_fwd
  * per volume, 1/m^3.
  *
- * beta of a LIGHT or LENS is what it sends to the next vertex. Of a point that is drawn anew for one vertex of another
- * walk (connect.h) that is over the point's density: Le / pdf, or J of camera_project.
+ * beta of a LIGHT or LENS is what it sends to the next vertex. An end that belongs to no walk (connect.h) has this
+ * divided by its density: Le / pdf, or J of camera_project.
  *
  * A see-through light is an area light without a material (scene.h). Walks may start on it, and pass it without a
  * vertex. The first such light that an eye walk passes on an edge is the `lamp` of the vertex at the edge's end. It is

@@ -109,7 +109,7 @@ static const char *winner(struct corpus *c)
         int won = p.winner;
         method_release(&p);
         if (raced)
-            return RACES[RACE_RUNNERS + won];
+            return runner_name(won);
     }
     return "-";
 }

@@ -10,7 +10,6 @@ struct race_result race_result(const struct prepared *p)
     return r;
 }
 
-static const char *name(int runner) { return RACES[RACE_RUNNERS + runner]; }
 
 /* Variance times price, over the winner's. */
 static double relative_cost(const struct race_result *r, const struct runner *k)
@@ -39,7 +38,7 @@ void race_print_winner(FILE *f, const struct race_result *r)
     const char *before = "\n  That of the others, over its own:";
     if (!(winner->price > 0))
         return;
-    fprintf(f, "RACE: the runner %s renders: ", name(r->winner));
+    fprintf(f, "RACE: the runner %s renders: ", runner_name(r->winner));
     print_light(f, &winner->numbers);
     if (r->runner[RUNNER_ALL].price > 0)
         fputs(". It has the least variance times price.", f);
@@ -47,7 +46,7 @@ void race_print_winner(FILE *f, const struct race_result *r)
         fputs(", since most noise is of direct light, which they do not reduce.", f);
     for (int i = 0; i < RUNNERS; i++)
         if (i != r->winner && r->runner[i].price > 0) {
-            fprintf(f, "%s %s %.3g", before, name(i), relative_cost(r, &r->runner[i]));
+            fprintf(f, "%s %s %.3g", before, runner_name(i), relative_cost(r, &r->runner[i]));
             before = ",";
         }
     fputs("\n", f);
@@ -65,7 +64,7 @@ void race_print_table(FILE *f, const struct race_result *r)
         const struct runner *k = &r->runner[i];
         const struct numbers *n = &k->numbers;
         double later = (double)n->draws[LATER_HIT] / numbers_every(n, LATER_HIT);
-        fprintf(f, "  %-14s %8.3g %6.2g %6d", name(i), (double)n->draws[FIRST_HIT] / numbers_every(n, FIRST_HIT), later,
+        fprintf(f, "  %-14s %8.3g %6.2g %6d", runner_name(i), (double)n->draws[FIRST_HIT] / numbers_every(n, FIRST_HIT), later,
                 n->light_points);
         if (!(k->price > 0))
             fprintf(f, " %10s %8s %8s", "-", "-", "-"); /* it did not have to start */

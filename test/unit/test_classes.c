@@ -159,7 +159,7 @@ static void compare_runners(struct subject *s)
 {
     for (int i = 0; i < RUNNERS; i++) {
         char way[64];
-        snprintf(way, sizeof way, "asbdpt race=%s", RACES[RACE_RUNNERS + i]);
+        snprintf(way, sizeof way, "asbdpt race=%s", runner_name(i));
         compare(s, way);
     }
 }

@@ -81,7 +81,7 @@ static void test_where_nothing_pays(struct test *t)
                 best = fmin(best, s.runner[k].variance * s.runner[k].price);
             best /= s.runner[s.winner].variance * s.runner[s.winner].price;
             CHECK(t, best < 1.25, "%s: %s renders, path tracers are %.2f times as bad", scenes[i],
-                  RACES[RACE_RUNNERS + s.winner], best);
+                  runner_name(s.winner), best);
         }
 }
 
@@ -113,7 +113,7 @@ static void test_nothing_is_given_up(struct test *t)
                                 fmin(how_often(&s, k, FIRST_HIT, false), how_often(&s, k, LATER_HIT, false)));
             bool without = i == 0 && k >= RUNNER_PATH_TRACER;
             CHECK(t, without ? least == 0 : least >= 1.0 / 32, "a point light beside %s: %s makes some paths %g times "
-                  "as often as the first runner", materials[i], RACES[RACE_RUNNERS + k], least);
+                  "as often as the first runner", materials[i], runner_name(k), least);
         }
         CHECK(t, s.runner[RUNNER_QUARTER].numbers.path_pixels == 4 &&
               s.runner[RUNNER_QUARTER_FIRST].numbers.path_pixels == 4, "a quarter is none");
@@ -154,7 +154,7 @@ static void test_lamp_alone(struct test *t)
     if (!scene_from_text(t, LAMP, &scene) || !bench_new(t, &scene, set_method(&scene, "asbdpt"), 5, 0, &b))
         return;
     for (int i = 0; i < RUNNERS; i++)
-        CHECK(t, b.prepared.runner[i].variance < 1e-20, "%s: a variance of %g", RACES[RACE_RUNNERS + i],
+        CHECK(t, b.prepared.runner[i].variance < 1e-20, "%s: a variance of %g", runner_name(i),
               b.prepared.runner[i].variance);
     bench_free(&b);
     scene_free(&scene);
@@ -256,7 +256,7 @@ static void test_expectations(struct test *t)
         for (int k = 0; k < WAYS; k++) {
             char way[64] = "pt";
             if (k <= RUNNERS)
-                snprintf(way, sizeof way, "asbdpt race=%s", k < RUNNERS ? RACES[RACE_RUNNERS + k] : "on");
+                snprintf(way, sizeof way, "asbdpt race=%s", k < RUNNERS ? runner_name(k) : "on");
             const char *name = set_method(&scene, way);
             struct batches x = render_batches(t, &scene, name, 5, SPP, BATCHES, TILE, (uint64_t)k + 2);
             double p = verify_batches(&x, &right, 1).p, ratio = batches_mean(&x, NULL) / batches_mean(&right, NULL);
