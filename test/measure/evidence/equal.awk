@@ -6,13 +6,13 @@
 # and NAME.64: sizes, the same by scenes; first-row and first-worst of the first. With -v kinds=, a file of scenes and
 # their kinds: kinds, the means of each; unseen-row and unseen-worst, of the scenes that nothing was chosen on. With
 # -v runners=, runners.txt: tracer, guided, light: the means by mse8 of the scenes that all seeds render by a path
-# tracer, of these with learnt lights, and of the others.
+# tracer, of these by the runner `guided` of older versions, if there are any, and of the others.
 BEGIN {
     while (kinds != "" && (getline line < kinds) > 0) { split(line, part, " "); kind[part[1]] = part[2] }
     while (runners != "" && (getline line < runners) > 0)
-        if (line ~ /^\| others \| [^ ]+ \|( guided| plain)+ \|$/) {
+        if (line ~ /^\| others \| [^ ]+ \|( guided| plain| path_tracer| one_point)+ \|$/) {
             split(line, part, " ")
-            tracer[part[4]] = line ~ /plain/ ? "plain" : "guided"
+            tracer[part[4]] = line ~ /plain|path_tracer|one_point/ ? "other" : "guided"
         }
     split(but, part, " ")
     for (i in part) left_out[part[i]]
@@ -104,9 +104,9 @@ END {
     }
     if (groups == 2) sizes(group[1], group[2])
     if (kinds != "") answers("unseen", "unseen-")
-    if (number["tracer", 1])
-        printf "== tracer\n%.2f\n== guided\n%.2f\n== light\n%.2f\n", mean_of("tracer", 1), mean_of("guided", 1),
-            mean_of("light", 1)
+    if (number["tracer", 1]) printf "== tracer\n%.2f\n", mean_of("tracer", 1)
+    if (number["guided", 1]) printf "== guided\n%.2f\n", mean_of("guided", 1)
+    if (number["tracer", 1]) printf "== light\n%.2f\n", mean_of("light", 1)
     if (kinds_there) print "== kinds\n| scenes | number | mse8 | relmse | 8x8 |\n|---|---:|---:|---:|---:|"
     for (k = 1; k <= kinds_there; k++) printf "| %s | %d | %s | %s | %s |\n", order[k], count[order[k]],
         interval(order[k], 1), interval(order[k], 2), interval(order[k], 3)
