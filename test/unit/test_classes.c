@@ -154,14 +154,17 @@ static void compare(struct subject *s, const char *way)
         printf("    p = %-8.3g %.4f of bdpt's light by %s\n", p, ratio, way);
 }
 
-/* Each runner alone. */
+/* Each runner alone; and one of those with rare draws, of a method with the loop of loop.h. */
 static void compare_runners(struct subject *s)
 {
+    char way[64];
     for (int i = 0; i < RUNNERS; i++) {
-        char way[64];
         snprintf(way, sizeof way, "asbdpt race=%s", runner_name(i));
         compare(s, way);
     }
+    int rare = RUNNER_QUARTER_FIRST + (int)(s->number / 2 % (RUNNERS - RUNNER_QUARTER_FIRST));
+    snprintf(way, sizeof way, "asbdpt select=%s race=%s", s->number % 2 == 0 ? "pool" : "vertices", runner_name(rare));
+    compare(s, way);
 }
 
 /* One of these, with the numbers of its list. */
