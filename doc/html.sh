@@ -58,14 +58,13 @@ sub, sup { font-size: 0.72em; line-height: 0; }
 .source pre, .source .wide { width: auto; margin: 0; padding: 0; overflow: visible; background: none; }
 .source > p { margin: 0; height: 0.7em; }
 .source pre a { color: inherit; overflow-wrap: normal; }
-.source pre a:hover { color: #0b62b8; }
 .source pre i { font: italic 1.1em/1.1 Georgia, "Times New Roman", serif; }
 .source .n, .source .n:hover { display: inline-block; width: 2.6em; margin-right: 1.4em; text-align: right; color: #8889; user-select: none; }
 .l { display: block; }
 .c { margin: 1em 0 0.5em; padding-left: 0.9em; border-left: 3px solid #4878; }
 .c p { max-width: 44em; margin: 0.5em 0; }
 .c pre { margin: 0.4em 0; white-space: pre; overflow-x: auto; }
-.f { margin: 0.3em 0 0.1em 3.4em; padding: 0.2em 0.8em; border-left: 3px solid #0b62b8; font: 0.85rem sans-serif; background: #0b62b811; }
+.f { display: flow-root; margin: 0.3em 0 0.1em 3.4em; padding: 0.2em 0.8em; border-left: 3px solid #0b62b8; font: 0.85rem sans-serif; background: #0b62b811; }
 .f > a { float: right; margin-left: 1em; }
 .f .math { margin: 0; border: none; }
 .f .math td { padding: 0.15em 1em 0.15em 0; }

@@ -105,7 +105,8 @@ named() {
                         sub(/^(\.\.\/)*/, "", to)
                         sub(/\.html$/, "", to)
                         links++
-                        if (" " text[to, at] " " !~ ("[^A-Za-z0-9_]" name "[^A-Za-z0-9_]")) print file[i] ": " name " is not in line " at " of " to
+                        if (" " text[to, at] " " !~ ("[^A-Za-z0-9_]" name "[^A-Za-z0-9_]"))
+                            print file[i] ": " name " is not in line " at " of " to
                     }
             print links + 0
         }' {} +
@@ -120,8 +121,11 @@ for page in 03 04 05 06 07 07b 08 09 10 11 11b; do
 done
 TAB=$(printf '\t')
 while IFS=$TAB read -r page file line id rest; do
-    grep -q "<div class=\"f\"><a href=\"[./]*/${page%.md}.html#$id\">" "$dir/html/$file.html" || wrong "$file has no formula of $page"
-    grep -q "<a id=\"$id\" href=\"[./]*/$file.html#L$line\">" "$dir/html/${page%.md}.html" || wrong "$page does not lead to $file"
+    page=${page%.md}.html
+    grep -q "<div class=\"f\"><a href=\"[./]*/$page#$id\">" "$dir/html/$file.html" ||
+        wrong "$file has no formula of $page"
+    grep -q "<a id=\"$id\" href=\"[./]*/$file.html#L$line\">" "$dir/html/$page" ||
+        wrong "$page does not lead to $file"
     grep -q "id=\"L$line\"" "$dir/html/$file.html" || wrong "$file has no line $line"
 done <"$dir/marks"
 mkdir -p "$dir/moved/doc/tour" "$dir/moved/src/transport"
@@ -129,14 +133,16 @@ cp doc/marks.awk doc/tour/07b-constant-time.md "$dir/moved/doc/tour"
 { echo && cat src/transport/path.c; } >"$dir/moved/src/transport/path.c"
 marked() { (cd "$dir/moved" && awk -f doc/tour/marks.awk doc/tour/07b*.md 2>"$dir/said" | cut -f 1-3); }
 { echo && echo && cat src/transport/mis.h; } >"$dir/moved/src/transport/mis.h"
-[ "$(marked)" = "$(awk -F '\t' -v OFS='\t' '$1 ~ /07b/ { print $1, $2, $3 + ($2 ~ /path/ ? 1 : 2) }' "$dir/marks")" ] ||
-    wrong "a mark does not follow its line"
+expected=$(awk -F '\t' -v OFS='\t' '$1 ~ /07b/ { print $1, $2, $3 + ($2 ~ /path/ ? 1 : 2) }' "$dir/marks")
+[ "$(marked)" = "$expected" ] || wrong "a mark does not follow its line"
 sed 's|    return|    give|' src/transport/mis.h >"$dir/moved/src/transport/mis.h"
 marked >/dev/null
 grep -q 'mis.h: mis_side has 0 lines with return' "$dir/said" || wrong "a line that is gone is not noticed"
-mkdir "$dir/wrong" && cp -R "$dir/html/src" "$dir/wrong" &&
-    sed 's/vertex.h.html#L[0-9]*">beta</vertex.h.html#L1">beta</' "$dir/html/src/transport/connect.c.html" >"$dir/wrong/src/transport/connect.c.html"
-named "$dir/wrong" | grep -q 'beta is not in line 1 of src/transport/vertex.h' || wrong "a name that leads elsewhere is not noticed"
+mkdir "$dir/wrong" && cp -R "$dir/html/src" "$dir/wrong"
+of=src/transport/connect.c.html
+sed 's/\(vertex.h.html#L\)[0-9]*">beta</\11">beta</' "$dir/html/$of" >"$dir/wrong/$of"
+named "$dir/wrong" | grep -q 'connect.c: beta is not in line 1 of src/transport/vertex.h' ||
+    wrong "a name that leads elsewhere is not noticed"
 
 mkdir "$dir/damaged"
 while IFS= read -r damage; do
