@@ -7,6 +7,7 @@ function frame(title, root, class) {
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" title "</title>\n" \
         "<link rel=\"stylesheet\" href=\"" root "/style.css\"></head><body" (class != "" ? " class=\"" class "\"" : "") ">\n" \
         "<nav><a href=\"" root "/index.html\">asbdpt</a> <a href=\"" root "/doc/tour/README.html\">tour</a> " \
+        "<a href=\"" root "/README.html#reading-the-source\">source</a> " \
         "<a href=\"" root "/doc/course/README.html\">course</a> <a href=\"" root "/doc/tour/glossary.html\">glossary</a> " \
         "<a href=\"" root "/doc/README.html\">all pages</a></nav>"
 }

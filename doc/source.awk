@@ -150,7 +150,12 @@ function prose(s,    out, w, place) {
         out = out linked(w, place)
         s = substr(s, RSTART + RLENGTH)
     }
-    return out escape(s)
+    out = out escape(s)
+    while (match(out, /`[^`]+`/)) {
+        w = substr(out, RSTART + 1, RLENGTH - 2)
+        out = substr(out, 1, RSTART - 1) "<code>" w "</code>" substr(out, RSTART + RLENGTH)
+    }
+    return out
 }
 
 # ---- pages ----
@@ -191,7 +196,7 @@ function comment(end,    s, kind, was, out) {
         sub(/^\/\* ?/, "", s); sub(/ ?\*\/$/, "", s); sub(/^ \* ?/, "", s)
         if (sub(/^--- /, "", s)) { sub(/ -+$/, "", s); return "<h2 id=\"L" now "\">" escape(s) "</h2>\n" }
         kind = s ~ /^ *$/ ? "" : s ~ /^  / ? "pre" : "p"
-        if (kind != was || s ~ /^[a-z][a-z0-9_, ]*: /) out = out (was != "" ? "</" was ">" : "") (kind != "" ? "<" kind ">" : "")
+        if (kind != was || s ~ /^[a-z0-9]+_[a-z0-9_]+(, [a-z0-9_]+)*: /) out = out (was != "" ? "</" was ">" : "") (kind != "" ? "<" kind ">" : "")
         out = out "<span id=\"L" now "\">" prose(s) "</span>\n"
         was = kind
     }
