@@ -9,7 +9,7 @@ cat >"$out/style.css" <<'STYLE'
 :root { color-scheme: light dark; }
 body { max-width: 46em; margin: 0 auto; padding: 0 1em 4em; font: 1rem/1.55 Georgia, "Times New Roman", serif; }
 nav { padding: 0.6em 0; border-bottom: 1px solid #8884; font-family: sans-serif; font-size: 0.9rem; }
-nav a { margin-right: 1.2em; }
+nav a { margin-right: 1.2em; display: inline-block; }
 h1, h2, h3 { font-family: sans-serif; line-height: 1.25; }
 h2 { margin-top: 1.8em; }
 a { color: #0b62b8; text-decoration: none; overflow-wrap: anywhere; }
@@ -68,6 +68,7 @@ sub, sup { font-size: 0.72em; line-height: 0; }
 .f { display: flow-root; margin: 0.3em 0 0.1em 3.4em; padding: 0.2em 0.8em; border-left: 3px solid #0b62b8; font: 0.85rem sans-serif; background: #0b62b811; }
 .f > a { float: right; margin-left: 1em; }
 .f .math { margin: 0; border: none; }
+.c .math { margin: 0; border: none; }
 .f .math td { padding: 0.15em 1em 0.15em 0; }
 .n { color: #888; }
 :target { background: #fd08; }

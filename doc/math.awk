@@ -37,7 +37,7 @@ function math_entity(c) {
     if (c == "&") return "&amp;"
     return c
 }
-function is_text(i) { return T[i] ~ /^[A-Za-z][A-Za-z]+$/ && !(T[i] in MI) && T[i] !~ /^(integral|sqrt|wi|wo|ns|ng)$/ && T[i + 1] !~ /^[_^]$/ }
+function is_text(i) { return T[i] ~ /^[A-Za-z][A-Za-z]+$/ && !(T[i] in MI) && T[i] !~ /^(integral|prod|sqrt|wi|wo|ns|ng)$/ && T[i + 1] !~ /^[_^]$/ }
 
 # From token I on, up to `closer`: terms and the signs between them.
 function math_terms(closer,    out) {
@@ -72,11 +72,14 @@ function math_product(closer,    out, top, n) {
     return out top
 }
 # A sum or integral of a quantity, which has an index or stands before one: "sum over draws" is words.
-function math_sums(i) { return T[i] == "integral" || T[i] == "sum" && (T[i + 1] == "_" || !is_text(i + 1)) }
+function math_sums(i) { return T[i] ~ /^(integral|prod)$/ || T[i] == "sum" && (T[i + 1] == "_" || !is_text(i + 1)) }
 function math_sign(    out) {
-    out = T[I++] == "sum" ? "<mo>&#x2211;</mo>" : "<mo>&#x222B;</mo>"
-    if (T[I] == "_") { I++; out = "<munder>" out math_index() "</munder>" }
-    return out
+    out = "<mo>" (T[I] == "sum" ? "&#x2211;" : T[I] == "prod" ? "&#x220F;" : "&#x222B;") "</mo>"
+    I++
+    if (T[I] == "_") { I++; out = out math_index() } else return out
+    if (T[I] != "^") return "<munder>" out "</munder>"
+    I++
+    return "<munderover>" out math_index() "</munderover>"
 }
 # A group without its parentheses, which a fraction does not need.
 function math_bare(s) {

@@ -77,7 +77,7 @@ function piece(s,    at) {
     if (commented || s ~ /^\/\*/) {
         at = index(substr(s, commented ? 1 : 3), "*/")
         commented = !at
-        return at ? at + (substr(s, 1, 2) == "/*" && at > 1 ? 3 : 1) : length(s)
+        return at ? at + (substr(s, 1, 2) == "/*" ? 3 : 1) : length(s)
     }
     KIND = "word"
     if (match(s, /^[A-Za-z_][A-Za-z0-9_]*/)) return RLENGTH
@@ -189,16 +189,36 @@ function filled(n) {
     while (n < LINES[file] && TEXT[file, n] !~ /\*\//) n++
     return TEXT[file, n] ~ /\*\/$/ ? n : 0
 }
-# Its lines as paragraphs; those further in stay as they are. What begins with a name is a paragraph of its own.
-function comment(end,    s, kind, was, out) {
+# What a line of a comment says.
+function said(n,    s) {
+    s = TEXT[file, n]
+    sub(/^\/\* ?/, "", s); sub(/ ?\*\/$/, "", s); sub(/^ \* ?/, "", s)
+    return s
+}
+# The lines from n on that stand further in, if all are equations, typeset, else ""; now is then the last.
+function equations(n,    s, lines, places) {
+    for (; (s = said(n)) ~ /^  /; n++) {
+        if (s !~ /^    [^ ].* = / || s ~ /  = /) return ""
+        gsub(/\{/, "(", s); gsub(/\}/, ")", s)
+        sub(/\)  /, ")   ", s)
+        lines = lines (lines == "" ? "" : "\n") s
+        places = places "<span id=\"L" n "\"></span>"
+    }
+    now = n - 1
+    return places math_block(lines) "\n"
+}
+# The lines to end as paragraphs; those further in stay as they are. What begins with a name is a paragraph of its own.
+function comment(end,    s, kind, was, set, fresh, out) {
     for (; now <= end; now++) {
-        s = TEXT[file, now]
-        sub(/^\/\* ?/, "", s); sub(/ ?\*\/$/, "", s); sub(/^ \* ?/, "", s)
+        s = said(now)
         if (sub(/^--- /, "", s)) { sub(/ -+$/, "", s); return "<h2 id=\"L" now "\">" escape(s) "</h2>\n" }
         kind = s ~ /^ *$/ ? "" : s ~ /^  / ? "pre" : "p"
-        if (kind != was || s ~ /^[a-z0-9]+_[a-z0-9_]+(, [a-z0-9_]+)*: /) out = out (was != "" ? "</" was ">" : "") (kind != "" ? "<" kind ">" : "")
-        out = out "<span id=\"L" now "\">" prose(s) "</span>\n"
-        was = kind
+        set = kind == "pre" && was != "pre" ? equations(now) : ""
+        fresh = kind != was || set != "" || s ~ /^[a-z0-9]+_[a-z0-9_]+(, [a-z0-9_]+)*: /
+        if (fresh && was != "") out = out "</" was ">"
+        was = set == "" ? kind : ""
+        if (fresh && was != "") out = out "<" was ">"
+        out = out (set != "" ? set : "<span id=\"L" now "\">" prose(s) "</span>\n")
     }
     now--
     return "<div class=\"c\">" out (was != "" ? "</" was ">" : "") "</div>\n"

@@ -7,19 +7,20 @@ page=$top/doc/tour/one-sample.md
 ln -s "$program" asbdpt && ln -s "$lab" asbdpt-lab && ln -s "$top/scenes" scenes && mkdir out
 made() { (cd "$top" && sh doc/tour/sample.sh "$lab" "$@"); }
 
-# pixel FILE X Y: the three floats of a .pfm of 64x64 pixels, whatever the order of this machine's bytes.
+# pixel FILE X Y: the three floats, below 2, of a .pfm of 64x64 pixels, whatever the order of this machine's bytes.
 pixel() {
     at=$(($(wc -c <"$1") - 12 * 64 * 64 + 12 * (64 * (63 - $3) + $2)))
     od -An -v -tu1 -j $at -N 12 "$1" | tr -s ' \n' ' ' | awk '{
         for (i = 1; i <= 12; i += 4) {
-            power = ($(i + 3) % 128) * 2 + int($(i + 2) / 128) - 127
-            printf "%.9g ", (1 + ($(i + 2) % 128 * 65536 + $(i + 1) * 256 + $i) / 8388608) * 2 ^ power
+            x = 1 + ($(i + 2) % 128 * 65536 + $(i + 1) * 256 + $i) / 8388608
+            for (power = $(i + 3) % 128 * 2 + int($(i + 2) / 128) - 127; power < 0; power++) x /= 2
+            printf "%.9g ", x
         }
     }'
 }
 same() { # "R G B" "R G B": alike to 7 digits
     echo "$1 $2" | awk '{
-        for (i = 1; i <= 3; i++) far += ($i - $(i + 3)) ^ 2 > (3e-7 * $i) ^ 2
+        for (i = 1; i <= 3; i++) { d = $i - $(i + 3); far += d * d > 9e-14 * $i * $i }
         exit NF != 6 || far > 0
     }'
 }
