@@ -35,7 +35,7 @@ sed -n 's/^    \(\.\/asbdpt .*\)/\1/p' "$page" >commands
 expect 0 '' sh -e commands
 of=$(pixel out/one.pfm 32 32)
 check same "$(told pixel 8)" "$of"
-# It has light that was joined to the lens; the sum without it, or of another sample or pixel, is not that of the render.
+# It has light that was joined to the lens. The sum without it, or another sample or pixel, is not that of the render.
 for other in "$(told sum 8)" "$(told pixel 9)" "$(pixel out/one.pfm 32 33)"; do
     ! same "$other" "$of" || fault "$other is taken for the pixel $of"
 done
