@@ -193,18 +193,17 @@ static void learn_light_paths(struct learning *l, long n)
 {
     const struct light_set *lights = &l->job->scene->lights;
     const struct pass pass = {trace_light_path, take_light_path, *l->tables};
-    struct emission_axis axis = {.above = NULL};
+    double *base = NULL;
     bool emission = l->options->use && l->options->emission < 1 && lights->choice.n > 0;
     if (emission) {
-        axis = emission_axis_new(lights);
-        table_sums_init(&l->sums, 1, axis.axis.n);
+        l->columns = emission_axis_new(lights, &base);
+        table_sums_init(&l->sums, 1, l->columns.n);
     }
-    l->columns = axis.axis;
     lessons_learn(l, &pass, 0, n);
     if (emission)
-        l->tables->emission = table_build(&l->sums, (struct axis){1, NULL, NULL}, axis.axis, axis.base,
+        l->tables->emission = table_build(&l->sums, (struct axis){1, NULL, NULL}, l->columns, base,
                                           l->options->emission, true, true);
-    emission_axis_free(&axis);
+    emission_axis_free(&l->columns, base);
     count_light_vertices(l);
 }
 

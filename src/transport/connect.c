@@ -142,7 +142,7 @@ bool light_draw(const struct scene *scene, const struct counts *counts, const st
     sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
     if (!vertex_connectible(z) || lights->choice.n == 0)
         return false;
-    int cell = table->rows > 0 ? table_draw(table, z->region, table_all(table), u[0], &pmf, &u[0])
+    int cell = table->rows > 0 ? table_draw(table, z->region, 0, table->columns, 1, u[0], &pmf, &u[0])
                                : alias_sample(&lights->choice, u[0], &pmf, &u[0]);
     bool emits = light_sample_cell(lights, &scene->geo, cell, u, at) && at->pdf > 0;
     *pdf = emits ? pmf * at->pdf_cell : 0;

@@ -380,8 +380,9 @@ static void check_rays(struct test *t, const struct scene *scene, const struct b
 {
     const struct light_set *lights = &scene->lights;
     const struct table *emission = &b->prepared.counts.tables->emission;
-    struct emission_axis axis = emission_axis_new(lights);
-    struct tally c = tally_new(WAYS, (size_t)axis.axis.n);
+    double *base;
+    struct axis axis = emission_axis_new(lights, &base);
+    struct tally c = tally_new(WAYS, (size_t)axis.n);
     for (uint64_t k = 0; k < 2 * DRAWS; k++) {
         struct sampler sampler = sampler_start(b->job.seed, RNG_TEST, k, 3);
         double u[3], square[2], pdf;
@@ -394,11 +395,11 @@ static void check_rays(struct test *t, const struct scene *scene, const struct b
         emission_sample(emission, lights, &scene->geo, u, square, &y0, &ray, &pdf, &left_by);
         int column = emission_column_of(lights, &y0, ray.o, ray.d);
         c.collects = k < DRAWS;
-        tally_note(&c, (size_t)column, axis.base[column] * table_ratio(emission, 0, column));
+        tally_note(&c, (size_t)column, base[column] * table_ratio(emission, 0, column));
     }
     tally_judge(t, &c, DRAWS, 1, name, "rays that leave lights");
     tally_free(&c);
-    emission_axis_free(&axis);
+    emission_axis_free(&axis, base);
 }
 
 static void test_lights_drawn(struct test *t)
