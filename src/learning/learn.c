@@ -99,11 +99,9 @@ static void trace_uses(struct learning *l, const struct counts *counts, struct w
         lessons_add(out, lesson);
         for (int j = 0; l->options->direct && j < LIGHTS_PER_VERTEX; j++) {
             struct vertex y;
-            if (!light_point(l->job->scene, counts, z, &sampler, j, LIGHTS_PER_VERTEX, &y))
-                continue;
-            lesson.column = y.cell;
-            lesson.x = rgb_luminance(connect_vertices(l->job->scene, counts, &y, z).value) / beta;
-            lessons_add(out, lesson);
+            struct connection c = connect_direct(l->job->scene, counts, z, &sampler, j, LIGHTS_PER_VERTEX, &y);
+            if (y.light >= 0)
+                lessons_add(out, (struct lesson){lesson.row, y.cell, rgb_luminance(c.value) / beta, beta});
         }
     }
 }
