@@ -120,16 +120,15 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
 
 /* --- the loop ---------------------------------------------------------------------------------------- */
 
-/* loop_render (loop.h), written out for the reader. After a race (race.h) only one of `every` iterations may have light
- * sub-paths, or draws of later hits. What is drawn then counts `every` times. In the other iterations K = 0: they are
- * those of a path tracer. */
+/* After a race (race.h) only one of `every` iterations may have light sub-paths, or draws of later hits. What is drawn
+ * then counts `every` times. In the other iterations K = 0: they are those of a path tracer. */
 static void render_iteration(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     const int longest = pass->job->max_depth; /* t of a vertex that can be joined to one of s >= 2 */
     struct vertex *eye = pass->work->eye;
     loop_fill(p, pass, iteration); /* K light sub-paths, and their vertices by region */
     const int K = pass->work->pool.n;
-    const struct index *index = K > 0 ? build(p, pass, iteration) : NULL;
+    const struct index *index = K > 0 ? p->method->build(p, pass, iteration) : NULL;
     int draws[EYE_ENDS];
     loop_draws(p, pass, iteration, draws);
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
@@ -144,7 +143,7 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
             sample_hit(&sample, eye, t);  /* s = 0 */
             sample_direct(&sample, z, t); /* s = 1 */
             for (int j = 0; j < C; j++)   /* s >= 2 */
-                if (draw(p, index, &sample, z, j, C, &light))
+                if (p->method->draw(p, index, &sample, z, j, C, &light))
                     sample_pairs(&sample, &light, z, t, every / (C * K) / light.pmf);
         }
         loop_splat(p, &sample); /* t = 1 */
@@ -152,7 +151,7 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
     }
 }
 
-static void render(const struct prepared *p, const struct tile_pass *pass)
+void asbdpt_render(const struct prepared *p, const struct tile_pass *pass)
 {
     for (long iteration = pass->first; iteration < pass->end; iteration++)
         render_iteration(p, pass, iteration);
@@ -170,9 +169,8 @@ static const struct field PARAMETERS[] = {
     PARAMETERS_SHARED(true, 2, true, 0.2, MAX_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
-static const struct selector SELECTOR = {build, draw};
-
 const struct method method_subspaces = {
     .name = "asbdpt", .select = "subspaces", .help = "light vertices by what they are worth where the eye vertex is",
     .parameters = PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .vertices = true, .learns_use = true, .learns_pairs = true, .selector = &SELECTOR, .render = render};
+    .vertices = true, .learns_use = true, .learns_pairs = true, .build = build, .draw = draw,
+    .render = asbdpt_render};

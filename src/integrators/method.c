@@ -36,7 +36,7 @@ struct pass_size method_size(const struct prepared *p)
 {
     bool shared = p->numbers.path_pixels > 0 && numbers_every(&p->numbers, FIRST_HIT) == 1;
     const struct pass_size alone = {p->size.block, DEFAULT_TILE_SIZE, 1};
-    return p->method->selector == NULL || shared ? p->size : alone;
+    return p->method->build == NULL || shared ? p->size : alone;
 }
 
 void method_counts(const struct render_job *job, struct prepared *p)

@@ -65,9 +65,7 @@ static const struct field PARAMETERS[] = {
     PARAMETERS_SHARED(false, 1, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
-static const struct selector SELECTOR = {build, draw};
-
 const struct method method_vertices = {
     .name = "asbdpt", .select = "vertices", .help = "one alias table over the light vertices of a tile",
     .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true,
-    .learns_use = true, .prepare = prepare, .selector = &SELECTOR, .render = loop_render};
+    .learns_use = true, .prepare = prepare, .build = build, .draw = draw, .render = asbdpt_render};

@@ -25,7 +25,7 @@ static inline const struct vertex *candidate_vertex(const struct candidate *c)
 }
 
 struct pool {
-    struct arena arena;    /* of this iteration: lobes, and what selectors make of the sub-paths */
+    struct arena arena;    /* of this iteration: lobes, and what methods make of the sub-paths */
     struct vertex *vertex; /* [used], owned */
     size_t used, capacity;
     size_t start[POOL_PATHS]; /* first vertex of path k */

@@ -172,7 +172,7 @@ void trace_sample(const struct render_job *job, const struct prepared *prepared,
     const struct observer observer = {.context = trace, .walked = walked, .joined = joined};
     long block = prepared->size.block > 0 ? prepared->size.block : 1;
     observe(job, prepared, trace, trace->iteration / block * block, trace->iteration + 1, &observer);
-    bool chooses = prepared->method->selector == NULL || prepared->numbers.path_pixels > 0;
+    bool chooses = prepared->method->build == NULL || prepared->numbers.path_pixels > 0;
     trace->why = chooses ? method_why(prepared->method) : NULL;
     trace->race = race_result(prepared);
     method_numbers(prepared, trace->number);

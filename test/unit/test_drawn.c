@@ -54,7 +54,7 @@ static int copies(const struct index *r, const struct vertex *y, double *u)
 static double stated(const struct drawer *d, const struct index *index, const struct drawn *drawn)
 {
     double u = 1;
-    return d->b.prepared.method->selector->draw != ris_draw ? drawn->pmf
+    return d->b.prepared.method->draw != ris_draw ? drawn->pmf
         : drawn->pmf * copies(index, &drawn->light[drawn->first], &u) * u * d->b.work->pool.n / index->K;
 }
 
@@ -65,7 +65,7 @@ static struct drawn draw_one(const struct drawer *d, const struct index *index, 
     struct drawn out = {.end = 0};
     sample.choice = sampler_start(d->b.job.seed, RNG_TEST, k, 4 + (uint64_t)z->eye_end);
     sample.number = d->number;
-    d->b.prepared.method->selector->draw(&d->b.prepared, index, &sample, z, i, n, &out);
+    d->b.prepared.method->draw(&d->b.prepared, index, &sample, z, i, n, &out);
     return out;
 }
 
@@ -88,7 +88,7 @@ static const struct index *build_again(struct drawer *d, uint64_t k)
     if (k % OFTEN == 0)
         loop_fill(&d->b.prepared, &d->pass, 0);
     d->b.work->pool.n_candidates = 0;
-    return d->b.prepared.method->selector->build(&d->b.prepared, &d->pass, (long)(hash_mix(k) >> 34));
+    return d->b.prepared.method->build(&d->b.prepared, &d->pass, (long)(hash_mix(k) >> 34));
 }
 
 static size_t thing_of(const struct drawer *d, const struct drawn *drawn)
@@ -245,7 +245,7 @@ static struct index *build_fixed(const struct prepared *p, const struct tile_pas
 {
     const struct whole *w = pass->observer->context;
     loop_fill(p, pass, 0);
-    return w->method->selector->build(p, pass, iteration);
+    return w->method->build(p, pass, iteration);
 }
 
 static void check_whole(struct test *t, struct drawer *d, const char *name)
@@ -256,8 +256,8 @@ static void check_whole(struct test *t, struct drawer *d, const char *name)
     const struct observer observer = {.context = &w, .walked = note_walked, .joined = note_whole};
     int passes = 2 * DRAWS / (SIDE * SIDE);
     w.seen = (struct seen){&w.c, &d->b.work->pool, NULL};
-    const struct selector selector = {build_fixed, NULL};
-    fixed.selector = method->selector != NULL ? &selector : NULL;
+    fixed.build = method->build != NULL ? build_fixed : NULL;
+    fixed.draw = NULL;
     d->b.prepared.method = &fixed;
     d->pass.observer = &observer;
     for (int i = 0; i < passes; i++) {
@@ -282,7 +282,7 @@ static bool has_own(const struct method *m, const char *name)
     return m->own != NULL && field_find(m->own, name) != NULL;
 }
 
-static bool draws(const struct method *m) { return m->selector != NULL && m->selector->draw != NULL; }
+static bool draws(const struct method *m) { return m->draw != NULL; }
 
 /* Without a race, which may find that nothing is to be drawn. */
 static void check_method(struct test *t, struct scene *scene, const struct method *m)
@@ -314,7 +314,7 @@ static void test_methods(struct test *t)
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", SIDE, SIDE, &scene))
         return;
     for (const struct method *const *m = method_rows; *m != NULL; m++)
-        if ((*m)->selector != NULL) {
+        if ((*m)->build != NULL) {
             check_method(t, &scene, *m);
             n++;
         }

@@ -56,9 +56,7 @@ static const struct field PARAMETERS[] = {
     PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
-static const struct selector SELECTOR = {build, draw};
-
 const struct method method_lvc = {
     .name = "lvc", .help = "light vertex cache [Davidovic 2014]: light vertices drawn uniformly from a tile's",
     .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true,
-    .prepare = prepare, .selector = &SELECTOR, .render = loop_render};
+    .prepare = prepare, .build = build, .draw = draw, .render = asbdpt_render};

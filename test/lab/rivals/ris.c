@@ -444,7 +444,7 @@ void ris_render(const struct prepared *p, const struct tile_pass *pass)
     if (((const struct ris *)p->own)->nabata)
         render_weighed(p, pass);
     else
-        loop_render(p, pass);
+        asbdpt_render(p, pass);
 }
 
 /* --- the row ----------------------------------------------------------------------------------------- */
@@ -456,11 +456,9 @@ static const struct field OWN[] = {
     RIS_WEIGHTS_FIELD, RIS_SUBPATHS_FIELD(50), RIS_RECORDS_FIELD,
     {.name = NULL}};
 
-const struct selector RIS_SELECTOR = {ris_build, ris_draw};
-
 const struct method method_ris = {
     .name = "ris", .check = surfaces_alone,
     .help = "resampling [Nabata 2020a]: light vertices drawn by a record nearby, with weights to suit",
     .parameters = RIS_PARAMETERS, .own = OWN, .own_size = sizeof(struct ris), .numbers = NUMBERS_OF_BDPT,
     .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true, .prepare = ris_prepare,
-    .selector = &RIS_SELECTOR, .render = ris_render};
+    .build = ris_build, .draw = ris_draw, .render = ris_render};

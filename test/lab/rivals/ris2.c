@@ -50,4 +50,4 @@ const struct method method_ris2 = {
     .help = "two-stage resampling [Nabata 2020b]: by power first, then by a record nearby",
     .parameters = RIS_PARAMETERS, .own = OWN, .own_size = sizeof(struct ris), .numbers = NUMBERS_OF_BDPT,
     .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true, .prepare = ris_prepare,
-    .selector = &RIS_SELECTOR, .render = ris_render};
+    .build = ris_build, .draw = ris_draw, .render = ris_render};

@@ -361,7 +361,7 @@ static void splat(const struct prepared *p, struct sample *sample, struct vertex
     }
 }
 
-/* As loop_render, with classified eye sub-paths. */
+/* As asbdpt_render, with classified eye sub-paths. */
 static void render(const struct prepared *p, const struct tile_pass *pass)
 {
     struct pool *pool = &pass->work->pool;
@@ -370,17 +370,20 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         loop_fill(p, pass, iteration);
         const struct index *index = build(p, pass, iteration);
-        int draws[EYE_ENDS];
-        loop_draws(p, pass, iteration, draws);
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);
             int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
             classify(p, eye, n, &pass->work->arena, RADIANCE);
             for (int t = 2; t <= n; t++) {
+                const struct vertex *z = &eye[t - 1];
+                int C = t <= pass->job->max_depth && vertex_connectible(z) ? p->numbers.draws[z->eye_end] : 0;
+                struct drawn light;
                 sample_hit(&sample, eye, t);
-                sample_direct(&sample, &eye[t - 1], t);
-                loop_join(p, index, &sample, &eye[t - 1], t, draws);
+                sample_direct(&sample, z, t);
+                for (int j = 0; j < C; j++)
+                    if (draw(p, index, &sample, z, j, C, &light))
+                        sample_pairs(&sample, &light, z, t, 1 / ((double)C * pool->n) / light.pmf);
             }
             if (i % each == 0)
                 splat(p, &sample, &pool->vertex[pool->start[i / each]], pool->length[i / each],
@@ -417,11 +420,9 @@ static const struct field OWN[] = {
     {"steps", FIELD_INTEGER, AT(steps), 2, 0, 1000, "steps that minimise the variance", NULL},
     {.name = NULL}};
 
-static const struct selector SELECTOR = {build, draw};
-
 const struct method method_spcbpt = {
     .name = "spcbpt", .check = surfaces_alone,
     .help = "subspaces [Su 2022]: light vertices drawn by trees and a matrix for the least variance",
     .parameters = PARAMETERS, .own = OWN, .own_size = sizeof(struct spcbpt), .numbers = NUMBERS_OF_PT,
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .selector = &SELECTOR,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .build = build, .draw = draw,
     .render = render};

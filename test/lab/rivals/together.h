@@ -17,12 +17,12 @@ struct pixel {
     int n;
 };
 
-/* All strategies of all n pixels. `index` is what the method's selector has made of the pool, if it has one. */
+/* All strategies of all n pixels. `index` is what the method's `build` has made of the pool, if it has one. */
 typedef void connect_all_fn(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
                             struct pixel *pixel, int n);
 
 /* together_begin: a sample of the tile's pixel of this number that is not connected, in the workspace's arena.
- * together_render: a tile pass by such a method. If it has a selector, its pixels share light sub-paths. */
+ * together_render: a tile pass by such a method. If it has a `build`, its pixels share light sub-paths. */
 struct pixel together_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y,
                             long iteration);
 void together_render(const struct prepared *p, const struct tile_pass *pass, connect_all_fn *connect_all);

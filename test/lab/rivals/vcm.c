@@ -206,10 +206,8 @@ static const struct field OWN[] = {
 
 static const struct field PARAMETERS[] = {PARAMETER_GUIDE(false), {.name = NULL}};
 
-static const struct selector SELECTOR = {build, NULL};
-
 const struct method method_vcm = {
     .name = "vcm", .check = surfaces_alone, .parameters = PARAMETERS,
     .help = "vertex connection and merging [Georgiev 2012c]: bdpt, and vertices that meet; biased",
     .own = OWN, .own_size = sizeof(struct vcm), .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .prepare = reuse_prepare, .selector = &SELECTOR, .render = render};
+    .prepare = reuse_prepare, .build = build, .render = render};
