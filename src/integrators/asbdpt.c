@@ -47,7 +47,7 @@ static void make_groups(struct index *v, struct pool *pool, int *group_of, int n
 {
     memset(group_of, 0, (size_t)n_regions * sizeof *group_of);
     for (int i = 0; i < pool->n_candidates; i++)
-        group_of[candidate_vertex(&pool->candidate[i])->region] += pool->candidate[i].L > 0;
+        group_of[candidate_vertex(&pool->candidate[i])->place] += pool->candidate[i].L > 0;
     v->group = arena_alloc(&pool->arena, (size_t)n_regions * sizeof *v->group);
     v->n_groups = 0;
     for (int region = 0, first = 0; region < n_regions; region++) {
@@ -76,7 +76,7 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
         struct candidate c = pool->candidate[i];
         if (!(c.L > 0))
             continue;
-        struct group *g = &v->group[group_of[candidate_vertex(&c)->region]];
+        struct group *g = &v->group[group_of[candidate_vertex(&c)->place]];
         v->candidate[g->first + g->n] = c;
         v->before[g->first + g->n++] = g->L;
         g->L += c.L;
@@ -107,7 +107,7 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
 {
     if (v->n_groups == 0)
         return false;
-    const double *row = row_of_region(v, &sample->pass->work->pool.arena, &p->tables->pairs, z->region);
+    const double *row = row_of_region(v, &sample->pass->work->pool.arena, &p->tables->pairs, z->place);
     double total = row[v->n_groups], target = (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n * total;
     int k = cumulative_find(row, v->n_groups, target);
     const struct group *g = &v->group[k];

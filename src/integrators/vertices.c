@@ -26,7 +26,7 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     double *weight = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *weight);
     for (int i = 0; i < pool->n_candidates; i++) {
         const struct candidate *c = &pool->candidate[i];
-        double q = c->L * table_ratio(&p->tables->pairs, 0, candidate_vertex(c)->region);
+        double q = c->L * table_ratio(&p->tables->pairs, 0, candidate_vertex(c)->place);
         bool usable = q >= 0 && isfinite(q);
         weight[i] = usable ? q : 0;
         pass->tile->nonfinite += !usable;

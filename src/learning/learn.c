@@ -102,7 +102,7 @@ static void trace_uses(struct learning *l, struct workspace *work, long i, struc
             struct vertex y;
             struct connection c = connect_direct(l->job->scene, &l->counts, z, &sampler, j, LIGHTS_PER_VERTEX, &y);
             if (y.light >= 0)
-                lessons_add(out, (struct lesson){DIRECT, key, y.cell, rgb_luminance(c.value) / beta, beta});
+                lessons_add(out, (struct lesson){DIRECT, key, y.place, rgb_luminance(c.value) / beta, beta});
         }
     }
 }
@@ -153,7 +153,7 @@ static void trace_trials(struct learning *l, struct workspace *work, long i, str
             const struct vertex *y = candidate_vertex(c);
             struct connection found = connect_vertices(l->job->scene, &l->counts, y, z);
             double x = rgb_luminance(found.value) / (beta * c->L);
-            lessons_add(out, (struct lesson){TRIAL, (uint64_t)z->region, y->region, x, beta});
+            lessons_add(out, (struct lesson){TRIAL, (uint64_t)z->place, y->place, x, beta});
         }
 }
 

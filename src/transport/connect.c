@@ -13,7 +13,7 @@ struct connection connect_hit(const struct scene *scene, const struct counts *co
     z = z->lamp != NULL ? z->lamp : z;
     if (z->light < 0 || (seen && z->kind == VERTEX_SURFACE && lights->light[z->light].hidden))
         return c;
-    struct light_point at = vertex_light_point(z);
+    struct light_point at = vertex_light_point(scene, z);
     c.light = z->light;
     rgb Le = z->kind == VERTEX_ESCAPED ? light_Le_sky(lights, at.w, seen) : light_Le(lights, &at, z->wo);
     c.value = rgb_mul(z->beta, Le); /* C* = alpha_t Le [V97 10.2] */
@@ -21,11 +21,11 @@ struct connection connect_hit(const struct scene *scene, const struct counts *co
     if (rgb_is_black(c.value) || seen)
         return c;
     /* n of s = 1, which connects prev to z; z->mis_c is n of s >= 2 */
-    double c_e = z->prev_delta ? 0 : n_direct(counts, prev->region, prev->eye_end, z->cell);
+    double c_e = z->prev_delta ? 0 : n_direct(counts, prev->place, prev->eye_end, at.cell);
     /* density of the direction of the light sub-path's first ray; at infinity, of its origin */
     const vec3 start = z->kind == VERTEX_ESCAPED ? prev->p : z->p;
     double pdf_emit = emission_pdf(&counts->tables->emission, lights, &at, start, z->wo);
-    double eye_side = mis_side(z->pdf_origin, z->pdf_fwd, c_e, pdf_emit, z->mis); /* mis.h (5) */
+    double eye_side = mis_side(at.pdf, z->pdf_fwd, c_e, pdf_emit, z->mis); /* mis.h (5) */
     c.weight = mis_weight(counts->hit[prev->eye_end], 0, eye_side); /* mis.h (7), A_light being 0 */
     return c;
 }
@@ -69,7 +69,7 @@ static inline struct bsdf_value scatter_towards(const struct vertex *v, vec3 wi,
 static double emitted_pdf(const struct scene *scene, const struct counts *counts, const struct vertex *y, vec3 p,
                           vec3 w)
 {
-    const struct light_point at = vertex_light_point(y);
+    const struct light_point at = vertex_light_point(scene, y);
     return emission_pdf(&counts->tables->emission, &scene->lights, &at, p, w);
 }
 
@@ -136,7 +136,7 @@ bool light_draw(const struct scene *scene, const struct counts *counts, const st
     sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
     if (!vertex_connectible(z) || lights->choice.n == 0)
         return false;
-    int cell = table->rows > 0 ? table_draw(table, z->region, 0, table->columns, 1, u[0], &pmf, &u[0])
+    int cell = table->rows > 0 ? table_draw(table, z->place, 0, table->columns, 1, u[0], &pmf, &u[0])
                                : alias_sample(&lights->choice, u[0], &pmf, &u[0]);
     bool emits = light_sample_cell(lights, &scene->geo, cell, u, at) && at->pdf > 0;
     *pdf = emits ? pmf * at->pdf_cell : 0;

@@ -86,8 +86,8 @@ static inline double n_pair(const struct counts *c, int e, enum eye_end end, int
 static inline double n_if(const struct counts *c, const struct vertex *y, const struct vertex *z, enum eye_end end)
 {
     return z->kind == VERTEX_LENS    ? c->lens
-           : y->kind == VERTEX_LIGHT ? n_direct(c, z->region, end, y->cell)
-                                     : n_pair(c, z->region, end, y->region);
+           : y->kind == VERTEX_LIGHT ? n_direct(c, z->place, end, y->place)
+                                     : n_pair(c, z->place, end, y->place);
 }
 static inline double n_of(const struct counts *c, const struct vertex *y, const struct vertex *z)
 {

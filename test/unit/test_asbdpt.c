@@ -272,10 +272,10 @@ static void note_draw(void *context, const struct sample *sample, const struct j
     for (int k = 0; d->delta > 0 && k < (int)d->paths; k++)
         if (d->first[k] == what)
             d->unlike = fmax(d->unlike, fabs(path->pmf / d->q[k] - 1));
-    d->region = d->region < 0 ? path->z->region : d->region;
+    d->region = d->region < 0 ? path->z->place : d->region;
     while (i < d->n && d->drawn[i] != what)
         i++;
-    if (i < d->n || i == 256 || (!d->whole && d->region != path->z->region))
+    if (i < d->n || i == 256 || (!d->whole && d->region != path->z->place))
         return;
     d->drawn[d->n++] = what;
     d->sum += path->pmf;

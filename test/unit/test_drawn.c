@@ -366,7 +366,7 @@ static void check_lights(struct test *t, const struct scene *scene, const struct
         const struct light *light = &lights->light[at.light];
         if (light->kind == LIGHT_INFINITE)
             tally_note(&c, (size_t)(lights->n + at.cell),
-                       alias_pmf(&lights->choice, at.cell) * table_ratio(direct, z->region, at.cell));
+                       alias_pmf(&lights->choice, at.cell) * table_ratio(direct, z->place, at.cell));
         else
             tally_note(&c, (size_t)at.light,
                        pdf * (light->kind == LIGHT_AREA ? shape_area(&scene->geo, light->prim) : 1));

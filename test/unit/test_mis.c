@@ -232,8 +232,8 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
     if (!light_point(c->scene, c->counts, &eye[t - 1], sampler, 0, 1, &y))
         return;
     if (lights->light[y.light].kind == LIGHT_INFINITE)
-        CHECK(c->t, fabs(light_pdf_sky(lights, y.wo, &cell) / y.pdf_fwd - 1) < 1e-9 && cell == y.cell,
-              "%s: a direction of cell %d, drawn with %g, is of cell %d", c->name, y.cell, y.pdf_fwd, cell);
+        CHECK(c->t, fabs(light_pdf_sky(lights, y.wo, &cell) / y.pdf_fwd - 1) < 1e-9 && cell == y.place,
+              "%s: a direction of cell %d, drawn with %g, is of cell %d", c->name, y.place, y.pdf_fwd, cell);
     compare(c, connect_vertices(c->scene, c->counts, &y, &eye[t - 1]), &y, 1, eye, t);
 }
 

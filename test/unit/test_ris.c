@@ -22,7 +22,6 @@ static struct vertex as_eye_vertex(const struct vertex *x, const struct vertex *
     v.prev_delta = false;
     v.back = vertex_cosine(z, v.wo) / length2(d);
     v.pdf_fwd = pdf * abs_dot(x->ng, v.wo) / length2(d);
-    v.pdf_origin = x->kind == VERTEX_LIGHT ? x->pdf_fwd : 0;
     v.beta = rgb_grey(1);
     return v;
 }
@@ -43,7 +42,7 @@ static double sum_weights(struct index *r, const struct vertex *light, int s, st
             c = ris_joint(r, &j);
             eye[t] = as_eye_vertex(&light[s - 1], z, j.pdf_z);
         } else if (s == 1) {
-            struct light_point at = vertex_light_point(light);
+            struct light_point at = vertex_light_point(r->scene, light);
             struct lit l;
             at.pdf = at.pdf_cell = light->pdf_fwd;
             if (!connect_light(r->scene, z, &at, at.pdf, &l))

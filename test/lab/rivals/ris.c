@@ -103,9 +103,8 @@ static double kept(const struct vertex *v, vec3 wo, vec3 wi)
 /* Luminance on arrival at x_1 of what x_0 sends in direction w. */
 static double emitted(const struct scene *scene, const struct vertex *x0, vec3 w)
 {
-    struct light_point at = vertex_light_point(x0);
-    double pdf = (x0->kind == VERTEX_LIGHT ? x0->pdf_fwd : x0->pdf_origin) *
-                 light_pdf_emission(&scene->lights, &at, w);
+    struct light_point at = vertex_light_point(scene, x0);
+    double pdf = at.pdf * light_pdf_emission(&scene->lights, &at, w);
     return pdf > 0 ? rgb_luminance(light_Le(&scene->lights, &at, w)) * vertex_cosine(x0, w) / pdf : 0;
 }
 
@@ -132,7 +131,7 @@ static void count(struct sums *a, double ratio, double plain, double N)
 static void count_direct(const struct index *r, struct sums *a, double ratio, const struct vertex *z, enum eye_end end,
                          int cell)
 {
-    double n = n_direct(r->counts, z->region, end, cell);
+    double n = n_direct(r->counts, z->place, end, cell);
     count(a, ratio, n, n);
 }
 
@@ -148,7 +147,7 @@ static void sum_light_side(const struct index *r, const struct path_end *end, st
         }
         bool direct = v[-1].kind == VERTEX_LIGHT;
         if (!passed && !v->prev_delta)
-            direct ? count_direct(r, a, ratio, v, LATER_HIT, v[-1].cell)
+            direct ? count_direct(r, a, ratio, v, LATER_HIT, v[-1].place)
                    : count(a, ratio, r->counts->pair[LATER_HIT], r->light_n[v - r->pool->vertex]);
         passed = v->prev_delta;
         pdf_other = pdf_rev * v->back;
@@ -170,7 +169,7 @@ static void sum_eye_side(struct index *r, int s, const struct path_end *end, dou
             return;
         }
         if (!passed && !v->prev_delta && light)
-            count_direct(r, a, ratio, before, before->eye_end, v->cell);
+            count_direct(r, a, ratio, before, before->eye_end, vertex_light_point(r->scene, v).cell);
         else if (!passed && !v->prev_delta) {
             const struct vertex *lens = before;
             while (lens->kind != VERTEX_LENS)
@@ -214,10 +213,10 @@ struct connection ris_hit(struct index *r, const struct vertex *prev, const stru
     if (t == 2 || rgb_is_black(c.value))
         return c;
     const struct vertex *end = z->lamp != NULL ? z->lamp : z;
-    struct light_point at = vertex_light_point(end);
+    struct light_point at = vertex_light_point(r->scene, end);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &at,
                                    end->kind == VERTEX_ESCAPED ? prev->p : end->p, end->wo);
-    const struct path_end z_end = {end, prev, end->pdf_origin, pdf_emit};
+    const struct path_end z_end = {end, prev, at.pdf, pdf_emit};
     c.weight = weigh(r, 0, r->counts->hit[prev->eye_end], NULL, &z_end);
     return c;
 }
@@ -233,7 +232,7 @@ struct connection ris_lit(struct index *r, const struct lit *l)
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &l->at, z->p, neg(l->w));
     double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
     const struct path_end y_end = {&y, NULL, l->pdf_z * l->at_light, 0}, z_end = {z, z - 1, pdf_z, l->pdf_rev_z};
-    c.weight = weigh(r, 1, n_direct(r->counts, z->region, z->eye_end, l->at.cell), &y_end, &z_end);
+    c.weight = weigh(r, 1, n_direct(r->counts, z->place, z->eye_end, l->at.cell), &y_end, &z_end);
     return c;
 }
 

@@ -107,10 +107,10 @@ static void note_hit(struct trainer *r, const struct vertex *eye, int t)
     const struct scene *scene = r->job->scene;
     const struct vertex *z = &eye[t - 2], *x = eye[t - 1].lamp != NULL ? eye[t - 1].lamp : &eye[t - 1];
     struct connection c = connect_hit(scene, r->counts, z, x);
-    struct light_point y0 = vertex_light_point(x);
     if (t == 2 || rgb_is_black(c.value))
         return;
-    double ratio = x->pdf_origin / x->pdf_fwd, direct = n_direct(r->counts, z->region, z->eye_end, x->cell);
+    struct light_point y0 = vertex_light_point(scene, x);
+    double ratio = y0.pdf / x->pdf_fwd, direct = n_direct(r->counts, z->place, z->eye_end, y0.cell);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &y0,
                                    x->kind == VERTEX_ESCAPED ? z->p : x->p, x->wo);
     struct found f = {1, x->prev_delta ? 0 : ratio * direct, ratio, pdf_emit * x->back, vertex_pdf_rev(z, x, RADIANCE),
@@ -129,7 +129,7 @@ static void note_lit(struct trainer *r, const struct vertex *z, struct sampler *
         return;
     bool hit = !light_is_delta(&scene->lights.light[at.light]);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &at, z->p, neg(l.w));
-    struct found f = {n_direct(r->counts, z->region, z->eye_end, at.cell), hit ? l.pdf_z * l.at_light / at.pdf : 0, 1,
+    struct found f = {n_direct(r->counts, z->place, z->eye_end, at.cell), hit ? l.pdf_z * l.at_light / at.pdf : 0, 1,
                       pdf_emit * vertex_cosine(z, l.w) * l.spread, l.pdf_rev_z, false};
     note(r, connect_lit(scene, r->counts, &l).value, f, z);
 }
@@ -278,9 +278,9 @@ static void classify(const struct prepared *p, struct vertex *path, int n, struc
         }
         if (v->kind != VERTEX_SURFACE)
             continue;
-        v->region = tree_find(own->tree[mode == RADIANCE], place_of(v));
+        v->place = tree_find(own->tree[mode == RADIANCE], place_of(v));
         v->mis_c = n_before(counts, x, v, mode);
-        v->region = tree_find(own->tree[mode == IMPORTANCE], place_of(v));
+        v->place = tree_find(own->tree[mode == IMPORTANCE], place_of(v));
     }
 }
 
@@ -299,11 +299,11 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     v->row = memset(arena_alloc(&pool->arena, n * sizeof *v->row), 0, n * sizeof *v->row);
     v->group = memset(arena_alloc(&pool->arena, n * sizeof *v->group), 0, n * sizeof *v->group);
     for (int i = 0; i < pool->n_candidates; i++)
-        v->group[candidate_vertex(&pool->candidate[i])->region].n++;
+        v->group[candidate_vertex(&pool->candidate[i])->place].n++;
     for (size_t l = 0, first = 0; l < n; first += (size_t)v->group[l].n, v->group[l++].n = 0)
         v->group[l].first = (int)first;
     for (int i = 0; i < pool->n_candidates; i++) {
-        struct group *g = &v->group[candidate_vertex(&pool->candidate[i])->region];
+        struct group *g = &v->group[candidate_vertex(&pool->candidate[i])->place];
         v->candidate[g->first + g->n] = pool->candidate[i];
         v->before[g->first + g->n++] = g->L;
         g->L += pool->candidate[i].L;
@@ -328,7 +328,7 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
                  int i, int n, struct drawn *out)
 {
     const struct spcbpt *own = p->own;
-    const double *row = row_of(own, v, &sample->pass->work->pool.arena, z->region);
+    const double *row = row_of(own, v, &sample->pass->work->pool.arena, z->place);
     double total = row[own->subspaces];
     if (!(total > 0))
         return false;
@@ -351,11 +351,11 @@ static void splat(const struct prepared *p, struct sample *sample, struct vertex
             o->walked(o->context, sample, IMPORTANCE, light, n);
     for (int s = 2; s <= n && s <= sample->pass->job->max_depth + 1; s++) {
         struct vertex *y = &light[s - 1];
-        int region = y->region;
-        y->region = tree_find(own->tree[0], place_of(y));
+        int region = y->place;
+        y->place = tree_find(own->tree[0], place_of(y));
         double raster[2];
         struct connection c = connect_lens(sample->pass->job->scene, &p->counts, y, &sample->sampler, raster);
-        y->region = region;
+        y->place = region;
         sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .px = raster[0], .py = raster[1],
                                              .pmf = 1, .scale = scale / p->counts.lens});
     }

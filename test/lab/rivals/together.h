@@ -57,10 +57,10 @@ struct connection reuse_hit(const struct sample *sample, const struct vertex *pr
                             rgb beta);
 
 /* reuse_hit_density: where s = 1 draws what s = 0 hits at z: density there over that of the walk. */
-static inline double reuse_hit_density(const struct vertex *z)
+static inline double reuse_hit_density(const struct scene *scene, const struct vertex *z)
 {
     z = z->lamp != NULL ? z->lamp : z;
-    return z->pdf_origin / z->pdf_fwd;
+    return z->light < 0 ? 0 : vertex_light_point(scene, z).pdf / z->pdf_fwd;
 }
 
 /* reuse_sees: does z see the light's point? */
