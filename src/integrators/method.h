@@ -83,8 +83,9 @@ struct runner {
 };
 enum runner_number { RUNNER_ALL, RUNNER_QUARTER, RUNNER_QUARTER_FIRST, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
 
-/* runner_name: as -P race= has it. */
+/* runner_name: as -P race= has it. RUNNER_NUMBERS: as --stats names what the race has found. */
 static inline const char *runner_name(int runner) { return RACES[RACE_RUNNERS + runner]; }
+extern const char RUNNER_NUMBERS[RUNNERS][24];
 
 /* A method that is ready to render. It does not change while it renders. */
 struct prepared {

@@ -3,7 +3,7 @@
  * The way of each number from a sample to a weight; functions without a file are in learn.c, in this order:
  *
  *   table (tables.h)  sample, a lesson       sums        table               drawn by               in the weights
- *   use               trace_uses: VISIT      take        as it is            pool.c, vertices.c     -
+ *   use               trace_uses: VISIT      take        as it is            select_pool, vertices  -
  *   direct            trace_uses: DIRECT     take        build_direct        connect.c: light_draw  counts.h: n_direct
  *   emission          trace_light_path: RAY  take        learn_light_paths   emission_sample        emission_pdf
  *   vertices          the same: LIGHT_VERTEX count_light_vertices            -                      base of pairs

@@ -1,4 +1,4 @@
-/* pool.c: `select = pool`: the smallest unbiased repair of the dissertation's estimator.
+/* select_pool.c: `select = pool`: the smallest unbiased repair of the dissertation's estimator.
  *
  * The tile traces K light sub-paths in an iteration, as many as BDPT. They have importances I_k and probabilities
  *     q_k = (1 - delta) I_k / sum I + delta / K.                                               [Hesterberg 1995]
