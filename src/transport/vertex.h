@@ -24,7 +24,7 @@ enum vertex_kind {
  *
  *                LENS         LIGHT (y_0)                       SURFACE                      ESCAPED
  *   light        -1           its light                         of the area light, or -1     of the sky, or -1
- *   place        -            its light cell (light.h)          its region (tables.h)        -
+ *   place        -            its light cell                    its region                   -
  *   p            on the lens  on the light; at infinity -       the point                    -
  *   ng           0            area light: its normal; else 0    geometric normal             0
  *   prim_id      0            area light: see shape.h; else 0   see shape.h                  0
@@ -33,6 +33,9 @@ enum vertex_kind {
  *   pdf_fwd      1            1/m^2; at infinity 1/sr           1/m^2                        1/sr
  *   bsdf         -            -                                 its scattering               -
  *   lamp         -            -                                 eye walk: see below          see below
+ *
+ * A light cell is a light, a group of lights, or a part of the sky (light.h). A region is a cube of space and a side of
+ * its surfaces (regions.h), if a method learns; else the whole scene.
  *
  * A vertex within a medium (scene/medium.h) has the fields of a SURFACE, with ng 0, prim_id WITHIN_MEDIUM and pdf_fwd
  * per volume, 1/m^3.
