@@ -17,7 +17,7 @@
  * weights valid.
  *
  * [Su 2022] has subspaces of eye and light sub-paths and a matrix of probabilities between them. Here the regions are
- * cells of grids, and the table is learnt from trial connections.
+ * cubes, and the table is learnt from trial connections.
  *
  * Tests: test_asbdpt.c.
  */
@@ -124,7 +124,6 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
  * then counts `every` times. In the other iterations K = 0: they are those of a path tracer. */
 static void render_iteration(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    const int longest = pass->job->max_depth; /* t of a vertex that can be joined to one of s >= 2 */
     struct vertex *eye = pass->work->eye;
     loop_fill(p, pass, iteration); /* K light sub-paths, and their vertices by region */
     const int K = pass->work->pool.n;
@@ -137,14 +136,14 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
         int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
         for (int t = 2; t <= n; t++) {
             const struct vertex *z = &eye[t - 1];
-            const int C = t <= longest && vertex_connectible(z) ? draws[z->eye_end] : 0;
+            const int C = t <= pass->job->max_depth && vertex_connectible(z) ? draws[z->eye_end] : 0;
             const double every = numbers_every(&p->numbers, z->eye_end);
-            struct drawn light;
+            struct drawn drawn;
             sample_hit(&sample, eye, t);  /* s = 0 */
             sample_direct(&sample, z, t); /* s = 1 */
             for (int j = 0; j < C; j++)   /* s >= 2 */
-                if (p->method->draw(p, index, &sample, z, j, C, &light))
-                    sample_pairs(&sample, &light, z, t, every / (C * K) / light.pmf);
+                if (p->method->draw(p, index, &sample, z, j, C, &drawn))
+                    sample_pairs(&sample, &drawn, z, t, every / (C * K) / drawn.pmf);
         }
         loop_splat(p, &sample); /* t = 1 */
         sample_end(&sample);

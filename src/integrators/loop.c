@@ -4,8 +4,8 @@
 /* Fisher and Yates, from the inside out. [Durstenfeld 1964] */
 void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long iteration, int *order)
 {
-    const int *first = pass->tile->pixel[0];
-    struct sampler sampler = sample_stream(pass, RNG_SHUFFLE, first[0], first[1], (uint64_t)iteration);
+    const int *corner = pass->tile->pixel[0];
+    struct sampler sampler = sample_stream(pass, RNG_SHUFFLE, corner[0], corner[1], (uint64_t)iteration);
     for (int i = 0; i < pool->n; i++) {
         /* at most i, since what is drawn is below 1 by more than rounding can add */
         int j = (int)(sampler_number(&sampler, DRAW_ORDER) * (i + 1));
@@ -18,10 +18,10 @@ void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long it
  * the pixel, for those are points of nets (sampler.h). */
 bool loop_turn(const struct prepared *p, const struct tile_pass *pass, enum eye_end end, long iteration)
 {
-    const int *first = pass->tile->pixel[0], every = numbers_every(&p->numbers, end);
+    const int *corner = pass->tile->pixel[0], every = numbers_every(&p->numbers, end);
     if (every == 1)
         return true;
-    struct sampler sampler = sample_stream(pass, RNG_TURN, first[0], first[1], (uint64_t)(iteration / every));
+    struct sampler sampler = sample_stream(pass, RNG_TURN, corner[0], corner[1], (uint64_t)(iteration / every));
     return iteration % every == (long)(sampler_number(&sampler, DRAW_ORDER) * every);
 }
 

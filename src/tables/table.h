@@ -1,7 +1,9 @@
 /* table.h: what the columns of a table are worth to its rows, learnt from samples; choices by it, and their density.
  *
  * A row is a place where an eye vertex may be. A column is what it can choose: the place of a light vertex, or a light
- * cell. (The table for rays that leave lights has one row.) A sample of row r and column c has the worth x >= 0 and the weight w > 0. The mean worth m(r,c) is learnt for more
+ * cell. (The table of rays that leave lights has one row.)
+ *
+ * A sample of row r and column c has the worth x >= 0 and the weight w > 0. The mean worth m(r,c) is learnt for more
  * pairs than there are samples. So the mean of a pair is regularised towards that of the pair above it:
  *     m(r,c) = (sum of w x + PRIOR w_mean m(r',c')) / (sum of w + PRIOR w_mean),      PRIOR = 4 samples.
  * Rows and columns may be nodes of trees, in which a node contains those below it: places on several levels, parts of a

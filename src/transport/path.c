@@ -89,9 +89,9 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
 {
     if (!meet(w, v, prev, from, edge, at))
         return false;
-    bool first =
+    bool first_hit =
         prev->kind == VERTEX_LENS || (prev->kind == VERTEX_SURFACE && prev->eye_end == FIRST_HIT && from->delta);
-    v->eye_end = mode == RADIANCE && first ? FIRST_HIT : LATER_HIT;
+    v->eye_end = mode == RADIANCE && first_hit ? FIRST_HIT : LATER_HIT;
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
     v->place = region_at(&w->counts->tables->regions, v->p, vertex_side(v));
     v->mis_c = n_before(w->counts, prev, v, mode);

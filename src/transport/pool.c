@@ -10,9 +10,9 @@ void pool_clear(struct pool *p)
     p->used = 0;
 }
 
-struct vertex *pool_room(struct pool *p, size_t longest)
+struct vertex *pool_room(struct pool *p, size_t max_vertices)
 {
-    p->vertex = mem_grow(p->vertex, &p->capacity, p->used + longest, sizeof *p->vertex);
+    p->vertex = mem_grow(p->vertex, &p->capacity, p->used + max_vertices, sizeof *p->vertex);
     return &p->vertex[p->used];
 }
 

@@ -36,10 +36,10 @@ struct pool {
     struct alias_table alias;    /* for those who draw by one; owned */
 };
 
-/* pool_clear: begin an iteration. pool_room: room for one more sub-path of at most `longest` vertices at the end of
+/* pool_clear: begin an iteration. pool_room: room for one more sub-path of at most so many vertices at the end of
  * pool->vertex. pool_add: so many have become a sub-path. */
 void pool_clear(struct pool *p);
-struct vertex *pool_room(struct pool *p, size_t longest);
+struct vertex *pool_room(struct pool *p, size_t max_vertices);
 void pool_add(struct pool *p, int n);
 void pool_free(struct pool *p);
 
