@@ -32,7 +32,7 @@ struct group {
 };
 
 struct index {
-    struct candidate *candidate; /* [n], sorted by region */
+    const struct vertex **candidate; /* [n], sorted by region */
     double *before;              /* [n], sum of L of the candidates before it in its group */
     struct group *group;         /* [n_groups], in the order of their regions */
     int n_groups;
@@ -47,7 +47,7 @@ static void make_groups(struct index *v, struct pool *pool, int *group_of, int n
 {
     memset(group_of, 0, (size_t)n_regions * sizeof *group_of);
     for (int i = 0; i < pool->n_candidates; i++)
-        group_of[candidate_vertex(&pool->candidate[i])->place] += pool->candidate[i].L > 0;
+        group_of[pool->candidate[i]->place] += rgb_luminance(pool->candidate[i]->beta) > 0;
     v->group = arena_alloc(&pool->arena, (size_t)n_regions * sizeof *v->group);
     v->n_groups = 0;
     for (int region = 0, first = 0; region < n_regions; region++) {
@@ -73,13 +73,14 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     v->candidate = arena_alloc(arena, (size_t)pool->n_candidates * sizeof *v->candidate);
     v->before = arena_alloc(arena, (size_t)pool->n_candidates * sizeof *v->before);
     for (int i = 0; i < pool->n_candidates; i++) {
-        struct candidate c = pool->candidate[i];
-        if (!(c.L > 0))
+        const struct vertex *y = pool->candidate[i];
+        double L = rgb_luminance(y->beta);
+        if (!(L > 0))
             continue;
-        struct group *g = &v->group[group_of[candidate_vertex(&c)->place]];
-        v->candidate[g->first + g->n] = c;
+        struct group *g = &v->group[group_of[y->place]];
+        v->candidate[g->first + g->n] = y;
         v->before[g->first + g->n++] = g->L;
-        g->L += c.L;
+        g->L += L;
     }
     v->row = arena_alloc(arena, (size_t)n_regions * sizeof *v->row);
     for (int e = 0; e < n_regions; e++)
@@ -112,9 +113,8 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
     int k = cumulative_find(row, v->n_groups, target);
     const struct group *g = &v->group[k];
     double share = row[k + 1] - row[k], within = (target - row[k]) / share * g->L;
-    const struct candidate *c = &v->candidate[g->first + cumulative_find(&v->before[g->first], g->n, within)];
-    *out = c->drawn;
-    out->pmf = share / total * c->L / g->L;
+    const struct vertex *y = v->candidate[g->first + cumulative_find(&v->before[g->first], g->n, within)];
+    *out = drawn_vertex(y, share / total * rgb_luminance(y->beta) / g->L);
     return true;
 }
 

@@ -116,8 +116,8 @@ static void trace_light_path(struct learning *l, struct workspace *work, long i,
     lessons_add(out, (struct lesson){RAY, 0, column, sqr(worth), 1});
     for (const struct vertex *y = path + 1; y < path + n; y++)
         if (vertex_connectible(y))
-            lessons_add(out, (struct lesson){LIGHT_VERTEX, regions_key(&t->regions, y->p, vertex_side(y)), column, 0,
-                                             1});
+            lessons_add(out,
+                        (struct lesson){LIGHT_VERTEX, regions_key(&t->regions, y->p, vertex_side(y)), column, 0, 1});
 }
 
 /* Trace the light sub-paths of the chunk that eye sub-path number i begins, into the workspace's pool. */
@@ -131,8 +131,10 @@ static void fill_pool(struct learning *l, struct pool *pool, long i)
     }
     pool_find_candidates(pool);
     double *L = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *L);
-    for (int k = 0; k < pool->n_candidates; k++)
-        L[k] = pool->candidate[k].L < 1e100 ? pool->candidate[k].L : 0; /* false for NaN */
+    for (int k = 0; k < pool->n_candidates; k++) {
+        double luminance = rgb_luminance(pool->candidate[k]->beta);
+        L[k] = luminance < 1e100 ? luminance : 0; /* false for NaN */
+    }
     alias_build(&pool->alias, L, pool->n_candidates);
 }
 
@@ -149,10 +151,9 @@ static void trace_trials(struct learning *l, struct workspace *work, long i, str
     for (const struct vertex *z = work->eye + 1; z < work->eye + n; z++)
         for (int k = 0; k < TRIALS && pool->alias.n > 0 && vertex_connectible(z); k++) {
             double beta = rgb_luminance(z->beta), u = (k + sampler_number(&sampler, DRAW_LIGHT_END)) / TRIALS;
-            const struct candidate *c = &pool->candidate[alias_sample(&pool->alias, u, NULL, NULL)];
-            const struct vertex *y = candidate_vertex(c);
+            const struct vertex *y = pool->candidate[alias_sample(&pool->alias, u, NULL, NULL)];
             struct connection found = connect_vertices(l->job->scene, &l->counts, y, z);
-            double x = rgb_luminance(found.value) / (beta * c->L);
+            double x = rgb_luminance(found.value) / (beta * rgb_luminance(y->beta));
             lessons_add(out, (struct lesson){TRIAL, (uint64_t)z->place, y->place, x, beta});
         }
 }

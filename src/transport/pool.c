@@ -37,7 +37,6 @@ void pool_find_candidates(struct pool *p)
         const struct vertex *path = pool_path(p, k);
         for (int i = 1; i < p->length[k]; i++)
             if (vertex_connectible(&path[i]))
-                p->candidate[p->n_candidates++] = (struct candidate){{path, i, i + 1, 1},
-                                                                     rgb_luminance(path[i].beta)};
+                p->candidate[p->n_candidates++] = &path[i];
     }
 }

@@ -42,7 +42,7 @@ static int copies(const struct index *r, const struct vertex *y, double *u)
 {
     int n = 0;
     for (int v = 0; v < r->V; v++)
-        if (candidate_vertex(&r->found[v]) == y) {
+        if (r->found[v] == y) {
             *u = r->u != NULL ? r->u[v] : 1;
             n++;
         }
@@ -210,7 +210,7 @@ static void check_presampled(struct test *t, struct drawer *d, const char *name)
         c.collects = k < passes / 2;
         draws += c.collects ? 0 : own->presampled;
         for (int v = 0; v < r.V; v++)
-            tally_note(&c, (size_t)(candidate_vertex(&r.found[v]) - pool->vertex), 1 / (r.u[v] * own->presampled));
+            tally_note(&c, (size_t)(r.found[v] - pool->vertex), 1 / (r.u[v] * own->presampled));
     }
     tally_judge(t, &c, (double)draws, 1, name, "first stage");
     tally_free(&c);

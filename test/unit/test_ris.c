@@ -89,10 +89,10 @@ static void check_draws(struct test *t, struct index *r, const char *method, str
     sample.choice = sampler_start(test_seed(t), RNG_TEST, (uint64_t)sample.x, (uint64_t)sample.y);
     sample.filter_weight = 1;
     for (int v = 0; v < r->V; v++) {
-        const struct vertex *y = candidate_vertex(&r->found[v]);
+        const struct vertex *y = r->found[v];
         struct joint j;
         r->one = r->all = ris_worth(r, y, z);
-        if (r->found[v].drawn.end + 2 > sample.pass->job->max_depth + 2 || !connect_join(y, z, &j))
+        if (drawn_vertex(y, 1).end + 2 > sample.pass->job->max_depth + 2 || !connect_join(y, z, &j))
             continue;
         struct connection k = ris_joint(r, &j);
         expected += rgb_is_black(k.value) ? 0 : rgb_luminance(k.value) * k.weight * (r->u != NULL ? r->u[v] : 1) / r->K;

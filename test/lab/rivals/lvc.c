@@ -32,8 +32,7 @@ static bool draw(const struct prepared *p, const struct index *index, struct sam
         return false;
     /* below V, since what is drawn is a multiple of 2^-32; stratified over the pool */
     int v = (int)((i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n * V);
-    *out = pool->candidate[v < V ? v : V - 1].drawn;
-    out->pmf = 1.0 / V;
+    *out = drawn_vertex(pool->candidate[v < V ? v : V - 1], 1.0 / V);
     return true;
 }
 

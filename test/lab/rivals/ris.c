@@ -262,11 +262,11 @@ static void gather(struct index *r, const struct prepared *p, const struct tile_
     pool_find_candidates(pool);
     r->found = pool->candidate;
     r->V = pool->n_candidates;
-    while (r->K < pool->n && r->V > 0 && candidate_vertex(&r->found[r->V - 1]) >= pool_path(pool, r->K))
+    while (r->K < pool->n && r->V > 0 && r->found[r->V - 1] >= pool_path(pool, r->K))
         r->V--;
     r->g = 0;
     for (int v = 0; v < r->V; v++)
-        r->g += r->found[v].L / r->K;
+        r->g += rgb_luminance(r->found[v]->beta) / r->K;
     if (r->own->presampled > 0)
         ris2_presample(r, pass, arena, iteration);
     r->records = records_place(p, pass, arena, iteration, r->own->records);
@@ -292,8 +292,8 @@ bool ris_draw(const struct prepared *p, const struct index *r, struct sample *sa
         return false;
     struct mixture m = records_mixture(&r->records, r->scene, z, r->own->normals, false, r->V);
     int v = mixture_draw(&m, (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n, &which);
-    *out = r->found[v].drawn;
-    out->pmf = mixture_pmf(&m, v) * r->K / r->pool->n / (r->u != NULL ? r->u[v] : 1); /* of all that the pool has */
+    double u = r->u != NULL ? r->u[v] : 1;
+    *out = drawn_vertex(r->found[v], mixture_pmf(&m, v) * r->K / r->pool->n / u); /* of all that the pool has */
     return true;
 }
 
@@ -364,22 +364,23 @@ void ris_join(struct index *r, struct sample *sample, const struct vertex *z, in
         return;
     struct mixture m = records_mixture(&r->records, r->scene, z, 0, true, r->V);
     int v = mixture_draw(&m, sampler_number(&sample->choice, DRAW_LIGHT_END), &which);
-    const struct candidate *c = &r->found[v];
-    int s = c->drawn.end;
+    const struct vertex *y = r->found[v];
+    const struct drawn drawn = drawn_vertex(y, 1);
+    int s = drawn.end;
     double u = r->u != NULL ? r->u[v] : 1, each = 1.0 / (m.m + 1);
-    double L = r->light_L[candidate_vertex(c) - r->pool->vertex];
+    double L = r->light_L[y - r->pool->vertex];
     double N[RECORDS_NEAR + 1], P = each * (which < m.m ? m.record[which]->h[v] / m.record[which]->sum : 1.0 / r->V);
     r->all = N[m.m] = worth_alone(r, each, L);
     for (int i = 0; i < m.m; i++)
-        r->all += N[i] = worth(r, each, L, m.record[i]->h[v] * L / (c->L * u), m.record[i]->expected);
+        r->all += N[i] = worth(r, each, L, m.record[i]->h[v] * L / (rgb_luminance(y->beta) * u), m.record[i]->expected);
     r->one = N[which];
     struct joint j;
     struct connection made = {.weight = 0};
     if (!(P > 0) || s + t > sample->pass->job->max_depth + 2)
         return;
-    if (connect_join(candidate_vertex(c), z, &j))
+    if (connect_join(y, z, &j))
         made = ris_joint(r, &j);
-    sample_add(sample, (struct joined){.s = s, .t = t, .light = c->drawn.light, .z = z, .c = &made, .pmf = P,
+    sample_add(sample, (struct joined){.s = s, .t = t, .light = drawn.light, .z = z, .c = &made, .pmf = P,
                                        .scale = u / (P * r->K)});
 }
 

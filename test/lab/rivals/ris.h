@@ -20,7 +20,7 @@ struct index {
     const struct ris *own;
     const struct pool *pool;
     int K, V;                      /* sub-paths that are drawn from: M, or all of a small pool; their vertices */
-    const struct candidate *found; /* [V] what is drawn from */
+    const struct vertex *const *found; /* [V] what is drawn from */
     double *u;                     /* [V] the first stage's factors; NULL with one stage */
     double g;                      /* sum of L over these, over K */
     struct records records;

@@ -248,7 +248,7 @@ struct group {
 };
 
 struct index {
-    struct candidate *candidate; /* [n] by subspace */
+    const struct vertex **candidate; /* [n] by subspace */
     double *before;              /* [n] sum of L over those before in the subspace */
     struct group *group;         /* [subspaces] */
     double **row;                /* [subspaces][subspaces + 1] cumulative sums of Gamma(e,.); NULL: not made yet */
@@ -299,14 +299,14 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     v->row = memset(arena_alloc(&pool->arena, n * sizeof *v->row), 0, n * sizeof *v->row);
     v->group = memset(arena_alloc(&pool->arena, n * sizeof *v->group), 0, n * sizeof *v->group);
     for (int i = 0; i < pool->n_candidates; i++)
-        v->group[candidate_vertex(&pool->candidate[i])->place].n++;
+        v->group[pool->candidate[i]->place].n++;
     for (size_t l = 0, first = 0; l < n; first += (size_t)v->group[l].n, v->group[l++].n = 0)
         v->group[l].first = (int)first;
     for (int i = 0; i < pool->n_candidates; i++) {
-        struct group *g = &v->group[candidate_vertex(&pool->candidate[i])->place];
+        struct group *g = &v->group[pool->candidate[i]->place];
         v->candidate[g->first + g->n] = pool->candidate[i];
         v->before[g->first + g->n++] = g->L;
-        g->L += pool->candidate[i].L;
+        g->L += rgb_luminance(pool->candidate[i]->beta);
     }
     return v;
 }
@@ -336,9 +336,8 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
     int l = cumulative_find(row, own->subspaces, target);
     const struct group *g = &v->group[l];
     double share = row[l + 1] - row[l], within = (target - row[l]) / share * g->L;
-    const struct candidate *c = &v->candidate[g->first + cumulative_find(&v->before[g->first], g->n, within)];
-    *out = c->drawn;
-    out->pmf = share / total * c->L / g->L;
+    const struct vertex *y = v->candidate[g->first + cumulative_find(&v->before[g->first], g->n, within)];
+    *out = drawn_vertex(y, share / total * rgb_luminance(y->beta) / g->L);
     return out->pmf > 0;
 }
 
