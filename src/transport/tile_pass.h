@@ -56,7 +56,7 @@ struct tile_pass {
     long first, end;
     struct tile *tile; /* started; receives the result */
     struct workspace *work;
-    const struct observer *observer; /* observer.h; NULL: none */
+    const struct observer *observer; /* sample.h; NULL: none */
 };
 
 /* pass_enough: should the tile pass stop early? Every method asks before each of its samples. After the first yes the

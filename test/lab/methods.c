@@ -95,7 +95,7 @@ const char *method_why(const struct method *m)
     for (size_t i = 0; i < sizeof REASONS / sizeof *REASONS; i++)
         if (strcmp(REASONS[i].name, m->select != NULL ? m->select : m->name) == 0)
             return REASONS[i].why;
-    return m->selector != NULL ? m->help : NULL;
+    return m->build != NULL ? m->help : NULL;
 }
 
 const struct method *method_named(const char *name)

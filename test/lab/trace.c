@@ -236,7 +236,7 @@ void trace_sample(const struct render_job *job, const struct prepared *prepared,
     observe(job, prepared, trace, first, trace->iteration + 1, &observer);
     if (trace->wants_splats)
         find_splats(job, prepared, trace, first);
-    bool chooses = prepared->method->selector == NULL || prepared->numbers.path_pixels > 0;
+    bool chooses = prepared->method->build == NULL || prepared->numbers.path_pixels > 0;
     trace->why = chooses ? method_why(prepared->method) : NULL;
     trace->race = race_result(prepared);
     method_numbers(prepared, trace->number);
