@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "base/near.h"
 #include "image/image.h"
 
 /* How far the arguments are read, and the option being read. */
@@ -347,13 +346,13 @@ void options_print(const struct option *table)
     for (const struct option *o = table; o != NULL; o = options_next(o)) {
         if (o->kind == OPTION_ELSEWHERE)
             continue;
-        char left[80], list[NAMES_TEXT] = "", right[300 + NAMES_TEXT];
-        bool fallback = o->fallback != NULL && o->fallback[0] != '\0', words = o->kind == OPTION_WORD;
+        char left[80], list[NAMES_TEXT], right[300 + NAMES_TEXT];
+        bool fallback = o->fallback != NULL && o->fallback[0] != '\0';
+        const char *values = o->list != NULL ? o->list(list) : o->words != NULL ? names_list(o->words, list) : "";
         snprintf(left, sizeof left, "%s%s%s %s", o->name, o->alias != NULL ? ", " : "",
                  o->alias != NULL ? o->alias : "", o->value != NULL ? o->value : "");
-        snprintf(right, sizeof right, "%s%s%s%s%s%s", o->help, words ? ": " : "",
-                 words ? names_list(o->words, list) : "", fallback ? " (default " : "", fallback ? o->fallback : "",
-                 fallback ? ")" : "");
+        snprintf(right, sizeof right, "%s%s%s%s%s%s", o->help, values[0] != '\0' ? ": " : "", values,
+                 fallback ? " (default " : "", fallback ? o->fallback : "", fallback ? ")" : "");
         int width = printf("    %-25s ", left);
         if (width > HELP)
             printf("\n%*s", HELP, "");

@@ -16,6 +16,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
+#include "base/near.h"
 
 /* What a value is, and what it becomes. Numbers are from low to high. */
 enum option_kind {
@@ -54,6 +55,7 @@ struct option {
     const char *help;            /* where one must be given: what it is, with an article */
     bool written;                /* its texts name files that are written */
     const char *const *words;    /* of an OPTION_WORD: all there are, ended by NULL */
+    const char *(*list)(char text[NAMES_TEXT]); /* what its help ends with, or NULL */
     const struct option *others; /* in the row without a name: the table that goes on, or NULL */
 };
 
