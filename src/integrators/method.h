@@ -13,7 +13,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
-#include "base/field.h"
+#include "base/settings.h"
 #include "transport/sample.h"
 
 #define DEFAULT_RR_THRESHOLD 0.5

@@ -110,8 +110,7 @@ static void adapt(struct settings *s, const struct setting *item, const struct m
     char text[96], most[32];
     snprintf(most, sizeof most, "%d", PATH_MAX_DEPTH);
     snprintf(text, sizeof text, "is %.20s, which counts as %s", item->value, most);
-    bool deep = strcmp(item->name, "maxdepth") == 0 && setting_is_of_file(item) &&
-                strtod(item->value, NULL) > PATH_MAX_DEPTH;
+    bool deep = strcmp(item->name, "maxdepth") == 0 && setting_is_of_file(item) && item->number > PATH_MAX_DEPTH;
     if (deep && warn(sink, item, text))
         settings_set(s, item->name, most, item->origin);
 }
@@ -215,7 +214,7 @@ bool job_settle(const struct scene *scene, const struct render_options *options,
         .scene = scene, .film_rect = render_crop(scene), .seed = o->seed, .eye_seed = o->seed,
         .n_threads = o->n_threads, .max_depth = o->max_depth,
         .strategy = (enum light_strategy)c.strategy,
-        .rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold};
+        .rr_threshold = settings_find(s, "rrthreshold") != NULL ? c.rr_threshold : m->rr_threshold};
     return true;
 }
 
@@ -276,16 +275,12 @@ static bool apply(const struct job_request *q, struct scene *scene, struct error
         scene->width = scene->width > 4 ? scene->width / 4 : 1;
         scene->height = scene->height > 4 ? scene->height / 4 : 1;
     }
-    if (q->filter != NULL && !filter_default(q->filter, &scene->filter))
-        return error_usage(err, "--filter %s: known are box, triangle, gaussian, mitchell, sinc%s", q->filter,
-                           near_of(q->filter, (const char *const[])
-                                   {"box", "triangle", "gaussian", "mitchell", "sinc", NULL}).text);
+    if (q->filter != NULL)
+        filter_default(q->filter, &scene->filter);
     for (int i = 0; i < q->n_set; i++)
         set(&scene->settings, q->set[i]);
-    char depth[32];
-    snprintf(depth, sizeof depth, "maxdepth=%d", q->max_depth);
     if (q->max_depth > 0)
-        set(&scene->settings, depth);
+        settings_set_number(&scene->settings, "maxdepth", q->max_depth, "-P");
     if (q->crop != NULL)
         memcpy(scene->crop, q->crop, sizeof scene->crop);
     struct pixel_rect crop = render_crop(scene);
