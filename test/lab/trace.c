@@ -108,7 +108,7 @@ static struct trace_weight weigh(const struct sample *sample, const struct joine
     const double spread = 1 / length2(d);
     struct bsdf_value at_z = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE), at_y = {.f = {1, 1, 1}, .pdf = 0};
     if (light) {
-        const struct light_point at = vertex_light_point(y);
+        const struct light_point at = vertex_light_point(scene, y);
         at_y.pdf = emission_pdf(&sample->counts->tables->emission, &scene->lights, &at, z->p, back);
     } else
         at_y = bsdf_eval(&y->bsdf, y->wo, back, IMPORTANCE);
