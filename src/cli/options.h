@@ -15,7 +15,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/error.h"
+#include "base/field.h"
 
 /* What a value is, and what it becomes. Numbers are from low to high. */
 enum option_kind {
@@ -31,8 +31,8 @@ enum option_kind {
     OPTION_WINDOW,  /* double[4]: X0 X1 Y0 Y1 in four arguments, or with commas between; pairs, each the lesser first */
     OPTION_SEED,    /* uint64_t, any */
     OPTION_TEXT,    /* const char *, borrowed from the arguments */
-    OPTION_TEXTS,   /* struct texts: one more each time; */
-    OPTION_PAIRS,   /* so, too: something, = and anything */
+    OPTION_PAIRS,   /* struct settings: one more each time, something, = and anything */
+    OPTION_TEXTS,   /* struct texts: one more each time */
     OPTION_LIST     /* so, too: all arguments up to the next option */
 };
 

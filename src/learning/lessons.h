@@ -7,7 +7,7 @@
 #ifndef ASBDPT_LESSONS_H
 #define ASBDPT_LESSONS_H
 
-#include "learning/patience.h"
+#include "transport/tile_pass.h"
 
 struct learn_options; /* learn.h */
 
@@ -36,7 +36,7 @@ struct learning {
     double n_light;          /* light sub-paths so far */
     struct lessons light_vertices; /* that these have */
     struct workspace *work;  /* [n_threads] */
-    struct patience patience;
+    double budget, traced;   /* number of sub-paths: all that learning is by, and those so far */
 };
 
 enum { CHUNK = 256 }; /* number of sub-paths of a chunk */
@@ -49,7 +49,8 @@ struct pass {
     struct tables known; /* that walks and connections use; they do not change meanwhile */
 };
 
-/* lessons_learn: run a pass over sub-paths first .. end-1, unless patience ends. */
+/* lessons_learn: run a pass over sub-paths first .. end-1, unless the job is cancelled. After each chunk
+ * job->progress hears of it. */
 void lessons_learn(struct learning *l, const struct pass *pass, long first, long end);
 
 #endif
