@@ -21,7 +21,6 @@
 #include "image/image.h"
 #include "lab/compare.h"
 #include "lab/sheet.h"
-#include "learning/learn.h"
 #include "render/render.h"
 
 char *web_words(int size);
@@ -73,9 +72,9 @@ int web_command(int n)
 /* --- a render that is watched ------------------------------------------------------------------------ */
 
 static struct watch {
-    struct job_options asked;
+    struct render_job job;
+    struct prepared prepared;
     struct scene scene;
-    struct job job;
     struct tiling tiling;
     struct tile tile;
     struct workspace *work;
@@ -85,7 +84,7 @@ static struct watch {
     int k;
     float *pixels;
     uint8_t *rgba;
-    double shown, learnt; /* when the page was shown something, by the clock; the share that is learnt */
+    double shown; /* when the page was shown something, by the clock */
 } watched; /* one to a worker, which ends with it */
 
 /* Squares of k x k pixels are compared with one of the reference. */
@@ -146,18 +145,14 @@ static void show(struct watch *w)
     w->shown = os_wall_seconds();
 }
 
-/* Most of what a method learns is by the sub-paths of learn.h; what comes before that is short. */
-static bool learns(void *context, double traced)
+static void learns(void *context, double learnt, double done)
 {
     struct watch *w = context;
-    double pixels = (double)w->scene.width * w->scene.height;
-    double eye = fmin(fmax(LEARN_PER_PIXEL * pixels, LEARN_LEAST), LEARN_MOST);
-    w->learnt = fmax(w->learnt, fmin(1, traced / (eye + fmin(eye, LEARN_LIGHT))));
+    (void)done;
     if (os_wall_seconds() - w->shown > 0.1) {
         w->shown = os_wall_seconds();
-        web_learns(w->learnt);
+        web_learns(learnt);
     }
-    return true;
 }
 
 static bool read_reference(struct watch *w, const char *path, struct error *err)
@@ -177,18 +172,18 @@ static bool begin(struct watch *w, const char *reference, struct error *err)
 {
     double start = os_wall_seconds();
     size_t n = (size_t)w->scene.width * (size_t)w->scene.height;
-    struct pixel_rect rect = w->job.state.film_rect;
-    struct pass_size *size = &w->job.prepared.size;
-    w->job.state.n_threads = 1;
-    w->job.state.watch = learns;
-    w->job.state.watch_context = w;
+    struct pixel_rect rect = w->job.film_rect;
+    struct pass_size *size = &w->prepared.size;
+    w->job.n_threads = 1;
+    w->job.progress = learns;
+    w->job.context = w;
     if (!read_reference(w, reference, err))
         return false;
-    job_prepare(&w->job);
+    job_prepare(&w->job, &w->prepared);
     if (size->block == 0)
         size->block = 1;
     w->tiling = tiling_of(rect, size);
-    w->work = workspaces_new(1, w->job.state.max_depth);
+    w->work = workspaces_new(1, w->job.max_depth);
     film_init(&w->film, rect, w->scene.width, w->scene.height);
     w->pixels = mem_alloc(3 * n, sizeof *w->pixels);
     w->rgba = mem_alloc(4 * n, sizeof *w->rgba);
@@ -207,15 +202,15 @@ int web_step(void)
 {
     struct watch *w = &watched;
     double start = os_wall_seconds();
-    struct tile_pass pass = {.job = &w->job.state, .tile = &w->tile, .work = w->work, .first = w->film.iterations};
-    long left = w->job.options.end - pass.first, block = w->job.prepared.size.block;
+    struct tile_pass pass = {.job = &w->job, .tile = &w->tile, .work = w->work, .first = w->film.iterations};
+    long left = w->job.end - pass.first, block = w->prepared.size.block;
     pass.end = pass.first + (left < block ? left : block);
     w->film.block.iterations = pass.end - pass.first;
     for (int64_t i = 0; i < tiling_count(&w->tiling); i++) {
-        tile_start(&w->tile, tiling_pixels(&w->tiling, i), w->job.state.film_rect, &w->scene.filter);
+        tile_start(&w->tile, tiling_pixels(&w->tiling, i), w->job.film_rect, &w->scene.filter);
         w->tile.full = take_splats;
         w->tile.context = &w->film;
-        w->job.prepared.method->render(&w->job.prepared, &pass);
+        w->prepared.method->render(&w->prepared, &pass);
         film_merge_tile(&w->film, &w->tile);
         w->seconds += os_wall_seconds() - start;
         start = os_wall_seconds();
@@ -226,11 +221,11 @@ int web_step(void)
     }
     film_end_block(&w->film);
     show(w);
-    return w->film.iterations < w->job.options.end;
+    return w->film.iterations < w->job.end;
 }
 
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, offsetof(struct job_options, scene_path), 1, .help = "a scene file"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, offsetof(struct render_job, scene_path), 1, .help = "a scene file"},
     {.others = RUN_OPTIONS},
 };
 
@@ -241,8 +236,8 @@ int web_begin(int n)
     char **argv = arguments(n);
     struct watch *w = &watched;
     struct error err;
-    bool ok = options_read(OPTIONS, n - 1, argv + 1, &w->asked, &err);
-    int status = !ok ? usage_error(NULL, "%s", err.text) : load_job(&w->asked, &w->scene, &w->job);
+    bool ok = options_read(OPTIONS, n - 1, argv + 1, &w->job, &err);
+    int status = !ok ? usage_error(NULL, "%s", err.text) : load_job(&w->job, &w->scene, &w->prepared);
     if (status == EXIT_OK && !begin(w, argv[0], &err))
         status = fail(&err);
     free(argv);

@@ -135,7 +135,7 @@ static void render(const struct prepared *m, const struct tile_pass *pass)
         p.traced = 0;
         for (int i = 0; i < p.own->bin_paths; i++)
             replace(&p, &p.element[i], pass->first);
-        for (long i = pass->first; i < pass->end && !pass_enough(pass->job); i++)
+        for (long i = pass->first; i < pass->end && !pass_cancelled(pass); i++)
             render_iteration(&p, start, i);
     }
     for (int i = 0; i < p.own->bin_paths; i++)

@@ -13,18 +13,18 @@
 #include "image/image.h"
 #include "render/render.h"
 
-#define AT(member) offsetof(struct job_options, member)
+#define AT(member) offsetof(struct render_run, member)
 const struct option RENDER_OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .help = "a scene file; - reads standard input"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file; - reads standard input"},
     {"-o", "FILE", OPTION_TEXTS, AT(output), .alias = "--outfile", .written = true,
      .help = IMAGE_HELP " (default: the scene's Film name)", .list = image_list_written},
     TONE_ROWS,
     UNCLAMPED_ROW,
     {"--time", "TIME", OPTION_TIME, AT(keep.time), 1e-9, 1e9,
      .help = "render for at most TIME, in seconds or as 90s, 5m, 1h, and write the image so far (default: no limit)"},
-    {"--noise", "X", OPTION_NUMBER, AT(keep.noise[NOISE_RELATIVE]), 1e-9, 1e9,
+    {"--noise", "X", OPTION_NUMBER, AT(job.noise[NOISE_RELATIVE]), 1e-9, 1e9,
      .help = "stop when the noise is below X relative to the local brightness, e.g. 0.05; checked every 64 samples"},
-    {"--noise8", "X", OPTION_NUMBER, AT(keep.noise[NOISE_8_BIT]), 1e-9, 1e9,
+    {"--noise8", "X", OPTION_NUMBER, AT(job.noise[NOISE_8_BIT]), 1e-9, 1e9,
      .help = "stop when the noise is below X of the 255 levels of 8-bit images; with --noise, when both hold"},
     {"--preview", "TIME", OPTION_TIME, AT(keep.preview), 1e-9, 1e9,
      .help = "write the image so far to the first -o file after 1, 2, 4 ... seconds, then every TIME"},
@@ -33,9 +33,9 @@ const struct option RENDER_OPTIONS[] = {
     {"--interval", "TIME", OPTION_TIME, AT(keep.interval), 0, 1e9, .fallback = "60",
      .help = "time between checkpoints in seconds"},
     {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .help = "continue the render that a checkpoint holds"},
-    {"--samples", "FIRST:END", OPTION_RANGE, AT(keep.samples), 0, 1 << 30,
+    {"--samples", "FIRST:END", OPTION_RANGE, AT(job.samples), 0, 1 << 30,
      .help = "render only the samples FIRST to END-1 of each pixel, for merge: -o NAME.part"},
-    {"--stats", "FILE", OPTION_TEXT, AT(stats), .written = true,
+    {"--stats", "FILE", OPTION_TEXT, AT(stats_path), .written = true,
      .help = "write parameters, times and memory as JSON"},
     {"--aov", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab render has this option"},
     {"--layers", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab render has this option"},
@@ -70,22 +70,21 @@ static void abandon(struct render_run *r)
 }
 
 /* What needs no scene to be opened. */
-static bool open_named(const struct job_options *o, struct render_run *r, struct error *err)
+static bool open_named(struct render_run *r, struct error *err)
 {
-    if (o->keep.samples[1] > 0 && o->output.n == 0)
+    if (r->job.samples[1] > 0 && r->output.n == 0)
         return error_usage(err, "--samples needs -o NAME.part");
-    return keep_check(&o->keep, err) &&
-           (o->output.n == 0 || outputs_open(&o->output, &o->tone, true, &r->pictures, err)) &&
-           (o->stats == NULL || file_create(o->stats, &r->stats, err));
+    return keep_check(&r->keep, &r->job, err) &&
+           (r->output.n == 0 || outputs_open(&r->output, &r->tone, true, &r->pictures, err)) &&
+           (r->stats_path == NULL || file_create(r->stats_path, &r->stats, err));
 }
 
-static bool open_default_output(const struct job_options *o, const struct scene *scene, struct outputs *out,
-                                struct error *err)
+static bool open_default_output(struct render_run *r, struct error *err)
 {
     struct texts names = {0};
-    char *name = default_output(scene);
+    char *name = default_output(&r->scene);
     texts_add(&names, name);
-    bool ok = outputs_open(&names, &o->tone, false, out, err);
+    bool ok = outputs_open(&names, &r->tone, false, &r->pictures, err);
     free(names.item);
     free(name);
     return ok;
@@ -95,8 +94,8 @@ static bool open_default_output(const struct job_options *o, const struct scene 
 static bool names_differ(struct render_run *r, struct error *err)
 {
     struct texts names = {0};
-    options_written(RENDER_OPTIONS, r->asked, &names);
-    if (r->asked->output.n == 0)
+    options_written(RENDER_OPTIONS, r, &names);
+    if (r->output.n == 0)
         texts_add(&names, r->pictures.item[0].file.path);
     bool ok = texts_differ(&names, err) && job_spares(&r->scene, &names, err);
     free(names.item);
@@ -107,30 +106,27 @@ static bool make_film(struct render_run *r, struct error *err)
 {
     const struct scene *scene = &r->scene;
     struct error why;
-    if (!budget_has(&scene->memory, film_bytes(r->job.state.film_rect), &why))
-        return error_set(err, "%s: its film of %dx%d pixels: %s; --res makes it smaller", r->asked->scene_path,
+    if (!budget_has(&scene->memory, film_bytes(r->job.film_rect), &why))
+        return error_set(err, "%s: its film of %dx%d pixels: %s; --res makes it smaller", r->job.scene_path,
                          scene->width, scene->height, why.text);
-    film_init(&r->film, r->job.state.film_rect, scene->width, scene->height);
+    film_init(&r->film, r->job.film_rect, scene->width, scene->height);
     return true;
 }
 
 /* What the scene names, once it is loaded. */
 static bool open_others(struct render_run *r, struct error *err)
 {
-    const struct job_options *o = r->asked;
-    return (r->pictures.n > 0 || open_default_output(o, &r->scene, &r->pictures, err)) &&
-           (o->keep.preview == 0 || outputs_previews(&r->pictures, err)) && names_differ(r, err) && make_film(r, err);
+    return (r->pictures.n > 0 || open_default_output(r, err)) &&
+           (r->keep.preview == 0 || outputs_previews(&r->pictures, err)) && names_differ(r, err) && make_film(r, err);
 }
 
-int render_open(struct render_run *r, struct job_options *o)
+int render_open(struct render_run *r)
 {
     struct error err;
     double start = os_wall_seconds();
-    memset(r, 0, sizeof *r);
-    r->asked = o;
-    if (!open_named(o, r, &err))
+    if (!open_named(r, &err))
         return render_close(r, false, &err);
-    int status = load_job(o, &r->scene, &r->job);
+    int status = load_job(&r->job, &r->scene, &r->prepared);
     if (status != EXIT_OK) {
         abandon(r);
         return status;
@@ -144,13 +140,13 @@ static void report(const struct render_run *r)
 {
     const struct film *film = &r->film;
     long n = r->scene.n_warnings;
-    bool other = r->asked->integrator == NULL && strcmp(r->job.options.integrator->name, "asbdpt") != 0;
+    bool other = r->job.integrator_name == NULL && strcmp(r->job.integrator->name, "asbdpt") != 0;
     char warnings[48] = "";
     if (n > 0)
         snprintf(warnings, sizeof warnings, "; %ld warning%s about the scene", n, n > 1 ? "s" : "");
-    if (!r->asked->quiet)
-        say_line("%s: %dx%d, %ld spp, %s%s; %.2f s, %.2f s of CPU: %.2f us per sample path%s", r->asked->scene_path,
-                 rect_width(film->rect), rect_height(film->rect), film->iterations, r->job.options.integrator->name,
+    if (!r->job.quiet)
+        say_line("%s: %dx%d, %ld spp, %s%s; %.2f s, %.2f s of CPU: %.2f us per sample path%s", r->job.scene_path,
+                 rect_width(film->rect), rect_height(film->rect), film->iterations, r->job.integrator->name,
                  other ? " (for asbdpt: --integrator asbdpt)" : "", r->wall, r->cpu, stats_us_per_path(r), warnings);
 }
 
@@ -210,8 +206,8 @@ static bool write_pictures(struct render_run *r, bool ok, struct error *err)
     const struct film *film = &r->film;
     float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels);
     film_warn(film, outputs_develop(&r->pictures, pixels));
-    warn_of_black(&r->scene, film, r->job.options.integrator->name, pixels);
-    ok = outputs_write(&r->pictures, rect_width(film->rect), rect_height(film->rect), pixels, r->asked->quiet,
+    warn_of_black(&r->scene, film, r->job.integrator->name, pixels);
+    ok = outputs_write(&r->pictures, rect_width(film->rect), rect_height(film->rect), pixels, r->job.quiet,
                        ok ? err : NULL) && ok;
     free(pixels);
     return ok;
@@ -220,15 +216,15 @@ static bool write_pictures(struct render_run *r, bool ok, struct error *err)
 /* From a film with nothing or something in it to all files. */
 bool render_work(struct render_run *r, struct error *err)
 {
-    if (!keep_begin(&r->keep, &r->asked->keep, r->asked->quiet, &r->job, &r->film, &r->pictures, err))
+    if (!keep_begin(&r->keep, &r->job, &r->film, &r->pictures, err))
         return false;
     r->pictures.place = r->keep.part.place;
     r->pictures.part = &r->keep.part;
     r->pictures.film = &r->film;
-    r->pictures.unclamped = r->asked->unclamped;
+    r->pictures.unclamped = r->unclamped;
     r->samples = film_samples(&r->film);
     r->cpu = os_cpu_seconds();
-    bool ok = render_scene(&r->job, &r->film, err);
+    bool ok = render_scene(&r->job, &r->prepared, &r->film, err);
     r->cpu = os_cpu_seconds() - r->cpu;
     r->wall = os_wall_seconds() - r->keep.begun;
     r->samples = film_samples(&r->film) - r->samples;
@@ -249,20 +245,19 @@ int render_close(struct render_run *r, bool ok, struct error *err)
     abandon(r);
     part_free(&r->keep.part);
     film_free(&r->film);
-    job_free(&r->job);
+    method_release(&r->prepared);
     scene_free(&r->scene);
     return !ok ? fail(err) : interrupt_caught() != 0 ? 128 + interrupt_caught() : EXIT_OK;
 }
 
 static int run(void *options)
 {
-    struct render_run r;
     struct error err;
-    int status = render_open(&r, options);
-    return status == EXIT_OK ? render_close(&r, render_work(&r, &err), &err) : status;
+    int status = render_open(options);
+    return status == EXIT_OK ? render_close(options, render_work(options, &err), &err) : status;
 }
 
 const struct command command_render = {
     "render", "render a scene to images", {"SCENE.pbrt [-o FILE]... [options]"}, RENDER_OPTIONS,
-    sizeof(struct job_options), run, false,
+    sizeof(struct render_run), run, false,
     "render scenes/veach-ajar.pbrt --quick --spp 16 -o out/ajar.png"};

@@ -11,22 +11,29 @@
 
 /* A render on its way from options to files. */
 struct render_run {
-    struct job_options *asked;
+    struct render_job job;  /* the options that all have which load a scene, and what becomes of them */
+    struct texts output;
+    struct tone_options tone;
+    bool unclamped;
+    const char *stats_path; /* or NULL */
+    struct keep keep;       /* options that stop, save and resume, and what becomes of them */
+    /* From here on zeros until the scene is loaded. */
     struct scene scene;
-    struct job job;
+    struct prepared prepared;
     struct film film;
-    struct keep keep;
     struct outputs pictures;
     struct file_output stats; /* its stream NULL: none; it is complete when all others are */
     double load, wall, cpu, samples; /* seconds; samples per pixel in this time */
 };
+
+extern const struct option RENDER_OPTIONS[]; /* of a struct that begins with render_run */
 
 /* render_open: load the scene, open all files that are to be written, and begin a film. Returns EXIT_OK, or another
  * status after saying why (then nothing needs release).
  * render_work: render, and write all files but --stats. False with a message.
  * render_close: write --stats if all is well so far, else say what `err` does; remove what is not written; release
  * everything. Returns the exit status. */
-int render_open(struct render_run *r, struct job_options *o);
+int render_open(struct render_run *r);
 bool render_work(struct render_run *r, struct error *err);
 int render_close(struct render_run *r, bool ok, struct error *err);
 

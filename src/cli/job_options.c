@@ -6,7 +6,7 @@
 #include "base/os.h"
 #include "cli/command.h"
 
-#define AT(member) offsetof(struct job_options, member)
+#define AT(member) offsetof(struct render_job, member)
 const struct option RUN_OPTIONS[] = {
     {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j",
      .help = "number of threads (default: one for each processor)"},
@@ -15,7 +15,7 @@ const struct option RUN_OPTIONS[] = {
 };
 
 const struct option JOB_OPTIONS[] = {
-    {"--integrator", "NAME", OPTION_TEXT, AT(integrator),
+    {"--integrator", "NAME", OPTION_TEXT, AT(integrator_name),
      .help = "rendering method, see asbdpt help integrators (default: the scene's, else bdpt)"},
     {"-P", "NAME=VALUE", OPTION_PAIRS, AT(overrides), .help = "set a parameter of the integrator; repeatable"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 30, .help = "samples per pixel (default: the scene's, else 16)"},
@@ -44,20 +44,10 @@ bool job_spares(const struct scene *scene, const struct texts *outputs, struct e
     return true;
 }
 
-struct job_request job_request(const struct job_options *o)
-{
-    return (struct job_request){
-        .scene_path = o->scene_path, .integrator = o->integrator, .filter = o->filter, .set = o->overrides.item,
-        .n_set = o->overrides.n, .spp = o->spp, .max_depth = o->max_depth, .n_threads = o->n_threads,
-        .width = o->res[0], .height = o->res[1], .crop = o->crop[1] > 0 ? o->crop : NULL,
-        .max_memory = 1e9 * o->max_memory, .seed = o->seed, .quick = o->quick, .strict = o->strict, .quiet = o->quiet};
-}
-
 int job_failed(const struct error *err) { return err->text[0] != '\0' ? fail(err) : EXIT_JOB; }
 
-int load_job(const struct job_options *o, struct scene *scene, struct job *job)
+int load_job(struct render_job *job, struct scene *scene, struct prepared *out)
 {
-    const struct job_request request = job_request(o);
     struct error err;
-    return job_load(&request, scene, job, &err) ? EXIT_OK : job_failed(&err);
+    return job_load(job, scene, out, &err) ? EXIT_OK : job_failed(&err);
 }

@@ -11,14 +11,19 @@
 #include "base/os.h"
 
 /* Is the checkpoint to be resumed the one to be written? */
-static bool resumes_its_own(const struct keep_options *o)
+static bool resumes_its_own(const struct keep *o)
 {
     return o->checkpoint != NULL && o->resume != NULL && strcmp(o->checkpoint, o->resume) == 0;
 }
 
-bool keep_check(const struct keep_options *o, struct error *err)
+bool keep_asks_noise(const struct render_job *job)
 {
-    if (o->samples[1] > 0 && keep_asks_noise(o))
+    return job->noise[NOISE_RELATIVE] > 0 || job->noise[NOISE_8_BIT] > 0;
+}
+
+bool keep_check(const struct keep *o, const struct render_job *job, struct error *err)
+{
+    if (job->samples[1] > 0 && keep_asks_noise(job))
         return error_usage(err, "--noise is that of the whole image; --samples takes a part of it");
     if (o->checkpoint == NULL)
         return true;
@@ -34,26 +39,25 @@ bool keep_check(const struct keep_options *o, struct error *err)
 /* If a checkpoint that is to be resumed and written does not exist yet, the render begins. */
 static bool resume(struct keep *k, struct error *err)
 {
-    const struct keep_options *o = k->options;
     struct part found;
-    if (o->resume == NULL || (resumes_its_own(o) && !file_exists(o->resume)))
+    if (k->resume == NULL || (resumes_its_own(k) && !file_exists(k->resume)))
         return true;
-    FILE *file = part_open(o->resume, &found, err);
+    FILE *file = part_open(k->resume, &found, err);
     if (file == NULL)
         return false;
     if (k->film->half != NULL && !found.halves && found.done + found.passes > 0) {
         fclose(file);
         part_free(&found);
-        return error_set(err, "%s: it was made without --noise and cannot be continued with it", o->resume);
+        return error_set(err, "%s: it was made without --noise and cannot be continued with it", k->resume);
     }
     struct part asked = k->part; /* the same picture, of however many samples */
     asked.planned = found.planned;
-    bool ok = part_same(&found, o->resume, &asked, err);
+    bool ok = part_same(&found, k->resume, &asked, err);
     if (ok && (found.first != k->part.first || found.end > k->part.end))
-        ok = error_set(err, "%s: it is for the samples %ld:%ld, not %ld:%ld", o->resume, found.first, found.end,
+        ok = error_set(err, "%s: it is for the samples %ld:%ld, not %ld:%ld", k->resume, found.first, found.end,
                        k->part.first, k->part.end);
     if (ok)
-        ok = part_add(file, o->resume, &found, k->film, err);
+        ok = part_add(file, k->resume, &found, k->film, err);
     else
         fclose(file);
     part_free(&found);
@@ -67,7 +71,7 @@ static bool save_film(struct keep *k, struct error *err)
     const struct film *f = k->film;
     struct film none = {.rect = f->rect};
     struct file_output file;
-    if (!file_create(k->options->checkpoint, &file, err))
+    if (!file_create(k->checkpoint, &file, err))
         return false;
     if (f->learnt_short)
         film_init(&none, f->rect, f->full_width, f->full_height);
@@ -81,14 +85,14 @@ static double share_by_noise(const struct keep *k)
 {
     double share = HUGE_VAL;
     for (int i = 0; i < N_NOISE_SCALES; i++)
-        if (k->options->noise[i] > 0)
-            share = fmin(share, sqr(k->options->noise[i] / k->film->noise[i].value));
+        if (k->job->noise[i] > 0)
+            share = fmin(share, sqr(k->job->noise[i] / k->film->noise[i].value));
     return share;
 }
 
 static void show(struct keep *k, double done)
 {
-    bool relative = k->options->noise[NOISE_RELATIVE] > 0;
+    bool relative = k->job->noise[NOISE_RELATIVE] > 0;
     double noise = k->film->noise[relative ? NOISE_RELATIVE : NOISE_8_BIT].value;
     if (k->film->half != NULL && noise < INFINITY) {
         snprintf(k->bar.note, sizeof k->bar.note, relative ? ", noise %.3g" : ", noise %.3g of 255", noise);
@@ -120,7 +124,7 @@ static void preview(struct keep *k)
     bool ok = outputs_preview(k->pictures, &err);
     warn_once(&k->preview_fails, ok, &err);
     double seconds = os_wall_seconds() - k->begun;
-    k->preview_due = seconds + fmin(seconds, k->options->preview);
+    k->preview_due = seconds + fmin(seconds, k->preview);
 }
 
 /* In place of a bar, or without the first character. */
@@ -130,57 +134,47 @@ static const char STOPPING[] = "\rasbdpt: stopping, and writing the image so far
 /* Is the time over, and so many seconds more? */
 static bool late(const struct keep *k, double more)
 {
-    return k->options->time > 0 && os_wall_seconds() - k->begun >= k->options->time + more;
+    return k->time > 0 && os_wall_seconds() - k->begun >= k->time + more;
 }
 
 /* A block under way has half a second to end. */
-static bool stop(void *context) { return interrupt_caught() != 0 || late(context, 0.5); }
-
-/* While the method learns, and after each tile pass. */
-static enum render_wish watch(void *context, double done)
+static enum cancel cancel(void *context)
 {
-    struct keep *k = context;
-    const struct keep_options *o = k->options;
-    if (stop(k))
-        return RENDER_STOP;
-    show(k, done);
-    if (o->checkpoint != NULL && os_wall_seconds() - k->saved >= o->interval)
-        save(k);
-    if (o->preview > 0 && film_samples(k->film) > 0 && os_wall_seconds() - k->begun >= k->preview_due)
-        preview(k);
-    return late(k, 0) ? RENDER_END_BLOCK : RENDER_GO_ON;
+    return interrupt_caught() != 0 || late(context, 0.5) ? CANCEL_NOW : late(context, 0) ? CANCEL_BLOCK : CANCEL_NOT;
 }
 
-bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, struct job *job, struct film *film,
-                const struct outputs *pictures, struct error *err)
+static void progress(void *context, double learnt, double done)
 {
-    struct render_options *render = &job->options;
-    memset(k, 0, sizeof *k);
-    if (o->samples[1] > 0) {
-        if (o->samples[1] > render->planned)
-            return error_usage(err, "--samples %d:%d: there are %ld per pixel, see --spp", o->samples[0], o->samples[1],
-                             render->planned);
-        render->first = o->samples[0];
-        render->end = o->samples[1];
-        render->is_part = true;
-    }
-    if (keep_asks_noise(o))
+    struct keep *k = context;
+    (void)learnt;
+    if (cancel(k) == CANCEL_NOW) /* the bar is gone */
+        return;
+    show(k, done);
+    if (k->checkpoint != NULL && os_wall_seconds() - k->saved >= k->interval)
+        save(k);
+    if (k->preview > 0 && film_samples(k->film) > 0 && os_wall_seconds() - k->begun >= k->preview_due)
+        preview(k);
+}
+
+bool keep_begin(struct keep *k, struct render_job *job, struct film *film, const struct outputs *pictures,
+                struct error *err)
+{
+    if (keep_asks_noise(job))
         film_keep_halves(film);
-    memcpy(render->noise, o->noise, sizeof render->noise);
-    k->options = o;
+    k->job = job;
     k->film = film;
     k->pictures = pictures;
-    k->preview_due = fmin(1, o->preview);
+    k->preview_due = fmin(1, k->preview);
     k->part = part_describe(job);
     if (!resume(k, err)) {
         part_free(&k->part);
         return false;
     }
-    render->first += film->iterations;
-    render->progress = watch;
-    render->stop = stop;
-    render->progress_context = k;
-    progress_start(&k->bar, quiet);
+    job->first += film->iterations;
+    job->progress = progress;
+    job->cancel = cancel;
+    job->context = k;
+    progress_start(&k->bar, job->quiet);
     k->begun = k->saved = k->bar.start;
     interrupt_defer(STOPPING + !k->bar.bar);
     return true;
@@ -217,5 +211,5 @@ bool keep_end(struct keep *k, bool ok, struct error *err)
                  late(k, 1) ? ", when the samples that had begun were complete" : "", f->iterations, wanted, more);
     if (ok && k->bar.shown && f->half != NULL)
         say_noise(k);
-    return ok && (k->options->checkpoint == NULL || save_film(k, err));
+    return ok && (k->checkpoint == NULL || save_film(k, err));
 }

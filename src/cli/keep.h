@@ -10,11 +10,17 @@
 #define ASBDPT_KEEP_H
 
 #include "base/progress.h"
-#include "cli/job_options.h"
-#include "render/part.h"
+#include "cli/outputs.h"
 
 struct keep {
-    const struct keep_options *options;
+    /* Options. */
+    double time;             /* seconds; 0: no limit */
+    const char *checkpoint;  /* file or NULL */
+    double interval;         /* seconds between checkpoints */
+    const char *resume;      /* file or NULL */
+    double preview;          /* most seconds between previews; 0: none */
+    /* What becomes of them. */
+    const struct render_job *job;
     struct part part; /* what is being rendered */
     struct film *film;
     struct progress bar;
@@ -24,18 +30,19 @@ struct keep {
     const struct outputs *pictures; /* for previews; borrowed */
 };
 
-/* keep_check: can the options be as they are, and the checkpoint's file be written? False with a message. */
-bool keep_check(const struct keep_options *o, struct error *err);
+/* keep_asks_noise: is there a limit of noise? keep_check: can the options be as they are, and the checkpoint's file be
+ * written? False with a message. */
+bool keep_asks_noise(const struct render_job *job);
+bool keep_check(const struct keep *k, const struct render_job *job, struct error *err);
 
-/* keep_begin: cut the render to the samples asked for, and continue what --resume names. False with a message; after
- * success keep_end must follow.
- *   job     in-out: its samples, and what is called after each tile pass, which is given `k`
+/* keep_begin: continue what --resume names. False with a message; after success keep_end must follow.
+ *   job     in-out: its samples, and what hears of its progress and cancels it, which is given `k`
  *   film    initialised, empty
  *   pictures  their film and part set before the render
  * keep_end: remove the progress bar, say on stderr if and why the render has stopped early, save the last checkpoint if
  * `ok`. False with a message where it cannot be written; err may be NULL. The caller releases k->part. */
-bool keep_begin(struct keep *k, const struct keep_options *o, bool quiet, struct job *job, struct film *film,
-                const struct outputs *pictures, struct error *err);
+bool keep_begin(struct keep *k, struct render_job *job, struct film *film, const struct outputs *pictures,
+                struct error *err);
 bool keep_end(struct keep *k, bool ok, struct error *err);
 
 #endif

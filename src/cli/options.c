@@ -177,15 +177,27 @@ static bool read_word(struct reader *r, const char **out)
                      near_of(*out, words).text));
 }
 
+static bool read_pair(struct reader *r, struct settings *pairs)
+{
+    const char *text, *equals;
+    if (!next_value(r, &text))
+        return false;
+    equals = strchr(text, '=');
+    if (equals == NULL || equals == text)
+        return error_set(r->err, "%s %s: expected name=value", r->option->name, text);
+    char *name = mem_copy_text(text);
+    name[equals - text] = '\0';
+    settings_set(pairs, name, equals + 1, r->option->name);
+    free(name);
+    return true;
+}
+
 static bool read_texts(struct reader *r, struct texts *texts)
 {
     const char *text;
     do {
         if (!next_value(r, &text))
             return false;
-        const char *equals = strchr(text, '=');
-        if (r->option->kind == OPTION_PAIRS && (equals == NULL || equals == text))
-            return error_set(r->err, "%s %s: expected name=value", r->option->name, text);
         texts_add(texts, text);
     } while (r->option->kind == OPTION_LIST && r->at + 1 < r->argc && !looks_like_option(r->argv[r->at + 1]));
     return true;
@@ -200,6 +212,8 @@ static bool read_value(struct reader *r, void *target)
         return *(bool *)target = true;
     if (kind == OPTION_SEED)
         return read_seed(r, target);
+    if (kind == OPTION_PAIRS)
+        return read_pair(r, target);
     if (kind == OPTION_TEXT)
         return next_value(r, target);
     if (kind == OPTION_WORD)
@@ -317,6 +331,8 @@ void options_free(const struct option *table, void *target)
     for (const struct option *o = table; o != NULL; o = options_next(o))
         if (is_texts(o))
             free(((struct texts *)target_of(o, target))->item);
+        else if (o->kind == OPTION_PAIRS)
+            settings_clear(target_of(o, target));
 }
 
 /* --- help --------------------------------------------------------------------------------------------- */

@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/near.h"
+#include "base/settings.h"
 
 /* What a value is, and what it becomes. Numbers are from low to high. */
 enum option_kind {
@@ -33,8 +34,8 @@ enum option_kind {
     OPTION_SEED,    /* uint64_t, any */
     OPTION_WORD,    /* const char *: one of `words`, which the help lists */
     OPTION_TEXT,    /* const char *, borrowed from the arguments */
-    OPTION_TEXTS,   /* struct texts: one more each time; */
-    OPTION_PAIRS,   /* so, too: something, = and anything */
+    OPTION_PAIRS,   /* struct settings: one more each time, something, = and anything */
+    OPTION_TEXTS,   /* struct texts: one more each time */
     OPTION_LIST     /* so, too: all arguments up to the next option */
 };
 

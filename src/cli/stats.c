@@ -56,16 +56,16 @@ static void put_table(FILE *f, const struct field *p, const void *from)
     }
 }
 
-static void put_parameters(FILE *f, const struct job *job)
+static void put_parameters(FILE *f, const struct render_job *job, const struct prepared *p)
 {
-    const struct method *m = job->options.integrator;
-    fprintf(f, ",\n\"parameters\": {\n\"maxdepth\": %d", job->state.max_depth);
-    put_number(f, "rrthreshold", job->state.rr_threshold);
-    put_text(f, "lightsamplestrategy", LIGHT_STRATEGIES[job->state.strategy]);
+    const struct method *m = job->integrator;
+    fprintf(f, ",\n\"parameters\": {\n\"maxdepth\": %d", job->max_depth);
+    put_number(f, "rrthreshold", job->rr_threshold);
+    put_text(f, "lightsamplestrategy", LIGHT_STRATEGIES[job->strategy]);
     if (m->select != NULL)
         put_text(f, "select", m->select);
-    put_table(f, m->parameters, &job->prepared.parameters);
-    put_table(f, m->own, job->prepared.own);
+    put_table(f, m->parameters, &p->parameters);
+    put_table(f, m->own, p->own);
     fputs("}", f);
 }
 
@@ -73,30 +73,30 @@ void stats_write(FILE *f, const struct render_run *r)
 {
     const struct film *film = &r->film;
     struct method_number chosen[METHOD_NUMBERS];
-    method_numbers(&r->job.prepared, chosen);
+    method_numbers(&r->prepared, chosen);
     fprintf(f, "{\n\"version\": \"%s\"", VERSION);
-    put_text(f, "scene", r->asked->scene_path);
+    put_text(f, "scene", r->job.scene_path);
     for (int i = 0; i < r->pictures.n; i++) {
         fputs(i > 0 ? ", " : ",\n\"files\": [", f);
         quote(f, r->pictures.item[i].file.path);
     }
     fputs("]", f);
-    put_text(f, "checkpoint", r->asked->keep.checkpoint);
-    put_text(f, "integrator", r->job.options.integrator->name);
-    put_parameters(f, &r->job);
-    fprintf(f, ",\n\"seed\": %" PRIu64 ",\n\"film\": [%d, %d],\n\"corner\": [%d, %d]", r->job.options.seed,
+    put_text(f, "checkpoint", r->keep.checkpoint);
+    put_text(f, "integrator", r->job.integrator->name);
+    put_parameters(f, &r->job, &r->prepared);
+    fprintf(f, ",\n\"seed\": %" PRIu64 ",\n\"film\": [%d, %d],\n\"corner\": [%d, %d]", r->job.seed,
             r->scene.width, r->scene.height, film->rect.x0, film->rect.y0);
     put_number(f, "width", rect_width(film->rect));
     put_number(f, "height", rect_height(film->rect));
-    put_number(f, "spp", (double)r->job.options.planned);
-    put_number(f, "first_sample", r->asked->keep.samples[0]);
+    put_number(f, "spp", (double)r->job.planned);
+    put_number(f, "first_sample", r->job.samples[0]);
     put_number(f, "spp_done", (double)film->iterations);
     put_number(f, "spp_done_now", r->samples);
     put_number(f, "load_seconds", r->load);
     put_number(f, "wall_seconds", r->wall);
     put_number(f, "cpu_seconds", r->cpu);
     put_number(f, "us_per_path", stats_us_per_path(r));
-    put_number(f, "threads", r->job.options.n_threads);
+    put_number(f, "threads", r->job.n_threads);
     put_number(f, "peak_memory", os_peak_memory());
     put_number(f, "nonfinite", (double)film->nonfinite);
     fprintf(f, ",\n\"chosen\": {\n\"%s\": %.17g", chosen->name, chosen->value);

@@ -100,6 +100,7 @@ struct prepared {
     struct pass_size size;    /* any block, tiles of DEFAULT_TILE_SIZE, unless parameters or `prepare` change it */
     struct runner runner[RUNNERS];
     int winner;               /* of a race, or as the parameter says */
+    bool hasty;               /* the job was cancelled before all was learnt and raced */
 };
 
 /* What a method has made of a pool, in the pool's arena; each has a struct of its own. */

@@ -22,13 +22,15 @@ static void learn_for(const struct render_job *job, struct prepared *p, int runn
         .emission = q->emission, .delta = q->delta, .count = light && p->method->vertices, .few = few};
     tables_free(p->tables);
     *p->tables = NO_TABLES;
-    if (options.use || options.pairs || options.direct || options.count)
+    bool learns = options.use || options.pairs || options.direct || options.count;
+    if (learns)
         learn(job, &options, p->tables);
     for (int end = 0; end < EYE_ENDS; end++) /* of single vertices, a draw is one of so many of a light sub-path */
         p->draw[end] = p->method->vertices && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
     if (p->method->prepare != NULL)
         p->method->prepare(job, p);
     method_counts(job, p);
+    p->hasty = (p->hasty || learns || p->method->prepare != NULL) && job_cancelled(job) != CANCEL_NOT;
 }
 
 /* Where there is much to learn, a first race finds out whether it may pay. */
@@ -39,14 +41,18 @@ static void learn_and_race(const struct render_job *job, struct prepared *p)
     race_begin(job->scene, p);
     if (asked == RACE_ON && p->method->learns_pairs) {
         learn_for(job, p, RUNNER_PATH_TRACER);
-        if (race_early(job, p))
+        bool early = race_early(job, p);
+        p->hasty = job_cancelled(job) != CANCEL_NOT;
+        if (early)
             return;
     }
     p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
     learn_for(job, p, p->winner);
     race_begin(job->scene, p); /* `prepare` may have changed the numbers */
-    if (asked == RACE_ON)
+    if (asked == RACE_ON) {
         race(job, p);
+        p->hasty = job_cancelled(job) != CANCEL_NOT;
+    }
 }
 
 void method_prepare(const struct render_job *job, struct prepared *p)

@@ -5,7 +5,6 @@
 
 #include "base/number.h"
 #include "base/parallel.h"
-#include "learning/patience.h"
 
 enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32 };
 static const double FIREFLY = 11;
@@ -23,8 +22,6 @@ struct lap {
      * iteration, and by iteration what the render makes in one of `every`. */
     double mean[MOST_PIXELS], direct[MOST_PIXELS], often[MOST_PIXELS], rare[SAMPLES][MOST_PIXELS];
     double price, samples;
-    struct patience *patience;
-    double asked; /* see patience_lasts */
 };
 
 /* --- one lap ----------------------------------------------------------------------------------------- */
@@ -56,19 +53,14 @@ static void walked(void *context, const struct sample *sample, enum transport mo
     l->samples += mode == RADIANCE;
 }
 
-static bool enough(void *context)
-{
-    struct lap *l = context;
-    return !patience_lasts(l->patience, &l->asked);
-}
-
 static void run_lap(void *context, int64_t number, int slot, int thread)
 {
     struct lap *l = (struct lap *)context + number;
     struct workspace *work = workspaces_new(1, l->job.max_depth);
     struct tile tile = {.n_pixels = 0};
     const struct observer observer = {.context = l, .walked = walked, .joined = joined};
-    const struct tile_pass pass = {&l->job, 0, SAMPLES, &tile, work, &observer};
+    const struct tile_pass pass = {.job = &l->job, .end = SAMPLES, .tile = &tile, .work = work, .observer = &observer,
+                                   .trial = true};
     (void)slot, (void)thread;
     tile_start(&tile, l->pixels, l->job.film_rect, &l->job.scene->filter);
     l->by.method->render(&l->by, &pass);
@@ -80,22 +72,20 @@ static bool count_lap(void *context, int64_t number, int slot)
 {
     struct lap *l = (struct lap *)context + number;
     (void)slot;
-    return patience_count(l->patience, l->samples);
+    return job_cancelled(&l->job) == CANCEL_NOT;
 }
 
 /* --- runners compete --------------------------------------------------------------------------------- */
 
 static void start_lap(const struct render_job *job, const struct prepared *p, const struct runner *k, uint64_t other,
-                      struct patience *patience, struct lap *l)
+                      struct lap *l)
 {
     struct pixel_rect film = job->film_rect;
     int side = int_within(sqrt((double)rect_pixels(film) / (2 * SAMPLES)), 1, SIDE); /* at most a sample of each */
-    *l = (struct lap){.job = *job, .by = *p, .patience = patience};
+    *l = (struct lap){.job = *job, .by = *p};
     l->pixels = (struct tile_pixels){film, (rect_width(film) + side - 1) / side, (rect_height(film) + side - 1) / side,
                                      0, 0};
     l->job.seed = l->job.eye_seed = hash_combine(hash_combine(job->seed, 0x3c6ef372fe94f82bu), other);
-    l->job.enough = enough;
-    l->job.enough_context = l;
     l->by.numbers = k->numbers;
     l->by.size = method_size(&l->by);
     method_counts(job, &l->by);
@@ -127,16 +117,15 @@ static double judge(struct runner *k, const struct lap *a, const double *unit)
     return direct;
 }
 
-/* Let n runners compete. Returns the variance of direct light of the last one; -1 if job->watch ends it. */
+/* Let n runners compete. Returns the variance of direct light of the last one; -1 if the job is cancelled. */
 static double compete(const struct render_job *job, const struct prepared *p, struct runner *first, int n)
 {
-    struct patience patience = patience_begin(job);
     struct lap *lap = mem_alloc((size_t)(2 * n), sizeof *lap);
     for (int i = 0; i < 2 * n; i++)
-        start_lap(job, p, &first[i / 2], (uint64_t)i % 2, &patience, &lap[i]);
+        start_lap(job, p, &first[i / 2], (uint64_t)i % 2, &lap[i]);
     struct parallel_jobs jobs = {2 * n, job->n_threads, 2 * n, lap, run_lap, count_lap, NULL};
     double unit[MOST_PIXELS], picture = 0, direct = -1;
-    bool all = parallel_run(&jobs) == 2 * n && !patience.over;
+    bool all = job->scene->lights.n > 0 && parallel_run(&jobs) == 2 * n && job_cancelled(job) == CANCEL_NOT;
     for (int i = 0; i < pixels_count(lap->pixels); i++) {
         unit[i] = 1e-30;
         for (int j = 0; j < 2 * n; j++)
@@ -147,7 +136,6 @@ static double compete(const struct render_job *job, const struct prepared *p, st
         unit[i] = (unit[i] + picture) / 2;
     for (int i = 0; i < n && all; i++)
         direct = judge(&first[i], &lap[2 * i], unit);
-    patience_end(&patience);
     free(lap);
     return direct;
 }

@@ -31,7 +31,7 @@ extern const char *const runner_helps[RUNNERS];
 /* race_begin: add the runners to *p, whose numbers are those of the first.
  * race_early: does a path tracer win, before more is learnt than it needs itself?
  * race: let all others compete in *p, which is prepared for the first.
- * Both set p->winner. If job->watch ends a race, the first wins. */
+ * Both set p->winner. If the job is cancelled, the first wins. */
 void race_begin(const struct scene *scene, struct prepared *p);
 bool race_early(const struct render_job *job, struct prepared *p);
 void race(const struct render_job *job, struct prepared *p);

@@ -123,9 +123,8 @@ static void trace_light_path(struct learning *l, struct workspace *work, long i,
 /* Trace the light sub-paths of the chunk that eye sub-path number i begins, into the workspace's pool. */
 static void fill_pool(struct learning *l, struct pool *pool, long i)
 {
-    double asked = 0;
     pool_clear(pool);
-    for (long k = 0; k < POOL && patience_lasts(&l->patience, &asked); k++) {
+    for (long k = 0; k < POOL && job_cancelled(l->job) == CANCEL_NOT; k++) {
         struct vertex *path = pool_room(pool, (size_t)l->job->max_depth + 1);
         pool_add(pool, trace_light(l, &pool->arena, i * POOL + k, STREAM_POOL, path, NULL));
     }
@@ -262,14 +261,15 @@ enum { LIGHT_COUNTED = 4 * 1024 }; /* light sub-paths if only the mean number of
 void learn(const struct render_job *job, const struct learn_options *options, struct tables *out)
 {
     struct learning l = {.job = job, .options = options, .tables = out,
-                         .work = workspaces_new(job->n_threads, job->max_depth), .patience = patience_begin(job),
-                         .take = take, .counts = {.tables = &NO_TABLES}};
+                         .work = workspaces_new(job->n_threads, job->max_depth), .take = take,
+                         .counts = {.tables = &NO_TABLES}};
     bool few = options->few || (options->direct && !options->use && !options->pairs);
     double pixels = (double)rect_pixels(job->film_rect);
     long n = few ? int_within(pixels / DIRECT_PIXELS, DIRECT_LEAST, LEARN_MOST)
                  : int_within(pixels * LEARN_PER_PIXEL, LEARN_LEAST, LEARN_MOST);
     long n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT, half = n / 2 / CHUNK * CHUNK;
     bool regions = options->use || options->direct || options->pairs;
+    l.budget = (regions ? (double)n : 0) + (double)(options->use ? n_light : options->count ? LIGHT_COUNTED : 0);
     if (regions)
         learn_uses(&l, options->pairs ? half : n);
     if (options->use || options->count)
@@ -278,6 +278,5 @@ void learn(const struct render_job *job, const struct learn_options *options, st
         build_direct(&l);
     if (options->pairs)
         learn_pairs(&l, half, n);
-    patience_end(&l.patience);
     workspaces_free(l.work, job->n_threads);
 }

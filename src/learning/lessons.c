@@ -1,6 +1,7 @@
 /* lessons.c: see lessons.h. */
 #include "learning/lessons.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/parallel.h"
@@ -18,10 +19,9 @@ static void trace_chunk(void *context, int64_t job, int slot, int thread)
 {
     struct learning *l = context;
     struct workspace *work = &l->work[thread];
-    double asked = 0;
     long first = l->first + (long)job * CHUNK, end = first + CHUNK < l->end ? first + CHUNK : l->end;
     l->list[slot].n = 0;
-    for (long i = first; i < end && patience_lasts(&l->patience, &asked); i++) {
+    for (long i = first; i < end && job_cancelled(l->job) == CANCEL_NOT; i++) {
         arena_reset(&work->arena);
         l->trace(l, work, i, &l->list[slot]);
     }
@@ -33,13 +33,16 @@ static bool take_chunk(void *context, int64_t job, int slot)
     (void)job;
     for (size_t i = 0; i < l->list[slot].n; i++)
         l->take(l, &l->list[slot].item[i]);
-    return patience_count(&l->patience, CHUNK);
+    l->traced += CHUNK;
+    job_progress(l->job, fmin(l->traced / l->budget, 1), 0);
+    return job_cancelled(l->job) == CANCEL_NOT;
 }
 
 void lessons_learn(struct learning *l, void (*trace)(struct learning *, struct workspace *, long, struct lessons *),
                    const struct tables *known, long first, long end)
 {
     int n_threads = l->job->n_threads, n_slots = 4 * n_threads;
+    end = l->job->scene->lights.n > 0 ? end : first; /* without lights there is nothing to learn */
     struct parallel_jobs jobs = {(end - first + CHUNK - 1) / CHUNK, n_threads, n_slots, l, trace_chunk, take_chunk,
                                  NULL};
     l->trace = trace;

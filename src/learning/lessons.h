@@ -7,7 +7,7 @@
 #ifndef ASBDPT_LESSONS_H
 #define ASBDPT_LESSONS_H
 
-#include "learning/patience.h"
+#include "transport/tile_pass.h"
 
 struct learn_options; /* learn.h */
 
@@ -41,7 +41,6 @@ enum { CHUNK = 256 }; /* number of sub-paths of a chunk */
 struct learning {
     const struct render_job *job;
     struct workspace *work; /* [n_threads] */
-    struct patience patience;
 
     /* What learn.c knows so far. */
     const struct learn_options *options;
@@ -50,6 +49,7 @@ struct learning {
     struct axis rays;               /* columns of the table of emission */
     double n_light;                 /* light sub-paths so far */
     struct lessons light_vertices;  /* that these have */
+    double budget, traced;          /* number of sub-paths: all that learning is by, and those so far */
 
     /* The pass under way. */
     void (*trace)(struct learning *l, struct workspace *work, long i, struct lessons *out);
@@ -59,9 +59,9 @@ struct learning {
     struct lessons *list; /* of the chunks under way */
 };
 
-/* lessons_learn: run a pass over sub-paths first .. end-1, unless patience ends. `trace` lists the lessons of sub-path
- * number i, whose vertices and lobes are in the workspace. l->take takes one in. Walks and connections use the tables
- * `known`, which do not change meanwhile. */
+/* lessons_learn: run a pass over sub-paths first .. end-1, unless the job is cancelled. `trace` lists the lessons of
+ * sub-path number i, whose vertices and lobes are in the workspace. l->take takes one in. Walks and connections use the
+ * tables `known`, which do not change meanwhile. After each chunk job->progress hears of it. */
 void lessons_learn(struct learning *l, void (*trace)(struct learning *, struct workspace *, long, struct lessons *),
                    const struct tables *known, long first, long end);
 

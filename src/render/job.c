@@ -198,40 +198,36 @@ struct pixel_rect render_crop(const struct scene *scene)
                                (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3])};
 }
 
-bool job_settle(const struct scene *scene, const struct render_options *options, struct job *out, struct error *err)
+bool job_settle(struct render_job *job, const struct scene *scene, struct prepared *out, struct error *err)
 {
-    const struct method *m = options->integrator;
+    const struct method *m = job->integrator;
     const struct settings *s = &scene->settings;
     struct common c;
-    *out = (struct job){.options = *options};
-    struct render_options *o = &out->options;
-    if (!settings_fields(s, COMMON, &c, err) || !method_read(m, scene, &out->prepared, err))
+    if (!settings_fields(s, COMMON, &c, err) || !method_read(m, scene, out, err))
         return false;
-    o->planned = o->planned > 0 ? o->planned : o->end;
-    o->n_threads = o->n_threads > 0 ? o->n_threads : os_cores();
-    o->max_depth = o->max_depth > 0 ? o->max_depth : c.max_depth;
-    out->state = (struct render_job){
-        .scene = scene, .film_rect = render_crop(scene), .seed = o->seed, .eye_seed = o->seed,
-        .n_threads = o->n_threads, .max_depth = o->max_depth,
-        .strategy = (enum light_strategy)c.strategy,
-        .rr_threshold = settings_find(s, "rrthreshold") != NULL ? c.rr_threshold : m->rr_threshold};
+    job->scene = scene;
+    job->film_rect = render_crop(scene);
+    job->planned = job->planned > 0 ? job->planned : job->end;
+    job->n_threads = job->n_threads > 0 ? job->n_threads : os_cores();
+    job->max_depth = job->max_depth > 0 ? job->max_depth : c.max_depth;
+    job->eye_seed = job->seed;
+    job->strategy = (enum light_strategy)c.strategy;
+    job->rr_threshold = settings_find(s, "rrthreshold") != NULL ? c.rr_threshold : m->rr_threshold;
     return true;
 }
 
-void job_prepare(struct job *job)
+void job_prepare(struct render_job *job, struct prepared *p)
 {
-    if (job->state.strategy == LIGHTS_UNIFORM)
-        job->state.scene = job->prepared.uniform = scene_uniform(job->state.scene);
-    method_prepare(&job->state, &job->prepared);
+    if (job->strategy == LIGHTS_UNIFORM)
+        job->scene = p->uniform = scene_uniform(job->scene);
+    method_prepare(job, p);
 }
-
-void job_free(struct job *job) { method_release(&job->prepared); }
 
 /* --- loading ------------------------------------------------------------------------------------------ */
 
 /* Who hears of what is wrong with a scene. */
 struct loading {
-    const struct job_request *asked;
+    const struct render_job *job;
     struct scene *scene; /* whose warnings are counted */
 };
 
@@ -239,7 +235,7 @@ static void hear(void *context, bool is_error, const char *text)
 {
     struct loading *l = context;
     l->scene->n_warnings += !is_error;
-    say_line("asbdpt: %s%s", is_error || l->asked->strict ? "" : "warning: ", text);
+    say_line("asbdpt: %s%s", is_error || l->job->strict ? "" : "warning: ", text);
 }
 
 /* A warning about the scene as a whole. */
@@ -251,24 +247,17 @@ static void warn_of_scene(struct loading *l, const char *format, ...)
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    error_set(&line, "%s: %s", l->asked->scene_path, text);
+    error_set(&line, "%s: %s", l->job->scene_path, text);
     hear(l, false, line.text);
 }
 
-static void set(struct settings *settings, const char *pair)
-{
-    char *name = mem_copy_text(pair), *equals = strchr(name, '=');
-    *equals = '\0';
-    settings_set(settings, name, equals + 1, "-P");
-    free(name);
-}
-
 /* Put what is asked in the place of what the scene says. */
-static bool apply(const struct job_request *q, struct scene *scene, struct error *err)
+static bool apply(const struct render_job *q, struct scene *scene, struct error *err)
 {
-    if (q->width > 0) {
+    const struct settings *given = &q->overrides;
+    if (q->res[0] > 0) {
         struct error why;
-        scene_resize(scene, q->width, q->height);
+        scene_resize(scene, q->res[0], q->res[1]);
         if (!picture_size_ok((uint64_t)scene->width, (uint64_t)scene->height, &why))
             return error_usage(err, "--res: %s", why.text);
     } else if (q->quick) {
@@ -277,42 +266,42 @@ static bool apply(const struct job_request *q, struct scene *scene, struct error
     }
     if (q->filter != NULL)
         filter_default(q->filter, &scene->filter);
-    for (int i = 0; i < q->n_set; i++)
-        set(&scene->settings, q->set[i]);
-    if (q->max_depth > 0)
+    for (int i = 0; i < given->n; i++)
+        settings_set(&scene->settings, given->item[i].name, given->item[i].value, given->item[i].origin);
+    if (q->max_depth > 0) /* for who lists them; the job has the number */
         settings_set_number(&scene->settings, "maxdepth", q->max_depth, "-P");
-    if (q->crop != NULL)
+    if (q->crop[1] > 0)
         memcpy(scene->crop, q->crop, sizeof scene->crop);
     struct pixel_rect crop = render_crop(scene);
     if (rect_width(crop) < 1 || rect_height(crop) < 1)
-        return q->crop != NULL ? error_usage(err, "--cropwindow holds no pixel")
+        return q->crop[1] > 0 ? error_usage(err, "--cropwindow holds no pixel")
                                : error_set(err, "the crop window holds no pixel");
     return true;
 }
 
-/* The method asked for; pbrt's integrators that do not exist here are replaced by the default. */
+/* The row asked for; pbrt's integrators that do not exist here are replaced by the default. */
 static const struct method *choose_method(struct loading *l, struct error *err)
 {
     const struct scene *scene = l->scene;
     const char *usual = "bdpt", *name = scene->integrator != NULL ? scene->integrator : usual;
     int n;
-    if (l->asked->integrator == NULL && (rows_of(name, &n), n == 0)) {
+    if (l->job->integrator_name == NULL && (rows_of(name, &n), n == 0)) {
         warn_of_scene(l, "integrator \"%s\" does not exist here; bdpt is used, which computes all light up to "
                       "maxdepth%s", name, near_method(name).text);
         name = usual;
     }
-    return method_find(l->asked->integrator != NULL ? l->asked->integrator : name, &scene->settings, err);
+    return method_find(l->job->integrator_name != NULL ? l->job->integrator_name : name, &scene->settings, err);
 }
 
-bool job_open(const struct job_request *q, struct scene *scene, const struct method **method, struct error *err)
+bool job_open(struct render_job *job, struct scene *scene, struct error *err)
 {
-    struct loading l = {q, scene};
+    struct loading l = {job, scene};
     const struct message_sink sink = {hear, &l};
-    const struct parse_options options = {q->integrator, q->max_memory};
+    const struct parse_options options = {job->integrator_name, 1e9 * job->max_memory};
     err->text[0] = '\0';
-    if (!parse_scene(q->scene_path, &options, scene, &sink, NULL))
+    if (!parse_scene(job->scene_path, &options, scene, &sink, NULL))
         return false;
-    if (apply(q, scene, err) && (*method = choose_method(&l, err)) != NULL)
+    if (apply(job, scene, err) && (job->integrator = choose_method(&l, err)) != NULL)
         return true;
     scene_free(scene);
     return false;
@@ -379,41 +368,50 @@ static void warn_of_loss(struct loading *l, const struct prepared *p)
 }
 
 /* The filter must be prepared. */
-static void set_samples(const struct job_request *q, const struct scene *scene, struct render_options *o)
+static bool set_samples(struct render_job *job, struct error *err)
 {
-    long wanted = q->spp > 0 ? q->spp : q->quick ? 1 : scene->spp > 0 ? scene->spp : 16;
-    long cycle = filter_cycle(&scene->filter);
-    o->end = o->planned = (wanted + cycle - 1) / cycle * cycle;
-    if (!q->quiet && o->end > wanted)
-        say_line("asbdpt: a pixel filter with negative lobes takes samples in fours: %ld, not %ld", o->end, wanted);
+    long wanted = job->spp > 0 ? job->spp : job->quick ? 1 : job->scene->spp > 0 ? job->scene->spp : 16;
+    long cycle = filter_cycle(&job->scene->filter);
+    const int *part = job->samples;
+    job->planned = (wanted + cycle - 1) / cycle * cycle;
+    job->is_part = part[1] > 0;
+    job->first = part[0];
+    job->end = job->is_part ? part[1] : job->planned;
+    if (!job->quiet && job->planned > wanted)
+        say_line("asbdpt: a pixel filter with negative lobes takes samples in fours: %ld, not %ld", job->planned,
+                 wanted);
+    return job->end <= job->planned || error_usage(err, "--samples %d:%d: there are %ld per pixel, see --spp", part[0],
+                                                   part[1], job->planned);
 }
 
-bool job_ready(const struct job_request *q, const struct method *const *readers, struct scene *scene, struct job *job,
+bool job_ready(struct render_job *job, const struct method *const *readers, struct scene *scene, struct prepared *out,
                struct error *err)
 {
-    const struct render_options options = {.integrator = readers[0], .seed = q->seed, .n_threads = q->n_threads,
-                                           .max_depth = q->max_depth};
-    struct loading l = {q, scene};
+    struct loading l = {job, scene};
     const struct message_sink sink = {hear, &l};
-    if (!job_adapt(scene, readers, &sink, err) || !job_settle(scene, &options, job, err)) {
+    job->integrator = readers[0];
+    if (!job_adapt(scene, readers, &sink, err) || !job_settle(job, scene, out, err)) {
         scene_free(scene);
         return false;
     }
     scene_prepare(scene);
     warn_of_size(&l);
     warn_of_media(&l);
-    warn_of_loss(&l, &job->prepared);
-    set_samples(q, scene, &job->options);
-    if (!q->strict || scene->n_warnings == 0)
+    warn_of_loss(&l, out);
+    bool strict = job->strict && scene->n_warnings > 0;
+    if (set_samples(job, err) && !strict)
         return true;
-    error_set(err, "%s: refused for what is said above, by --strict", q->scene_path);
-    job_free(job);
+    if (strict)
+        error_set(err, "%s: refused for what is said above, by --strict", job->scene_path);
+    method_release(out);
     scene_free(scene);
     return false;
 }
 
-bool job_load(const struct job_request *q, struct scene *scene, struct job *job, struct error *err)
+bool job_load(struct render_job *job, struct scene *scene, struct prepared *out, struct error *err)
 {
-    const struct method *readers[2] = {NULL, NULL};
-    return job_open(q, scene, &readers[0], err) && job_ready(q, readers, scene, job, err);
+    if (!job_open(job, scene, err))
+        return false;
+    const struct method *const readers[2] = {job->integrator, NULL};
+    return job_ready(job, readers, scene, out, err);
 }

@@ -70,31 +70,29 @@ static void add_settings(struct lines *l, const struct settings *s)
 }
 
 /* The lines from "version" on: all that changes a byte of a sample. To be given to free(). */
-static char *identity_text(const struct job *job)
+static char *identity_text(const struct render_job *job)
 {
-    const struct scene *scene = job->state.scene;
-    const struct render_options *o = &job->options;
+    const struct scene *scene = job->scene;
     const struct filter *f = &scene->filter;
     struct lines l = {0};
     add_line(&l, "version %s, estimator %d", VERSION, ESTIMATOR);
     add_line(&l, "scene %016" PRIx64, scene->content);
-    add_line(&l, "integrator %s", o->integrator->name);
-    add_line(&l, "maxdepth %d", o->max_depth);
+    add_line(&l, "integrator %s", job->integrator->name);
+    add_line(&l, "maxdepth %d", job->max_depth);
     add_settings(&l, &scene->settings);
-    add_line(&l, "seed %" PRIu64, o->seed);
+    add_line(&l, "seed %" PRIu64, job->seed);
     add_line(&l, "filter %d %.17g %.17g %.17g %.17g %.17g %.17g", (int)f->kind, f->radius[0], f->radius[1], f->alpha,
              f->B, f->C, f->tau);
     return l.text;
 }
 
-struct part part_describe(const struct job *job)
+struct part part_describe(const struct render_job *job)
 {
-    const struct scene *scene = job->state.scene;
-    const struct render_options *o = &job->options;
-    struct pixel_rect r = job->state.film_rect;
+    const struct scene *scene = job->scene;
+    struct pixel_rect r = job->film_rect;
     return (struct part){.identity = identity_text(job), .width = rect_width(r), .height = rect_height(r),
                          .scale = scene->film_scale, .place = {r.x0, r.y0, scene->width, scene->height},
-                         .planned = o->planned, .first = o->first, .end = o->end};
+                         .planned = job->planned, .first = job->first, .end = job->end};
 }
 
 void part_free(struct part *p)

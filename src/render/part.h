@@ -50,9 +50,9 @@ struct part {
     bool halves; /* the sums of one half are there, too */
 };
 
-/* part_describe: the part that this job is to fill, nothing being done yet. Threads, names of files
+/* part_describe: the part that this job, settled, is to fill, nothing being done yet. Threads, names of files
  * and what is written do not belong to it; what the scene's files hold does. To be released with part_free. */
-struct part part_describe(const struct job *job);
+struct part part_describe(const struct render_job *job);
 void part_free(struct part *p);
 
 /* part_write: the film into a file that was begun; file_commit or file_abandon is to follow. */

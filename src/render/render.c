@@ -45,12 +45,13 @@ struct tile_pixels tiling_pixels(const struct tiling *t, int64_t i)
 /* --- tile passes ------------------------------------------------------------------------------------- */
 
 struct run {
-    struct job *job; /* blocks begin at multiples of their length, maybe INT_MAX: counted in 64 bits */
+    struct render_job *job; /* blocks begin at multiples of their length, maybe INT_MAX: counted in 64 bits */
+    struct prepared *method;
     struct film *film;
     struct tiling tiling;
     int64_t begun;    /* tile passes of the first block that the film holds already */
     int64_t n_passes; /* of all blocks, with these */
-    enum render_wish wish; /* the most urgent so far, of progress and of the noise */
+    bool good; /* the noise is below the limit */
     struct workspace *work; /* [n_threads] */
     struct tile *tile;      /* [n_slots] */
     struct under_way *pass; /* [n_slots] */
@@ -61,7 +62,8 @@ struct run {
 struct under_way {
     struct run *run;
     int64_t number;
-    bool taken; /* some of its splats are in the film already: it must be rendered to its end */
+    struct tile_pass pass;
+    struct observer observer;
 };
 
 /* Samples of a block that may have any length: few enough for a render to be stopped soon, and for the splats of a pass
@@ -82,8 +84,8 @@ static int64_t tiles_per_block(const struct run *r) { return tiling_count(&r->ti
 /* The iterations of block number b of this run. */
 static void block_range(const struct run *r, int64_t b, long *first, long *end)
 {
-    const struct render_options *o = &r->job->options;
-    int64_t block = r->job->prepared.size.block, begin = (o->first / block + b) * block;
+    const struct render_job *o = r->job;
+    int64_t block = r->method->size.block, begin = (o->first / block + b) * block;
     *first = begin > o->first ? (long)begin : o->first;
     *end = begin + block < o->end ? (long)(begin + block) : o->end;
 }
@@ -91,128 +93,93 @@ static void block_range(const struct run *r, int64_t b, long *first, long *end)
 /* Whenever the halves are of one size. */
 static bool good_enough(const struct run *r)
 {
-    const double *limit = r->job->options.noise;
+    const double *limit = r->job->noise;
     struct film *f = r->film;
-    bool good = halves_noise(f, r->job->state.scene->film_scale);
+    bool good = halves_noise(f, r->job->scene->film_scale);
     for (int i = 0; i < N_NOISE_SCALES; i++)
         good = good && (limit[i] == 0 || f->noise[i].value < limit[i]);
     return good && limit[NOISE_RELATIVE] + limit[NOISE_8_BIT] > 0;
-}
-
-static void ask_progress(struct run *r, double share)
-{
-    const struct render_options *o = &r->job->options;
-    enum render_wish wish = o->progress != NULL ? o->progress(o->progress_context, share) : RENDER_GO_ON;
-    r->wish = wish > r->wish ? wish : r->wish;
 }
 
 /* More splats than a tile holds go into the film before their pass is complete, when it is the next to do so. */
 static void take_splats(void *context, struct tile *tile)
 {
     struct under_way *p = context;
-    if ((p->taken = parallel_await(&p->run->parallel, p->number)))
+    if ((p->pass.taken = parallel_await(&p->run->parallel, p->number)))
         film_take_splats(p->run->film, tile);
     tile->n_splats = 0;
-}
-
-static bool enough(void *context)
-{
-    const struct under_way *p = context;
-    const struct render_options *o = &p->run->job->options;
-    return !p->taken && o->stop != NULL && o->stop(o->progress_context);
 }
 
 static void run_pass(void *context, int64_t number, int slot, int thread)
 {
     struct run *r = context;
-    struct render_job job = r->job->state;
-    const struct observers *others = r->job->options.observers;
-    struct tile_pass pass = {.job = &job, .tile = &r->tile[slot], .work = &r->work[thread]};
-    struct observer observer;
-    r->pass[slot] = (struct under_way){r, number, false};
-    job.enough = enough;
-    job.enough_context = &r->pass[slot];
-    block_range(r, (r->begun + number) / tiles_per_block(r), &pass.first, &pass.end);
-    tile_start(pass.tile, tiling_pixels(&r->tiling, (r->begun + number) % tiles_per_block(r)), r->job->state.film_rect,
-               &r->job->state.scene->filter);
+    struct under_way *p = &r->pass[slot];
+    struct tile *tile = &r->tile[slot];
+    const struct observers *others = r->job->observers;
+    *p = (struct under_way){.run = r, .number = number,
+                            .pass = {.job = r->job, .tile = tile, .work = &r->work[thread]}};
+    block_range(r, (r->begun + number) / tiles_per_block(r), &p->pass.first, &p->pass.end);
+    tile_start(tile, tiling_pixels(&r->tiling, (r->begun + number) % tiles_per_block(r)), r->job->film_rect,
+               &r->job->scene->filter);
     if (r->film->half != NULL)
-        pass.tile->first_half = pass.first / r->film->run % 2 == 0;
+        tile->first_half = p->pass.first / r->film->run % 2 == 0;
     if (others != NULL) {
-        observer = others->begin(others->context, slot, pass.tile);
-        pass.observer = &observer;
+        p->observer = others->begin(others->context, slot, tile);
+        p->pass.observer = &p->observer;
     }
-    pass.tile->full = take_splats;
-    pass.tile->context = &r->pass[slot];
-    r->job->prepared.method->render(&r->job->prepared, &pass);
+    tile->full = take_splats;
+    tile->context = p;
+    r->method->method->render(r->method, &p->pass);
 }
 
 static bool merge_pass(void *context, int64_t number, int slot)
 {
     struct run *r = context;
     int64_t done = r->begun + number + 1;
-    long first, end;
-    if (enough(&r->pass[slot])) /* the pass may have ended early */
+    const struct tile_pass *pass = &r->pass[slot].pass;
+    if (pass_cancelled(pass)) /* it may have ended early */
         return false;
-    block_range(r, (done - 1) / tiles_per_block(r), &first, &end);
-    r->film->block.iterations = end - first;
-    film_merge_tile(r->film, &r->tile[slot]);
-    const struct observers *observers = r->job->options.observers;
+    r->film->block.iterations = pass->end - pass->first;
+    film_merge_tile(r->film, pass->tile);
+    const struct observers *observers = r->job->observers;
     if (observers != NULL)
         observers->end(observers->context, slot);
     r->film->passes++;
     if (r->film->passes == tiles_per_block(r)) {
         film_end_block(r->film);
-        if (good_enough(r) && r->wish == RENDER_GO_ON)
-            r->wish = RENDER_END_BLOCK;
+        r->good = good_enough(r);
     }
-    ask_progress(r, (double)done / (double)r->n_passes);
-    return r->wish != RENDER_STOP && !(r->wish == RENDER_END_BLOCK && r->film->passes == 0);
+    job_progress(r->job, 1, (double)done / (double)r->n_passes);
+    enum cancel cancel = job_cancelled(r->job);
+    return cancel != CANCEL_NOW && !((cancel == CANCEL_BLOCK || r->good) && r->film->passes == 0);
 }
 
 static void run_all(struct run *r)
 {
-    const struct render_options *o = &r->job->options;
-    int64_t block = r->job->prepared.size.block;
+    const struct render_job *o = r->job;
+    int64_t block = r->method->size.block;
     int64_t first_block = o->first / block, end_block = (o->end + block - 1) / block;
-    int n_slots = (o->observers != NULL ? OBSERVED_SLOTS : SLOTS_PER_THREAD) * r->job->state.n_threads;
+    int n_slots = (o->observers != NULL ? OBSERVED_SLOTS : SLOTS_PER_THREAD) * o->n_threads;
     r->n_passes = tiles_per_block(r) * (end_block - first_block);
-    r->parallel = (struct parallel_jobs){.n_jobs = r->n_passes - r->begun, .n_threads = r->job->state.n_threads,
+    r->parallel = (struct parallel_jobs){.n_jobs = r->n_passes - r->begun, .n_threads = o->n_threads,
                                          .n_slots = n_slots, .context = r, .work = run_pass, .commit = merge_pass};
     r->tile = mem_alloc((size_t)n_slots, sizeof *r->tile);
     r->pass = mem_alloc((size_t)n_slots, sizeof *r->pass);
-    r->work = workspaces_new(r->job->state.n_threads, r->job->state.max_depth);
+    r->work = workspaces_new(o->n_threads, o->max_depth);
     parallel_run(&r->parallel);
-    workspaces_free(r->work, r->job->state.n_threads);
+    workspaces_free(r->work, o->n_threads);
     for (int i = 0; i < n_slots; i++)
         tile_free(&r->tile[i]);
     free(r->tile);
     free(r->pass);
 }
 
-static bool watch(void *context, double traced)
-{
-    struct run *r = context;
-    (void)traced;
-    ask_progress(r, 0);
-    return r->wish == RENDER_GO_ON;
-}
-
-static bool holds_samples(const struct film *film) { return film->iterations > 0 || film->passes > 0; }
-
-static void prepare(struct run *r)
-{
-    r->job->state.watch = r->job->options.progress != NULL ? watch : NULL;
-    r->job->state.watch_context = r;
-    job_prepare(r->job);
-    r->film->learnt_short = r->wish != RENDER_GO_ON && !holds_samples(r->film);
-}
-
 /* Blocks of a length that the method has chosen must not be cut: what it draws depends on where one begins. Nothing is
  * cut where all is done. */
 static bool check_range(const struct run *r, struct error *err)
 {
-    const struct render_options *o = &r->job->options;
-    int block = r->job->prepared.size.block;
+    const struct render_job *o = r->job;
+    int block = r->method->size.block;
     if (block == 0 || o->first == o->end)
         return true;
     if (r->film->iterations > 0 && o->first % block != 0)
@@ -228,29 +195,30 @@ static bool check_range(const struct run *r, struct error *err)
 /* Tiles, and blocks where their length is free. */
 static bool cut(struct run *r, struct error *err)
 {
-    struct pass_size *size = &r->job->prepared.size;
+    struct pass_size *size = &r->method->size;
     if (size->block == 0)
-        size->block = r->job->options.block > 0 ? r->job->options.block : choose_block(&r->job->state, size->tile);
-    r->tiling = tiling_of(r->job->state.film_rect, size);
+        size->block = r->job->block > 0 ? r->job->block : choose_block(r->job, size->tile);
+    r->tiling = tiling_of(r->job->film_rect, size);
     r->film->run = halves_run(size->block);
     r->begun = r->film->passes;
     return r->begun < tiles_per_block(r) ||
            error_set(err, "the film has more tile passes in it than a block of samples has");
 }
 
-bool render_scene(struct job *job, struct film *film, struct error *err)
+bool render_scene(struct render_job *job, struct prepared *p, struct film *film, struct error *err)
 {
-    struct run r = {.job = job, .film = film};
-    const struct render_options *o = &job->options;
-    prepare(&r);
+    struct run r = {.job = job, .method = p, .film = film};
+    bool begun = film->iterations > 0 || film->passes > 0;
+    job_prepare(job, p);
+    film->learnt_short = p->hasty && !begun;
     if (!check_range(&r, err) || !cut(&r, err))
         return false;
     /* Learning that was cut short has learnt other things than what the film's samples go by: no more are added. */
-    bool in_haste = r.wish != RENDER_GO_ON && holds_samples(film);
-    if (job->state.scene->lights.n == 0 && o->observers == NULL) { /* all samples are black */
-        film->block.iterations = o->end - o->first;
+    bool in_haste = p->hasty && begun;
+    if (job->scene->lights.n == 0 && job->observers == NULL) { /* all samples are black */
+        film->block.iterations = job->end - job->first;
         film_end_block(film);
-    } else if (o->end > o->first && !in_haste && !good_enough(&r)) /* what is resumed may be */
+    } else if (job->end > job->first && !in_haste && !good_enough(&r)) /* what is resumed may be */
         run_all(&r);
     return true;
 }

@@ -28,11 +28,12 @@ struct observers {
 };
 
 /* render_scene: render into a film.
- *   job   settled, its scene prepared; what the method learns is in it afterwards
- *   film  initialised by film_init for job->state.film_rect, possibly holding earlier iterations already, and
- *         film->passes tile passes of the block that begins at options.first
- * Returns false with a message when the film and the options do not fit together. */
-bool render_scene(struct job *job, struct film *film, struct error *err);
+ *   job   settled, its scene prepared
+ *   p     its method; what that learns is in it afterwards
+ *   film  initialised by film_init for job->film_rect, possibly holding earlier iterations already, and
+ *         film->passes tile passes of the block that begins at job->first
+ * Returns false with a message when the film and the job do not fit together. */
+bool render_scene(struct render_job *job, struct prepared *p, struct film *film, struct error *err);
 
 /* tiling_of: a film in tiles as a method wants them. tiling_count: how many; tiling_pixels: number 0 <= i < count. The
  * first few lie all over the film: they show what it is of, and how long the others will take. */

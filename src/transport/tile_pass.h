@@ -5,32 +5,10 @@
 #ifndef ASBDPT_TRANSPORT_TILE_PASS_H
 #define ASBDPT_TRANSPORT_TILE_PASS_H
 
-#include "scene/film.h"
 #include "transport/pool.h"
+#include "transport/render_job.h"
 
 struct observer;
-
-/* pbrt-v3's lightsamplestrategy: how s = 1 chooses lights. SPATIAL: by region, if the method learns that; else, and
- * where light sub-paths start, by power. UNIFORM is of the scene (scene_uniform). */
-enum light_strategy { LIGHTS_SPATIAL, LIGHTS_POWER, LIGHTS_UNIFORM };
-
-/* The parameters of a render, which do not change while it runs. */
-struct render_job {
-    const struct scene *scene;
-    struct pixel_rect film_rect; /* the crop in pixels */
-    uint64_t seed;
-    uint64_t eye_seed; /* of eye sub-paths; equal to `seed` except in measurements */
-    int max_depth;
-    int n_threads;
-    double rr_threshold; /* of Russian roulette, see path.h */
-    enum light_strategy strategy;
-    /* A method calls this from time to time while it prepares, one call at a time, with the number of sub-paths that it
-     * has traced. If it returns false, the method stops preparing and uses the result so far. May be NULL. */
-    bool (*watch)(void *context, double traced);
-    void *watch_context;
-    bool (*enough)(void *context); /* see pass_enough; NULL: never */
-    void *enough_context;
-};
 
 /* How a method divides its work into tile passes. */
 struct pass_size {
@@ -57,20 +35,22 @@ struct tile_pass {
     struct tile *tile; /* started; receives the result */
     struct workspace *work;
     const struct observer *observer; /* sample.h; NULL: none */
+    bool trial; /* no picture has it: it ends at CANCEL_BLOCK, too */
+    bool taken; /* some of it is in the film already: it must be rendered to its end */
 };
 
-/* pass_enough: should the tile pass stop early? Every method asks before each of its samples. After the first yes the
- * answer stays yes, and the tile is discarded.
+/* pass_cancelled: should the tile pass stop early? Every method asks before each of its samples. After the first yes
+ * the answer stays yes, and the tile is discarded.
  * pass_pixel: pixel i of the tile; false if there are not so many, and if the pass should stop, except for pixel 0. */
-static inline bool pass_enough(const struct render_job *job)
+static inline bool pass_cancelled(const struct tile_pass *pass)
 {
-    return job->enough != NULL && job->enough(job->enough_context);
+    return !pass->taken && job_cancelled(pass->job) >= (pass->trial ? CANCEL_BLOCK : CANCEL_NOW);
 }
 
 static inline bool pass_pixel(const struct tile_pass *pass, int i, int *x, int *y)
 {
     const struct tile *tile = pass->tile;
-    if (i >= tile->n_pixels || (i > 0 && pass_enough(pass->job)))
+    if (i >= tile->n_pixels || (i > 0 && pass_cancelled(pass)))
         return false;
     *x = tile->pixel[i][0];
     *y = tile->pixel[i][1];

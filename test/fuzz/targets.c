@@ -236,7 +236,7 @@ enum { WIDTH = 3, HEIGHT = 2, SAMPLES = 2, DEPTH = 4 };
 
 static void render(const struct scene *scene, const char *integrator)
 {
-    struct render_options o = {.integrator = method_of(scene, integrator), .end = SAMPLES, .n_threads = 1,
+    struct render_job o = {.integrator = method_of(scene, integrator), .end = SAMPLES, .n_threads = 1,
                                .max_depth = DEPTH};
     struct film film;
     struct error err = {.text = ""};

@@ -20,7 +20,7 @@ const char *aov_name(enum aov which)
 /* A sample of each pixel; rows of the picture are the jobs. */
 struct pass {
     const struct scene *scene;
-    const struct render_options *options;
+    const struct render_job *options;
     struct pixel_rect rect;
     int samples, surfaces; /* of a pixel; of an eye sub-path that are looked at */
     int sample;            /* this one */
@@ -108,11 +108,12 @@ static void do_row(void *context, int64_t row, int slot, int thread)
 static bool row_done(void *context, int64_t row, int slot)
 {
     struct pass *r = context;
-    const struct render_options *o = r->options;
+    const struct render_job *o = r->options;
     double done = r->sample + (double)(row + 1) / rect_height(r->rect);
-    enum render_wish wish = o->progress != NULL ? o->progress(o->progress_context, done / r->samples) : RENDER_GO_ON;
     (void)slot;
-    r->stopped = wish == RENDER_STOP || (wish == RENDER_END_BLOCK && done >= 1);
+    job_progress(o, 1, done / r->samples);
+    enum cancel cancel = job_cancelled(o);
+    r->stopped = cancel == CANCEL_NOW || (cancel == CANCEL_BLOCK && done >= 1);
     return !r->stopped;
 }
 
@@ -134,7 +135,7 @@ static bool divide(const struct pass *r)
     return all;
 }
 
-bool aov_render(const struct scene *scene, const struct render_options *options, bool seen,
+bool aov_render(const struct scene *scene, const struct render_job *options, bool seen,
                 float *const out[N_FIRST_HIT])
 {
     struct pass r = {.scene = scene, .rect = render_crop(scene), .options = options, .out = out};

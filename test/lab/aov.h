@@ -31,12 +31,12 @@ const char *aov_name(enum aov which);
 
 /* aov_render: the first-hit pictures.
  *   scene    prepared
- *   options  of the render: its seed, its threads, the samples [0, end), at least 1, and its progress: asked after
- *            each row; RENDER_END_BLOCK ends it as soon as every pixel has a sample, RENDER_STOP at once
+ *   options  of the render: its seed, its threads, the samples [0, end), at least 1, and its progress, told after
+ *            each row; CANCEL_BLOCK ends it as soon as every pixel has a sample, CANCEL_NOW at once
  *   seen     albedo and normal of what is seen in mirrors and through glass
  *   out      [N_FIRST_HIT] pictures of render_crop's size, each [height*width*3], black
  * Returns false if there are pixels without a sample, which stay black. The same numbers for any number of threads. */
-bool aov_render(const struct scene *scene, const struct render_options *options, bool seen,
+bool aov_render(const struct scene *scene, const struct render_job *options, bool seen,
                 float *const out[N_FIRST_HIT]);
 
 #endif

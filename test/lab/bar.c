@@ -16,18 +16,18 @@ void bar_part(struct bar *b, double share)
     progress_update(&b->progress, fmin(b->begun, 1));
 }
 
-static enum render_wish show(void *context, double done)
+static void show(void *context, double learnt, double done)
 {
     struct bar *b = context;
+    (void)learnt;
     progress_update(&b->progress, fmin(b->begun + done * b->share, 1));
-    return RENDER_GO_ON;
 }
 
-void bar_follow(struct bar *b, double share, struct render_options *o)
+void bar_follow(struct bar *b, double share, struct render_job *o)
 {
     bar_part(b, share);
     o->progress = show;
-    o->progress_context = b;
+    o->context = b;
 }
 
 void bar_clear(struct bar *b) { progress_end(&b->progress); }

@@ -20,7 +20,7 @@ struct bar {
  * bar_clear: remove it, so that a line can be printed; the next part shows it again. */
 void bar_start(struct bar *b, bool quiet);
 void bar_part(struct bar *b, double share);
-void bar_follow(struct bar *b, double share, struct render_options *o);
+void bar_follow(struct bar *b, double share, struct render_job *o);
 void bar_clear(struct bar *b);
 
 #endif

@@ -88,7 +88,7 @@ static void measure_rays(const struct scene *s, double *value)
 static bool render_once(const struct scene *s, struct bench_options *o, enum part part, const char *integrator,
                         int n_threads, double *cpu, struct error *err)
 {
-    struct render_options options = {
+    struct render_job options = {
         .integrator = method_of(s, integrator), .end = o->spp, .max_depth = o->max_depth, .n_threads = n_threads};
     struct timed took;
     bar_follow(&o->bar, SHARES[part] / o->scenes.n, &options);

@@ -62,6 +62,7 @@ struct corpus {
     struct scene scene;
     int depth;
     double started; /* CPU time when the method under way began */
+    bool late;
     struct entry entry[METHODS_MAX];
     float *mean; /* of all pictures */
 };
@@ -89,11 +90,11 @@ static bool specular(const struct material *m)
     return m->same.lobe != NULL ? m->same.n_smooth < m->same.n_lobes : m->row->may_be_delta;
 }
 
-static struct render_options options_of(struct corpus *c, const struct measured *m, int seed)
+static struct render_job options_of(struct corpus *c, const struct measured *m, int seed)
 {
     settings_clear(&c->scene.settings);
     c->scene.settings = measured_settings(m, NULL);
-    struct render_options o = {.integrator = method_of(&c->scene, m->integrator), .seed = (uint64_t)seed,
+    struct render_job o = {.integrator = method_of(&c->scene, m->integrator), .seed = (uint64_t)seed,
                                .end = c->o->spp, .n_threads = 1, .max_depth = c->depth};
     return o;
 }
@@ -102,7 +103,7 @@ static struct render_options options_of(struct corpus *c, const struct measured 
 static const char *winner(struct corpus *c)
 {
     for (int i = 0; i < c->methods.n; i++) {
-        struct render_options o = options_of(c, &c->methods.item[i], 1);
+        struct render_job o = options_of(c, &c->methods.item[i], 1);
         struct render_job job = {.scene = NULL};
         struct prepared p;
         if (!render_prepare(&c->scene, &o, render_crop(&c->scene), &job, &p, NULL))
@@ -140,10 +141,18 @@ static const char *name(const struct corpus *c, int v)
 
 /* --- renders ------------------------------------------------------------------------------------------ */
 
-static enum render_wish in_time(void *context, double done)
+/* The clock is looked at between chunks of work: often it would take time itself. */
+static void look_at_clock(void *context, double learnt, double done)
+{
+    struct corpus *c = context;
+    (void)learnt, (void)done;
+    c->late = os_cpu_seconds() - c->started > c->o->limit;
+}
+
+static enum cancel in_time(void *context)
 {
     const struct corpus *c = context;
-    return done < 1 && os_cpu_seconds() - c->started > c->o->limit ? RENDER_STOP : RENDER_GO_ON;
+    return c->late ? CANCEL_NOW : CANCEL_NOT;
 }
 
 static void forget(struct corpus *c, struct entry *e)
@@ -162,11 +171,13 @@ static void render_method(struct corpus *c, int v)
     struct error err = {.text = ""};
     say_line("begin %s", name(c, v));
     c->started = os_cpu_seconds();
+    c->late = false;
     for (int i = 0; i < c->o->seeds; i++) {
-        struct render_options o = options_of(c, m, i + 1);
+        struct render_job o = options_of(c, m, i + 1);
         struct timed took;
-        o.progress = in_time;
-        o.progress_context = c;
+        o.progress = look_at_clock;
+        o.cancel = in_time;
+        o.context = c;
         bool ok = timed_render(&c->scene, &o, &took, &err), late = os_cpu_seconds() - c->started > c->o->limit;
         e->picture[i] = took.pixels;
         e->seconds[i] = took.seconds;

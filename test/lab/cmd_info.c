@@ -113,18 +113,18 @@ static bool print_picture(const char *path, const char *format, struct error *er
 /* --- the command --------------------------------------------------------------------------------------- */
 
 struct info_options {
-    struct job_options job;
+    struct render_job job;
     bool race;
 };
 
 /* By asbdpt, unless another integrator was named. */
-static bool print_race(struct job *job, struct error *err)
+static bool print_race(struct render_job *job, struct prepared *p, struct error *err)
 {
-    if (method_has(job->options.integrator, "race") == NULL)
+    if (method_has(job->integrator, "race") == NULL)
         return error_usage(err, "--race: %s has no race; select=subspaces of asbdpt has",
-                           job->options.integrator->name);
-    job_prepare(job);
-    const struct race_result result = race_result(&job->prepared);
+                           job->integrator->name);
+    job_prepare(job, p);
+    const struct race_result result = race_result(p);
     race_print_table(stdout, &result);
     return true;
 }
@@ -132,23 +132,23 @@ static bool print_race(struct job *job, struct error *err)
 static int run(void *options)
 {
     struct info_options *info = options;
-    struct job_options *o = &info->job;
+    struct render_job *o = &info->job;
     struct scene scene;
-    struct job job;
+    struct prepared prepared;
     double start = os_wall_seconds();
     struct error err;
     char known[IMAGE_LIST_TEXT];
     const char *format = extension(o->scene_path, known);
     if (format != NULL)
         return print_picture(o->scene_path, format, &err) ? EXIT_OK : fail(&err);
-    if (info->race && o->integrator == NULL)
-        o->integrator = "asbdpt";
-    int status = load_job(o, &scene, &job);
+    if (info->race && o->integrator_name == NULL)
+        o->integrator_name = "asbdpt";
+    int status = load_job(o, &scene, &prepared);
     if (status != EXIT_OK)
         return status;
-    print_scene(&scene, job.options.integrator, os_wall_seconds() - start);
-    bool ok = !info->race || print_race(&job, &err);
-    job_free(&job);
+    print_scene(&scene, o->integrator, os_wall_seconds() - start);
+    bool ok = !info->race || print_race(o, &prepared, &err);
+    method_release(&prepared);
     scene_free(&scene);
     return ok ? EXIT_OK : fail(&err);
 }

@@ -11,7 +11,7 @@
 #include "lab/methods.h"
 
 struct more_options {
-    struct job_options job;
+    struct render_run run;
     struct look_options look;
 };
 
@@ -34,7 +34,7 @@ static const struct option OPTIONS[] = {
 static const char *of_samples(const struct more_options *o)
 {
     return looks_variance(&o->look) ? "--aov variance" : o->look.lights != NULL ? "--lights"
-           : o->look.alpha ? "--alpha" : keep_asks_noise(&o->job.keep) ? "--noise" : NULL;
+           : o->look.alpha ? "--alpha" : keep_asks_noise(&o->run.job) ? "--noise" : NULL;
 }
 
 /* Can the method show that? */
@@ -51,29 +51,29 @@ static bool can_show(const struct more_options *o, const struct method *m, struc
 static bool check(const struct more_options *o, struct error *err)
 {
     bool kept = looks_variance(&o->look) || o->look.lights != NULL || o->look.alpha;
-    if (o->job.keep.resume != NULL && kept)
+    if (o->run.keep.resume != NULL && kept)
         return error_set(err, "%s: variance, lights and alpha are not saved and cannot be resumed; render them by "
-                         "--samples, and take the mean by sum --weights", o->job.keep.resume);
+                         "--samples, and take the mean by sum --weights", o->run.keep.resume);
     return looks_check(&o->look, err);
 }
 
 static int run(void *options)
 {
     struct more_options *o = options;
-    struct render_run r;
+    struct render_run *r = &o->run;
     struct looks looks;
     struct error err;
     if (!check(o, &err))
         return fail(&err);
-    int status = render_open(&r, &o->job);
+    int status = render_open(r);
     if (status != EXIT_OK)
         return status;
-    bool ok = can_show(o, r.job.options.integrator, &err) && looks_open(&looks, &o->look, &r, &err);
+    bool ok = can_show(o, r->job.integrator, &err) && looks_open(&looks, &o->look, r, &err);
     if (ok) {
-        ok = render_work(&r, &err);
+        ok = render_work(r, &err);
         ok = looks_write(&looks, ok, &err);
     }
-    return render_close(&r, ok, &err);
+    return render_close(r, ok, &err);
 }
 
 const struct command command_render_more = {

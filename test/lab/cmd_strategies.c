@@ -14,7 +14,7 @@
 enum { STRATEGIES_MAX_DEPTH = 20 };
 
 struct strategies_options {
-    struct job_options job;
+    struct render_job job;
     const char *directory;
 };
 
@@ -46,7 +46,7 @@ static bool write_all(const char *directory, const struct strategy_images *image
     return ok && pyramid_write(directory, images, scale, err);
 }
 
-static bool render(const struct scene *scene, struct render_options o, const char *directory, struct error *err)
+static bool render(const struct scene *scene, struct render_job o, const char *directory, struct error *err)
 {
     struct strategy_images images;
     if (o.max_depth > STRATEGIES_MAX_DEPTH)
@@ -62,18 +62,18 @@ static int run(void *options)
 {
     struct strategies_options *o = options;
     struct scene scene;
-    struct job job;
+    struct prepared prepared;
     struct error err;
     struct bar bar;
-    int status = load_job(&o->job, &scene, &job);
+    int status = load_job(&o->job, &scene, &prepared);
     if (status != EXIT_OK)
         return status;
     bar_start(&bar, o->job.quiet);
-    bar_follow(&bar, 1, &job.options);
+    bar_follow(&bar, 1, &o->job);
     bool ok = file_make_directory(o->directory, &err) &&
-              render(&scene, job.options, o->directory, &err);
+              render(&scene, o->job, o->directory, &err);
     bar_clear(&bar);
-    job_free(&job);
+    method_release(&prepared);
     scene_free(&scene);
     if (ok && !o->job.quiet)
         say_line("wrote the pictures of all strategies, and pyramid.png, into %s", o->directory);

@@ -6,7 +6,7 @@
 #include "lab/trace_report.h"
 
 struct trace_options {
-    struct job_options job;
+    struct render_job job;
     int pixel[2], sample;
     bool brightest, all, values;
     const char *svg; /* NULL: no drawing */
@@ -26,20 +26,20 @@ static const struct option OPTIONS[] = {
 
 static int run(void *options)
 {
-    const struct trace_options *o = options;
+    struct trace_options *o = options;
     struct scene scene;
-    struct job job;
+    struct prepared prepared;
     struct error err;
     struct trace trace = {.x = o->pixel[0], .y = o->pixel[1], .iteration = o->brightest ? TRACE_BRIGHTEST : o->sample,
                           .wants_splats = o->values};
     struct file_output svg = {.stream = NULL}; /* opened before the work */
-    int status = load_job(&o->job, &scene, &job);
+    int status = load_job(&o->job, &scene, &prepared);
     if (status != EXIT_OK)
         return status;
-    const struct trace_story story = {o->job.scene_path, &scene, job.options.integrator, o->job.seed, &trace};
+    const struct trace_story story = {o->job.scene_path, &scene, o->job.integrator, o->job.seed, &trace};
     struct texts outputs = {(const char **)&o->svg, o->svg != NULL};
     bool ok = job_spares(&scene, &outputs, &err) && (o->svg == NULL || file_create(o->svg, &svg, &err)) &&
-              trace_render(&scene, &job.options, &trace, &err);
+              trace_render(&scene, &o->job, &trace, &err);
     if (ok && o->values)
         trace_values(stdout, &story);
     else if (ok)
@@ -51,7 +51,7 @@ static int run(void *options)
     else if (svg.stream != NULL)
         file_abandon(&svg);
     trace_free(&trace);
-    job_free(&job);
+    method_release(&prepared);
     scene_free(&scene);
     return ok ? EXIT_OK : fail(&err);
 }

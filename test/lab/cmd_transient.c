@@ -15,7 +15,7 @@
 #include "lab/sheet.h"
 
 struct transient_options {
-    struct job_options job;
+    struct render_job job;
     const char *directory;
     double range[2]; /* 0, 0: across the scene */
     int n;
@@ -32,7 +32,7 @@ static const struct option OPTIONS[] = {
 };
 
 /* One render by all gates. Pictures, [gates.n][pixels*3], to be freed; NULL with a message. */
-static float *render(const struct scene *scene, const struct render_options *o, struct gates gates, struct error *err)
+static float *render(const struct scene *scene, const struct render_job *o, struct gates gates, struct error *err)
 {
     struct film film;
     size_t n = 3 * rect_pixels(render_crop(scene)) * (size_t)gates.n;
@@ -89,23 +89,23 @@ static int run(void *options)
     struct transient_options *o = options;
     struct gates gates = {o->range[0], (o->range[1] - o->range[0]) / o->n, o->n};
     struct scene scene;
-    struct job job;
+    struct prepared prepared;
     struct bar bar;
     struct error err;
-    int status = load_job(&o->job, &scene, &job);
+    int status = load_job(&o->job, &scene, &prepared);
     if (status != EXIT_OK)
         return status;
     bar_start(&bar, o->job.quiet);
-    bar_follow(&bar, 1, &job.options);
+    bar_follow(&bar, 1, &o->job);
     struct pixel_rect r = render_crop(&scene);
     if (!(o->range[1] > 0))
         choose_range(&scene, &gates);
     bool ok = file_make_directory(o->directory, &err);
-    float *pictures = ok ? render(&scene, &job.options, gates, &err) : NULL;
+    float *pictures = ok ? render(&scene, &o->job, gates, &err) : NULL;
     ok = pictures != NULL && write_all(o->directory, gates, pictures, rect_width(r), rect_height(r), &err);
     bar_clear(&bar);
     free(pictures);
-    job_free(&job);
+    method_release(&prepared);
     scene_free(&scene);
     if (ok && !o->job.quiet)
         say_line("wrote %d pictures, and transient.png, into %s", gates.n, o->directory);

@@ -20,7 +20,7 @@ struct source {
 };
 
 struct verify_options {
-    struct job_options job;
+    struct render_job job;
     const char *methods;   /* A or A,B; or NULL */
     const char *reference; /* a stored picture instead of the second method, or NULL */
     const char *store;     /* write the mean of both sides as STORE.pfm ..., or NULL */
@@ -147,8 +147,8 @@ static bool render_side(struct scene *scene, const struct verify_options *o, int
 {
     static const double seconds = 20; /* of rendering */
     const struct measured *given = &o->source[number].method;
-    struct render_options options = {.integrator = o->by[number], .seed = o->job.seed,
-                                     .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
+    struct render_job options = {.integrator = o->by[number], .seed = o->job.seed,
+                                 .n_threads = o->job.n_threads, .max_depth = o->job.max_depth};
     struct settings shared = scene->settings;
     scene->settings = measured_settings(given, &shared);
     options.end = o->job.spp > 0 ? o->job.spp : side_choose_spp(scene, &options, o->batches, seconds, err);
@@ -262,13 +262,13 @@ static int judge(const struct verify_options *o, uint64_t content, int max_depth
 
 static int load(struct verify_options *o, struct scene *scene, int *max_depth)
 {
-    const struct job_request request = job_request(&o->job);
-    struct job job;
+    struct render_job job = o->job;
+    struct prepared prepared;
     const struct method *readers[3] = {NULL, NULL, NULL};
     struct error err;
-    if (!job_open(&request, scene, &readers[0], &err))
+    if (!job_open(&job, scene, &err))
         return job_failed(&err);
-    bool ok = choose_integrators(o, scene, readers[0], &err);
+    bool ok = choose_integrators(o, scene, job.integrator, &err);
     for (int i = 0, n = 0; i < 2; i++)
         if (o->by[i] != NULL)
             readers[n++] = o->by[i];
@@ -276,10 +276,10 @@ static int load(struct verify_options *o, struct scene *scene, int *max_depth)
         scene_free(scene);
         return fail(&err);
     }
-    if (!job_ready(&request, readers, scene, &job, &err))
+    if (!job_ready(&job, readers, scene, &prepared, &err))
         return job_failed(&err);
-    *max_depth = job.options.max_depth;
-    job_free(&job);
+    *max_depth = job.max_depth;
+    method_release(&prepared);
     return EXIT_OK;
 }
 

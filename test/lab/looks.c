@@ -116,8 +116,8 @@ static bool open_lights(struct looks *l, struct error *err)
 static bool names_differ(const struct looks *l, struct error *err)
 {
     struct texts names = {0};
-    options_written(RENDER_OPTIONS, l->run->asked, &names);
-    if (l->run->asked->output.n == 0)
+    options_written(RENDER_OPTIONS, l->run, &names);
+    if (l->run->output.n == 0)
         texts_add(&names, l->run->pictures.item[0].file.path);
     for (int i = 0; i < l->n; i++)
         if (l->item[i].light >= 0 || l->item[i].aov < N_AOVS)
@@ -152,13 +152,13 @@ static bool begin_planes(struct looks *l, struct error *err)
     const struct look_options *o = l->options;
     struct error why;
     planes_init(&l->planes, &r->scene, &r->film, o->lights != NULL, o->alpha, l->wanted[AOV_VARIANCE],
-                r->job.options.n_threads);
+                r->job.n_threads);
     if (!budget_has(&r->scene.memory, (1 + l->planes.n) * film_bytes(r->film.rect), &why))
         return error_set(err, "%s: its film and %d more of %dx%d pixels: %s; --res makes them smaller",
-                         r->asked->scene_path, l->planes.n, r->scene.width, r->scene.height, why.text);
+                         r->job.scene_path, l->planes.n, r->scene.width, r->scene.height, why.text);
     l->observers = planes_observers(&l->planes);
     if (l->planes.n > 0 && (r->scene.lights.n > 0 || o->alpha)) /* else all samples are black */
-        r->job.options.observers = &l->observers;
+        r->job.observers = &l->observers;
     return true;
 }
 
@@ -175,25 +175,31 @@ bool looks_open(struct looks *l, const struct look_options *o, struct render_run
 
 static bool late(const struct keep *k)
 {
-    return k->options->time > 0 && os_wall_seconds() - k->begun >= k->options->time;
+    return k->time > 0 && os_wall_seconds() - k->begun >= k->time;
 }
 
 /* First-hit images, too, end at a signal and in time. */
-static enum render_wish watch(void *context, double done)
+static enum cancel cancel(void *context)
+{
+    return interrupt_caught() != 0 ? CANCEL_NOW : late(context) ? CANCEL_BLOCK : CANCEL_NOT;
+}
+
+static void progress(void *context, double learnt, double done)
 {
     struct keep *k = context;
+    (void)learnt;
     progress_update(&k->bar, done);
-    return interrupt_caught() != 0 ? RENDER_STOP : late(k) ? RENDER_END_BLOCK : RENDER_GO_ON;
 }
 
 static bool make_first_hit(const struct looks *l, float *const picture[N_AOVS])
 {
     struct keep *k = &l->run->keep;
-    struct render_options o = l->run->job.options;
+    struct render_job o = l->run->job;
     o.end = l->run->film.iterations > 0 ? l->run->film.iterations : 1;
-    o.progress = watch;
-    o.progress_context = k;
-    progress_start(&k->bar, l->run->asked->quiet);
+    o.progress = progress;
+    o.cancel = cancel;
+    o.context = k;
+    progress_start(&k->bar, l->run->job.quiet);
     strcpy(k->bar.note, " of --aov");
     bool ok = aov_render(&l->run->scene, &o, l->options->seen, picture);
     progress_end(&k->bar);
@@ -266,7 +272,7 @@ static bool write_all(struct looks *l, float *const picture[N_AOVS], bool ok, st
             continue;
         char *name = mem_copy_text(f->file.path);
         bool done = write_one(l, f, picture, ok ? err : NULL);
-        if (done && !l->run->asked->quiet)
+        if (done && !l->run->job.quiet)
             say_line("wrote %s", name);
         ok = ok && done;
         free(name);

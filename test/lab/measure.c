@@ -73,13 +73,13 @@ static void keep_earlier(const struct pace *pace)
     free(r.pixels);
 }
 
-static enum render_wish show_progress(void *context, double done)
+static void show_progress(void *context, double learnt, double done)
 {
     struct pace *pace = context;
+    (void)learnt;
     progress_update(&pace->bar, (pace->done + done * pace->share) / pace->total);
     if (pace->s != NULL && done < 1 && pace->film->passes == 0 && pace->film->iterations > 0)
         keep_earlier(pace);
-    return RENDER_GO_ON;
 }
 
 /* Against the reference. */
@@ -133,13 +133,13 @@ static bool render_run(struct subject *s, int method, int seed, const long *spp,
 {
     const struct plan *p = s->plan;
     uint64_t number = plan_seed(p, method, seed);
-    struct render_options o = subject_options(s, &p->methods.item[method], number, p->n_threads);
+    struct render_job o = subject_options(s, &p->methods.item[method], number, p->n_threads);
     struct film film;
     double prepared = 0, seconds = 0;
     int block = 0;
     bool ok = n == 1 || timed_prepare(&s->scene, &o, &prepared, &block, s->err);
     o.progress = show_progress;
-    o.progress_context = s->pace;
+    o.context = s->pace;
     s->pace->s = NULL;
     if (p->equal) {
         o.block = (int)earlier_step(spp[0], 1); /* where the method leaves that open; changes nothing of the picture */
@@ -256,7 +256,7 @@ static bool make_reference(struct subject *s)
     snprintf(directory, sizeof directory, "%s/reference", p->directory);
     snprintf(key, sizeof key, "%s %016" PRIx64 " %08lx %dx%d maxdepth=%d %s spp=%d", r->name, s->scene.content,
              subject_probe(s, 0), r->width, r->height, r->max_depth, m.text, spp);
-    struct render_options o = subject_options(s, &m, ~p->seed - REFERENCE_SEED, p->n_threads);
+    struct render_job o = subject_options(s, &m, ~p->seed - REFERENCE_SEED, p->n_threads);
     return reference_make(&s->scene, &o, spp, directory, r->name, key, &r->reference, s->err);
 }
 

@@ -113,28 +113,25 @@ const struct method *method_of(const struct scene *scene, const char *name)
     return method_find(name, &scene->settings, NULL);
 }
 
-bool render_by(const struct scene *scene, const struct render_options *o, struct film *film, struct error *err)
+bool render_by(const struct scene *scene, const struct render_job *o, struct film *film, struct error *err)
 {
-    struct job job;
-    if (!job_settle(scene, o, &job, err))
+    struct render_job job = *o;
+    struct prepared prepared;
+    if (!job_settle(&job, scene, &prepared, err))
         return false;
-    bool ok = render_scene(&job, film, err);
-    job_free(&job);
+    bool ok = render_scene(&job, &prepared, film, err);
+    method_release(&prepared);
     return ok;
 }
 
-bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
+bool render_prepare(const struct scene *scene, const struct render_job *options, struct pixel_rect rect,
                     struct render_job *job, struct prepared *prepared, struct error *err)
 {
-    struct job whole;
-    if (!job_settle(scene, options, &whole, err))
+    *job = *options;
+    if (!job_settle(job, scene, prepared, err))
         return false;
-    whole.state.film_rect = rect;
-    whole.state.watch = job->watch;
-    whole.state.watch_context = job->watch_context;
-    job_prepare(&whole);
-    *job = whole.state;
-    *prepared = whole.prepared;
+    job->film_rect = rect;
+    job_prepare(job, prepared);
     return true;
 }
 

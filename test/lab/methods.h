@@ -66,9 +66,9 @@ const struct method *method_named(const char *name);
 const struct method *method_of(const struct scene *scene, const char *name);
 
 /* render_by: settle a job and render it. render_prepare: settle a job for these pixels of the scene, and prepare it.
- * Both its halves are copied, and method_release(prepared) must follow. Both return false with a message. */
-bool render_by(const struct scene *scene, const struct render_options *o, struct film *film, struct error *err);
-bool render_prepare(const struct scene *scene, const struct render_options *options, struct pixel_rect rect,
+ * After success method_release(prepared) must follow. Both return false with a message. */
+bool render_by(const struct scene *scene, const struct render_job *o, struct film *film, struct error *err);
+bool render_prepare(const struct scene *scene, const struct render_job *options, struct pixel_rect rect,
                     struct render_job *job, struct prepared *prepared, struct error *err);
 
 /* methods_read: a list. False with a message on an integrator, a parameter or a value that does not exist, and if a

@@ -70,10 +70,10 @@ static void end(void *context, int slot)
             l->taker->take(l->taker->context, p, pixel_of(l, p->x, p->y), 1);
 }
 
-bool paths_render(const struct scene *scene, const struct render_options *options, struct film *film,
+bool paths_render(const struct scene *scene, const struct render_job *options, struct film *film,
                   const struct path_taker *taker, struct error *err)
 {
-    struct render_options o = *options;
+    struct render_job o = *options;
     struct lists lists = {NULL, scene, film->rect, taker};
     const struct observers observers = {&lists, begin, end};
     if (!method_observable(options->integrator, err))
@@ -109,7 +109,7 @@ static void take_by_gate(void *context, const struct path_told *p, size_t pixel,
         at[c] += (double)p->unweighted[c] * (double)p->weight * factor;
 }
 
-bool gates_render(const struct scene *scene, const struct render_options *options, const struct gates *gates,
+bool gates_render(const struct scene *scene, const struct render_job *options, const struct gates *gates,
                   struct film *film, double *sum, struct error *err)
 {
     struct gate_sums sums = {gates, rect_pixels(film->rect), sum};

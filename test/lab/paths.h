@@ -25,7 +25,7 @@ struct path_taker {
 };
 
 /* paths_render: render_scene, all paths being handed to `taker`. */
-bool paths_render(const struct scene *scene, const struct render_options *options, struct film *film,
+bool paths_render(const struct scene *scene, const struct render_job *options, struct film *film,
                   const struct path_taker *taker, struct error *err);
 
 /* Gates of one width: number i is [begin + i width, begin + (i + 1) width). */
@@ -36,7 +36,7 @@ struct gates {
 
 /* gates_render: add to sum, [n][pixels*3], what comes by each of neighbouring gates (scene/film.h), all from one
  * render; the film is rendered as ever. False with a message. */
-bool gates_render(const struct scene *scene, const struct render_options *options, const struct gates *gates,
+bool gates_render(const struct scene *scene, const struct render_job *options, const struct gates *gates,
                   struct film *film, double *sum, struct error *err);
 
 #endif

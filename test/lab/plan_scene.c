@@ -36,14 +36,14 @@ bool plan_scene_read(const char *path, int width, int height, int max_depth, str
     memcpy(scene->crop, whole, sizeof whole);
     scene_resize(scene, width, height);
     filter_default("box", &scene->filter);
-    const struct render_options any = {.integrator = method_named(METHOD_REFERENCE), .max_depth = max_depth};
-    struct job job;
-    if (!job_settle(scene, &any, &job, err)) {
+    struct render_job any = {.integrator = method_named(METHOD_REFERENCE), .max_depth = max_depth};
+    struct prepared prepared;
+    if (!job_settle(&any, scene, &prepared, err)) {
         scene_free(scene);
         return false;
     }
-    *depth = job.options.max_depth;
-    job_free(&job);
+    *depth = any.max_depth;
+    method_release(&prepared);
     scene_prepare(scene);
     return true;
 }

@@ -195,11 +195,11 @@ const char *reference_method(const struct scene *scene, bool *all)
     return *all || scene->space != NULL ? METHOD_REFERENCE : METHOD_CAUSTICS;
 }
 
-bool reference_make(const struct scene *scene, const struct render_options *options, long spp, const char *directory,
+bool reference_make(const struct scene *scene, const struct render_job *options, long spp, const char *directory,
                     const char *name, const char *key, struct reference *out, struct error *err)
 {
     char stem[PATH_SIZE - 4], path[PATH_SIZE];
-    struct render_options o = *options;
+    struct render_job o = *options;
     struct side a = {0}, b = {0};
     snprintf(stem, sizeof stem, "%s/%s", directory, name);
     snprintf(path, sizeof path, "%s.pfm", stem);

@@ -61,7 +61,7 @@ const char *reference_method(const struct scene *scene, bool *all);
  * and depth too.
  *   options    who renders it, from which seed, how deep, on how many threads
  * Returns false with a message. */
-bool reference_make(const struct scene *scene, const struct render_options *options, long spp, const char *directory,
+bool reference_make(const struct scene *scene, const struct render_job *options, long spp, const char *directory,
                     const char *name, const char *key, struct reference *out, struct error *err);
 
 void reference_free(struct reference *r);

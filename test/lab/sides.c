@@ -84,10 +84,10 @@ bool side_errors_path(const char *path, char *out, size_t size, struct error *er
 
 /* --- rendering --------------------------------------------------------------------------------------- */
 
-static bool render_batch(const struct scene *scene, const struct render_options *options, uint64_t seed, double *out,
+static bool render_batch(const struct scene *scene, const struct render_job *options, uint64_t seed, double *out,
                          struct error *err)
 {
-    struct render_options o = *options;
+    struct render_job o = *options;
     struct film film;
     o.seed = seed;
     film_init(&film, render_crop(scene), scene->width, scene->height);
@@ -106,7 +106,7 @@ static uint64_t batch_seed(uint64_t seed, int side, int batch)
     return hash_combine(hash_combine(hash_mix(seed ^ 0xbb67ae8584caa73bu), (uint64_t)side), (uint64_t)batch);
 }
 
-bool side_render(const struct scene *scene, const struct render_options *options, int number, int n_batches, bool quiet,
+bool side_render(const struct scene *scene, const struct render_job *options, int number, int n_batches, bool quiet,
                  struct side *out, struct error *err)
 {
     struct progress bar;
@@ -140,10 +140,10 @@ bool side_choose_resolution(struct scene *scene, const struct side *like, struct
                      like->width, like->height, left[0], left[1]);
 }
 
-long side_choose_spp(const struct scene *scene, const struct render_options *options, int n_batches, double seconds,
+long side_choose_spp(const struct scene *scene, const struct render_job *options, int n_batches, double seconds,
                      struct error *err)
 {
-    struct render_options pilot = *options;
+    struct render_job pilot = *options;
     struct timed took;
     pilot.end = PILOT_SPP;
     if (!timed_render(scene, &pilot, &took, err))

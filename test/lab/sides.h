@@ -32,7 +32,7 @@ bool side_errors_path(const char *path, char *out, size_t size, struct error *er
  *   number  0 or 1: which side; the batches' seeds are hashes of it, of the batch and of options->seed
  *   quiet   show no progress
  * Returns false with a message. */
-bool side_render(const struct scene *scene, const struct render_options *options, int number, int n_batches, bool quiet,
+bool side_render(const struct scene *scene, const struct render_job *options, int number, int n_batches, bool quiet,
                  struct side *out, struct error *err);
 
 /* side_choose_resolution: the scene becomes as large as `like`, or for NULL keeps its shape with about 1000 pixels.
@@ -41,7 +41,7 @@ bool side_choose_resolution(struct scene *scene, const struct side *like, struct
 
 /* side_choose_spp: samples per pixel so that the batches take about `seconds`; 0 with a message when they cannot be
  * rendered. */
-long side_choose_spp(const struct scene *scene, const struct render_options *options, int n_batches, double seconds,
+long side_choose_spp(const struct scene *scene, const struct render_job *options, int n_batches, double seconds,
                      struct error *err);
 
 /* side_choose_tile: side of tiles that are large enough for means that are nearly normal, and not too many. */

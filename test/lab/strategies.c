@@ -37,7 +37,7 @@ static void take(void *context, const struct path_told *p, size_t pixel, double 
     }
 }
 
-bool strategies_render(const struct scene *scene, const struct render_options *options, struct strategy_images *images,
+bool strategies_render(const struct scene *scene, const struct render_job *options, struct strategy_images *images,
                        struct error *err)
 {
     const struct path_taker taker = {images, take};

@@ -25,7 +25,7 @@ void strategies_init(struct strategy_images *images, struct pixel_rect rect, int
 void strategies_free(struct strategy_images *images);
 
 /* strategies_render: render into black images, with options->max_depth = images->max_depth. */
-bool strategies_render(const struct scene *scene, const struct render_options *options, struct strategy_images *images,
+bool strategies_render(const struct scene *scene, const struct render_job *options, struct strategy_images *images,
                        struct error *err);
 
 /* strategies_picture: that of one, [height*width*3] linear, to be given to free().

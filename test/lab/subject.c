@@ -12,7 +12,7 @@
 
 enum { PROBE_WIDTH = 24, ROUNDS = 3, LEAST_TIMED = 4, TIMED_SHARE = 16 };
 
-struct render_options subject_options(struct subject *s, const struct measured *m, uint64_t seed, int n_threads)
+struct render_job subject_options(struct subject *s, const struct measured *m, uint64_t seed, int n_threads)
 {
     struct settings base = {0};
     if (s->plan->no_roulette)
@@ -20,7 +20,7 @@ struct render_options subject_options(struct subject *s, const struct measured *
     settings_clear(&s->scene.settings);
     s->scene.settings = measured_settings(m, &base);
     settings_clear(&base);
-    struct render_options o = {.integrator = method_of(&s->scene, m->integrator), .seed = seed, .n_threads = n_threads,
+    struct render_job o = {.integrator = method_of(&s->scene, m->integrator), .seed = seed, .n_threads = n_threads,
                                .max_depth = s->out->max_depth};
     return o;
 }
@@ -34,7 +34,7 @@ static void resize(struct scene *scene, int width, int height)
 
 unsigned long subject_probe(struct subject *s, int method)
 {
-    struct render_options o = subject_options(s, &s->plan->methods.item[method], 0, 1);
+    struct render_job o = subject_options(s, &s->plan->methods.item[method], 0, 1);
     struct timed picture;
     int width = s->scene.width, height = s->scene.height, least = width < PROBE_WIDTH ? width : PROBE_WIDTH;
     if (s->probe[method] != 0)
@@ -63,7 +63,7 @@ int subject_key(struct subject *s, int method, char key[STORE_KEY])
 static bool time_method(struct subject *s, int method, int seed, long spp, double *before, double *each)
 {
     uint64_t number = plan_seed(s->plan, method, seed);
-    struct render_options o = subject_options(s, &s->plan->methods.item[method], number, 1);
+    struct render_job o = subject_options(s, &s->plan->methods.item[method], number, 1);
     struct timed took;
     int block;
     if (!timed_prepare(&s->scene, &o, before, &block, s->err))

@@ -19,7 +19,7 @@ struct subject {
 };
 
 /* subject_options: how a method is rendered; the scene's settings become the method's. */
-struct render_options subject_options(struct subject *s, const struct measured *m, uint64_t seed, int n_threads);
+struct render_job subject_options(struct subject *s, const struct measured *m, uint64_t seed, int n_threads);
 
 /* subject_probe: checksum of a small picture of one sample per pixel by a method of the plan: it changes when the
  * scene, its files or the program do, so that what is kept of another scene or version is not taken for this one's. 0

@@ -7,7 +7,7 @@
 #include "base/os.h"
 #include "lab/methods.h"
 
-bool timed_film(const struct scene *scene, const struct render_options *o, struct film *film, struct timed *out,
+bool timed_film(const struct scene *scene, const struct render_job *o, struct film *film, struct timed *out,
                 struct error *err)
 {
     double cpu = os_cpu_seconds(), wall = os_wall_seconds();
@@ -25,7 +25,7 @@ float *timed_develop(const struct scene *scene, const struct film *film)
     return pixels;
 }
 
-bool timed_render(const struct scene *scene, const struct render_options *o, struct timed *out, struct error *err)
+bool timed_render(const struct scene *scene, const struct render_job *o, struct timed *out, struct error *err)
 {
     struct film film;
     struct timed none = {0};
@@ -38,7 +38,7 @@ bool timed_render(const struct scene *scene, const struct render_options *o, str
     return ok;
 }
 
-bool timed_prepare(const struct scene *scene, const struct render_options *o, double *seconds, int *block,
+bool timed_prepare(const struct scene *scene, const struct render_job *o, double *seconds, int *block,
                    struct error *err)
 {
     struct render_job job = {.scene = NULL};

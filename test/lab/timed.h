@@ -15,13 +15,13 @@ struct timed {
 
 /* timed_film: render into a film that there is, and add to out->seconds and out->wall. timed_render: render a picture
  * by itself; *out is filled, its pixels are the caller's. False with a message. */
-bool timed_film(const struct scene *scene, const struct render_options *o, struct film *film, struct timed *out,
+bool timed_film(const struct scene *scene, const struct render_job *o, struct film *film, struct timed *out,
                 struct error *err);
-bool timed_render(const struct scene *scene, const struct render_options *o, struct timed *out, struct error *err);
+bool timed_render(const struct scene *scene, const struct render_job *o, struct timed *out, struct error *err);
 
 /* timed_prepare: CPU seconds that preparing the method takes, and the length of the blocks that its samples come in; 0:
  * any. False with a message. */
-bool timed_prepare(const struct scene *scene, const struct render_options *o, double *seconds, int *block,
+bool timed_prepare(const struct scene *scene, const struct render_job *o, double *seconds, int *block,
                    struct error *err);
 
 /* timed_develop: the film's picture, to be freed. */

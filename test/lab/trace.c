@@ -160,7 +160,7 @@ double trace_pdf_rev(const struct scene *scene, const struct trace_path *path, i
 
 /* --- rendering --------------------------------------------------------------------------------------- */
 
-static bool check_sample(const struct render_options *o, struct pixel_rect film, const struct trace *t,
+static bool check_sample(const struct render_job *o, struct pixel_rect film, const struct trace *t,
                          struct error *err)
 {
     if (t->x < film.x0 || t->x >= film.x1 || t->y < film.y0 || t->y >= film.y1)
@@ -183,7 +183,8 @@ static void observe_tile(const struct render_job *job, const struct prepared *pr
 {
     struct tile tile = {.sum = NULL};
     struct workspace *work = workspaces_new(1, job->max_depth);
-    struct tile_pass pass = {job, first, end, &tile, work, observer};
+    struct tile_pass pass = {.job = job, .first = first, .end = end, .tile = &tile, .work = work,
+                             .observer = observer};
     tile_start(&tile, pixels, job->film_rect, &job->scene->filter);
     prepared->method->render(prepared, &pass);
     tile_free(&tile);
@@ -276,7 +277,7 @@ static long find_brightest(const struct render_job *job, const struct prepared *
     return found.iteration;
 }
 
-bool trace_render(const struct scene *scene, const struct render_options *options, struct trace *trace,
+bool trace_render(const struct scene *scene, const struct render_job *options, struct trace *trace,
                   struct error *err)
 {
     struct pixel_rect film = render_crop(scene);

@@ -69,7 +69,7 @@ void trace_free(struct trace *trace);
 /* trace_render: render one pixel sample, the one named in trace->x, y and iteration, exactly as render_scene with these
  * options would, and witness it; the rest of its tile comes along where it has light sub-paths in common.
  * Returns false with a message when there is no such sample or a parameter is bad. Either way trace_free follows. */
-bool trace_render(const struct scene *scene, const struct render_options *options, struct trace *trace,
+bool trace_render(const struct scene *scene, const struct render_job *options, struct trace *trace,
                   struct error *err);
 
 /* trace_sample: the same by a method that render_prepare has prepared, of a sample that there is. */

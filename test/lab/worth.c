@@ -98,24 +98,24 @@ static bool fill(struct view *v, int x, int y, struct error *err)
     return true;
 }
 
-bool worth_values(const struct scene *scene, const struct render_options *options, int x, int y, float *worth,
+bool worth_values(const struct scene *scene, const struct render_job *options, int x, int y, float *worth,
                   float *draws, struct error *err)
 {
     struct view v = {.worth = worth, .draws = draws};
-    struct job job;
-    if (!job_settle(scene, options, &job, err))
+    struct prepared prepared;
+    v.job = *options;
+    if (!job_settle(&v.job, scene, &prepared, err))
         return false;
-    job.state.film_rect = (struct pixel_rect){0, 0, scene->width, scene->height};
-    job.prepared.parameters.race = 0; /* which may choose a path tracer, that has no pairs */
-    job_prepare(&job);
-    v.job = job.state;
-    v.counts = job.prepared.counts;
+    v.job.film_rect = (struct pixel_rect){0, 0, scene->width, scene->height};
+    prepared.parameters.race = 0; /* which may choose a path tracer, that has no pairs */
+    job_prepare(&v.job, &prepared);
+    v.counts = prepared.counts;
     v.light = mem_alloc((size_t)v.job.max_depth + 1, sizeof *v.light);
     v.work = workspaces_new(1, v.job.max_depth);
     bool ok = fill(&v, x, y, err);
     workspaces_free(v.work, 1);
     free(v.light);
-    job_free(&job);
+    method_release(&prepared);
     return ok;
 }
 
@@ -175,7 +175,7 @@ static void draw_sheet(struct sheet *s, const struct scene *scene, const float *
     }
 }
 
-bool worth_picture(const struct scene *scene, const struct render_options *options, int x, int y, int scale,
+bool worth_picture(const struct scene *scene, const struct render_job *options, int x, int y, int scale,
                    struct sheet *out, struct error *err)
 {
     size_t n = (size_t)scene->width * (size_t)scene->height;

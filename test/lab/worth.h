@@ -27,12 +27,12 @@ enum { WORTH_RANGE = 1000 };
  *   worth, draws  out, [height*width] of the whole film, >= 0; the draws sum to at most 1
  * Returns false with a message: a bad parameter, a selection without such a table, or a pixel through which no surface
  * is seen that can be connected to. */
-bool worth_values(const struct scene *scene, const struct render_options *options, int x, int y, float *worth,
+bool worth_values(const struct scene *scene, const struct render_job *options, int x, int y, float *worth,
                   float *draws, struct error *err);
 
 /* worth_picture: all three, labelled, every pixel a square of `scale` pixels; 0: of as many as make each picture 320
  * pixels wide or more. *out is for the caller to free. */
-bool worth_picture(const struct scene *scene, const struct render_options *options, int x, int y, int scale,
+bool worth_picture(const struct scene *scene, const struct render_job *options, int x, int y, int scale,
                    struct sheet *out, struct error *err);
 
 #endif

@@ -30,7 +30,7 @@ bool chain_room(struct test *t, int width, int height, const char *lens, const c
 bool bench_new(struct test *t, const struct scene *scene, const char *integrator, int max_depth, uint64_t seed,
                struct bench *out)
 {
-    struct render_options o = {.integrator = method_of(scene, integrator), .seed = test_seed(t) + seed,
+    struct render_job o = {.integrator = method_of(scene, integrator), .seed = test_seed(t) + seed,
                                .max_depth = max_depth, .n_threads = 1};
     struct error err = {.text = ""};
     memset(out, 0, sizeof *out);
@@ -58,7 +58,7 @@ void bench_free(struct bench *b)
 
 struct tile_pass bench_pass(struct bench *b, long first, long end)
 {
-    struct tile_pass pass = {&b->job, first, end, &b->tile, b->work, NULL};
+    struct tile_pass pass = {.job = &b->job, .first = first, .end = end, .tile = &b->tile, .work = b->work};
     tile_start(&b->tile, pixels_all(b->job.film_rect), b->job.film_rect, &b->scene->filter);
     return pass;
 }

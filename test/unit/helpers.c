@@ -244,14 +244,14 @@ const char *method_name(const struct method *m)
     return text;
 }
 
-void render_film(struct test *t, const struct scene *scene, const struct render_options *o, struct film *film)
+void render_film(struct test *t, const struct scene *scene, const struct render_job *o, struct film *film)
 {
     struct error err;
     film_init(film, render_crop(scene), scene->width, scene->height);
     CHECK(t, render_by(scene, o, film, &err), "%s", err.text);
 }
 
-void render_pixels(struct test *t, const struct scene *scene, const struct render_options *o, float *out)
+void render_pixels(struct test *t, const struct scene *scene, const struct render_job *o, float *out)
 {
     struct film film;
     render_film(t, scene, o, &film);
@@ -268,7 +268,7 @@ bool films_equal(const struct film *a, const struct film *b)
     return true;
 }
 
-bool same_picture(struct test *t, struct scene *scene, const char *one, const char *other, struct render_options o)
+bool same_picture(struct test *t, struct scene *scene, const char *one, const char *other, struct render_job o)
 {
     struct film film[2];
     for (int i = 0; i < 2; i++) {
@@ -365,7 +365,7 @@ struct batches render_gated(struct test *t, const struct scene *scene, const cha
     struct pixel_rect crop = render_crop(scene);
     struct batches pixels = batches_new(n_batches, 3L * rect_width(crop) * rect_height(crop), false);
     struct batch_run r = {.gate = gate, .spp = spp * test_effort(t), .pixels = &pixels};
-    struct render_options o = {.integrator = method_of(scene, integrator), .max_depth = max_depth,
+    struct render_job o = {.integrator = method_of(scene, integrator), .max_depth = max_depth,
                                .n_threads = os_cores(), .seed = test_seed(t) * 1000003 + seed};
     struct parallel_jobs jobs = {.n_jobs = n_batches, .n_threads = o.n_threads, .n_slots = o.n_threads, .context = &r,
                                  .work = work_batch, .commit = commit_batch};
@@ -390,7 +390,7 @@ struct batches independent_batches(struct test *t, const struct scene *scene, co
 {
     struct side side = {.name = ""};
     struct error err = {.text = ""};
-    struct render_options o = {.integrator = method_of(scene, integrator), .seed = seed, .max_depth = max_depth,
+    struct render_job o = {.integrator = method_of(scene, integrator), .seed = seed, .max_depth = max_depth,
                                .end = spp * test_effort(t), .n_threads = 2};
     CHECK(t, side_render(scene, &o, 0, n_batches, true, &side, &err), "%s: %s", integrator, err.text);
     struct batches tiles = batches_tiles(&side.pixels, side.width, side.height, tile);

@@ -89,16 +89,16 @@ const struct method *set_row(struct scene *scene, const char *way);
 const char *method_name(const struct method *m);
 
 /* render_film: render into a fresh film of the scene's crop window, to be given to film_free. */
-void render_film(struct test *t, const struct scene *scene, const struct render_options *o, struct film *film);
+void render_film(struct test *t, const struct scene *scene, const struct render_job *o, struct film *film);
 
 /* render_pixels: render and develop: out is [pixels * 3]. */
-void render_pixels(struct test *t, const struct scene *scene, const struct render_options *o, float *out);
+void render_pixels(struct test *t, const struct scene *scene, const struct render_job *o, float *out);
 
 /* films_equal: the sums of all pixels of two films of one size, to the last bit. */
 bool films_equal(const struct film *a, const struct film *b);
 
 /* same_picture: do two ways (set_method) make the same film, to the last bit, with these options? */
-bool same_picture(struct test *t, struct scene *scene, const char *one, const char *other, struct render_options o);
+bool same_picture(struct test *t, struct scene *scene, const char *one, const char *other, struct render_job o);
 
 /* render_batches: render `n_batches` times with `spp` samples, times the effort, and average over square tiles of
  * `tile` pixels. Powers of two are best: low-discrepancy points lie evenly then. Batches are parts of one long render,

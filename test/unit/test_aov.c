@@ -22,7 +22,7 @@ struct pictures {
 static struct pictures render_seen(const struct scene *scene, long spp, int threads, bool seen)
 {
     struct pictures p;
-    struct render_options o = {.seed = 5, .end = spp, .n_threads = threads};
+    struct render_job o = {.seed = 5, .end = spp, .n_threads = threads};
     for (int i = 0; i < N_FIRST_HIT; i++)
         p.of[i] = mem_alloc(VALUES, sizeof *p.of[i]);
     aov_render(scene, &o, seen, p.of);
@@ -355,7 +355,7 @@ static double told_variance(struct test *t, const char *path, const char *integr
     if (!scene_from_file(t, path, W, H, &scene))
         return NAN;
     for (int seed = 0; seed < SEEDS; seed++) {
-        struct render_options o = {.integrator = method_of(&scene, integrator), .end = 16, .n_threads = 2,
+        struct render_job o = {.integrator = method_of(&scene, integrator), .end = 16, .n_threads = 2,
                                    .max_depth = 5,
                                    .seed = test_seed(t) + (uint64_t)seed};
         struct film film;
@@ -399,15 +399,21 @@ static void test_variance_bound(struct test *t)
 struct watcher {
     int rows, patience;
     double last;
-    enum render_wish then;
+    enum cancel then;
 };
 
-static enum render_wish watch(void *context, double done)
+static void watch(void *context, double learnt, double done)
 {
     struct watcher *w = context;
+    (void)learnt;
     w->rows++;
     w->last = done;
-    return w->rows > w->patience ? w->then : RENDER_GO_ON;
+}
+
+static enum cancel answer(void *context)
+{
+    const struct watcher *w = context;
+    return w->rows > w->patience ? w->then : CANCEL_NOT;
 }
 
 /* There are as many samples as the render has, at most; when time is over as many as there are, but one; at a signal
@@ -418,20 +424,20 @@ static void test_ends(struct test *t)
         long end;
         bool seen;
         int patience;
-        enum render_wish then;
+        enum cancel then;
         int rows, like; /* asked so often; the same as with so many samples; 0: not whole */
     } CASES[] = {
-        {3, false, 1000, RENDER_STOP, 3 * H, 3},    {3, true, 1000, RENDER_STOP, 3 * H, 3},
-        {99, false, 9999, RENDER_STOP, 64 * H, 64}, {9999, true, 9999, RENDER_STOP, 256 * H, 256},
-        {9, false, 2, RENDER_END_BLOCK, H, 1},      {9, true, H, RENDER_STOP, H + 1, -1},
-        {9, false, 2, RENDER_STOP, 3, 0}};
+        {3, false, 1000, CANCEL_NOW, 3 * H, 3},    {3, true, 1000, CANCEL_NOW, 3 * H, 3},
+        {99, false, 9999, CANCEL_NOW, 64 * H, 64}, {9999, true, 9999, CANCEL_NOW, 256 * H, 256},
+        {9, false, 2, CANCEL_BLOCK, H, 1},      {9, true, H, CANCEL_NOW, H + 1, -1},
+        {9, false, 2, CANCEL_NOW, 3, 0}};
     struct scene scene;
     if (!wall_scene(t, "Material \"matte\" \"rgb Kd\" [.25 .5 .75]", 2, &scene))
         return;
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
         struct watcher w = {0, CASES[i].patience, 0, CASES[i].then};
-        struct render_options o = {.seed = 5, .end = CASES[i].end, .n_threads = 1, .progress = watch,
-                                   .progress_context = &w};
+        struct render_job o = {.seed = 5, .end = CASES[i].end, .n_threads = 1, .progress = watch,
+                               .cancel = answer, .context = &w};
         struct pictures p;
         for (int k = 0; k < N_FIRST_HIT; k++)
             p.of[k] = mem_alloc(VALUES, sizeof *p.of[k]);

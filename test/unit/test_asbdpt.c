@@ -134,7 +134,7 @@ static void test_age(struct test *t)
         return;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         for (int more = 0; more < 2; more++) {
-            struct render_options o = {.end = cases[i].same + more, .max_depth = 4, .n_threads = 1};
+            struct render_job o = {.end = cases[i].same + more, .max_depth = 4, .n_threads = 1};
             CHECK(t, same_picture(t, &scene, cases[i].a, cases[i].b, o) == (more == 0),
                   "%s and %s: after %d iterations pictures %s", cases[i].a, cases[i].b, cases[i].same + more,
                   more == 0 ? "differ" : "are the same");
@@ -147,7 +147,7 @@ static void test_age(struct test *t)
 /* And with two sub-paths it is something else. */
 static void test_one_path(struct test *t)
 {
-    const struct render_options o = {.end = 20, .max_depth = 4};
+    const struct render_job o = {.end = 20, .max_depth = 4};
     struct scene scene;
     if (!scene_from_file(t, "scenes/test/light-kinds.pbrt", 40, 24, &scene))
         return;

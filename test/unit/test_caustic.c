@@ -134,7 +134,7 @@ static struct film floor_under(struct test *t, const char *things, const char *w
     struct scene scene;
     struct film film = {.sum = NULL};
     if (scene_from_format(t, &scene, FLOOR "%s WorldEnd", things)) {
-        struct render_options o = {.integrator = set_row(&scene, way), .end = spp, .max_depth = 3, .n_threads = 1};
+        struct render_job o = {.integrator = set_row(&scene, way), .end = spp, .max_depth = 3, .n_threads = 1};
         render_film(t, &scene, &o, &film);
         scene_free(&scene);
     }
@@ -342,7 +342,7 @@ static void test_no_rival(struct test *t)
                  {"scenes/test/caustic-lens.pbrt", "caustics with=pt longest=2", "pt", false},
                  {"scenes/test/caustic-ball.pbrt", "caustics with=bdpt longest=2", "bdpt", false}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const struct render_options o = {.end = 8, .max_depth = 4, .n_threads = 1};
+        const struct render_job o = {.end = 8, .max_depth = 4, .n_threads = 1};
         struct scene scene;
         if (!scene_from_file(t, cases[i].scene, 16, 16, &scene))
             return;

@@ -130,11 +130,11 @@ static void test_follow(struct test *t)
 /* --- the pool of states ------------------------------------------------------------------------------- */
 
 /* Goes on when asked so many times. */
-static enum render_wish hurry(void *context, double done)
+static enum cancel hurry(void *context)
 {
     int *left = context;
-    (void)done;
-    return --*left < 0 ? RENDER_END_BLOCK : RENDER_GO_ON;
+    *left -= *left >= 0;
+    return *left < 0 ? CANCEL_BLOCK : CANCEL_NOT;
 }
 
 /* The luminance of a picture of so many samples, for whose pool of states somebody waits so many times. */
@@ -142,8 +142,8 @@ static double luminance(struct test *t, const struct scene *scene, const char *i
 {
     struct film film;
     double sum = 0;
-    struct render_options o = {.integrator = method_of(scene, integrator), .end = spp, .max_depth = CHAIN_DEPTH,
-                               .n_threads = 2, .seed = test_seed(t), .progress = hurry, .progress_context = &waits};
+    struct render_job o = {.integrator = method_of(scene, integrator), .end = spp, .max_depth = CHAIN_DEPTH,
+                               .n_threads = 1, .seed = test_seed(t), .cancel = hurry, .context = &waits};
     render_film(t, scene, &o, &film);
     for (size_t i = 0; i < (size_t)scene->width * (size_t)scene->height; i++)
         sum += rgb_luminance(rgb_make(film_value(&film, 3 * i), film_value(&film, 3 * i + 1),

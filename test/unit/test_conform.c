@@ -21,17 +21,17 @@ static struct side pictures(struct test *t, const char *name, const char *method
     struct scene scene;
     struct side s = {.name = name};
     struct error err = {.text = ""};
-    struct job job;
+    struct prepared prepared;
     snprintf(path, sizeof path, "scenes/conform/%s.pbrt", name);
     if (!scene_from_file(t, path, 0, 0, &scene))
         return s;
     if (filter != NULL)
         scene.filter = filter_of(filter);
-    struct render_options o = {.integrator = method_named(method), .seed = test_seed(t), .n_threads = 1,
+    struct render_job o = {.integrator = method_named(method), .seed = test_seed(t), .n_threads = 1,
                                .end = (long)SPP * PICTURES / n * test_effort(t)};
-    if (CHECK(t, job_settle(&scene, &o, &job, &err), "%s", err.text)) {
-        o.max_depth = job.options.max_depth + deeper;
-        job_free(&job);
+    if (CHECK(t, job_settle(&o, &scene, &prepared, &err), "%s", err.text)) {
+        o.max_depth += deeper;
+        method_release(&prepared);
         CHECK(t, side_render(&scene, &o, 0, n, true, &s, &err), "%s", err.text);
     }
     scene_free(&scene);

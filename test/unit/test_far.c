@@ -20,7 +20,7 @@ static double different(struct test *t, const char *near, const char *far)
     float *pixel[2] = {NULL, NULL};
     size_t n = 0, differ = 0;
     for (int i = 0; i < 2; i++) {
-        struct render_options o = {.integrator = method_named("bdpt"), .end = SPP};
+        struct render_job o = {.integrator = method_named("bdpt"), .end = SPP};
         struct scene scene;
         if (!scene_from_text(t, text[i], &scene))
             break;

@@ -20,7 +20,7 @@ struct flight {
     size_t values; /* of the film, pixels*3 */
 };
 
-static struct flight fly(struct test *t, const struct scene *scene, const struct render_options *o, struct gates gates)
+static struct flight fly(struct test *t, const struct scene *scene, const struct render_job *o, struct gates gates)
 {
     struct flight f;
     struct error err;
@@ -71,7 +71,7 @@ static const char MIXED[] =
 
 /* The film is what it is without an observer, to the bit. Gates are sums of floats (paths.h): they add up to the film
  * within a few parts in 10^7 of what a value of it is in the mean. */
-static void test_sum(struct test *t, const struct scene *scene, const struct render_options *o, const char *what)
+static void test_sum(struct test *t, const struct scene *scene, const struct render_job *o, const char *what)
 {
     const struct gates gates = {0, 9, 12}; /* the last has the longest of four bounces and more */
     struct film plain;
@@ -98,7 +98,7 @@ static void test_method(struct test *t, const char *text, const char *name)
 {
     char way[64];
     struct scene scene;
-    struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
+    struct render_job o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
     if (!scene_from_text(t, text, &scene))
         return;
     snprintf(way, sizeof way, "%s", name);
@@ -129,7 +129,7 @@ static void test_totals(struct test *t)
     enum { N = 5 };
     const struct gates gates = {5, 1.5, N};
     struct scene scene;
-    struct render_options o = {.integrator = method_named("bdpt"), .n_threads = os_cores(), .end = 16, .max_depth = 4};
+    struct render_job o = {.integrator = method_named("bdpt"), .n_threads = os_cores(), .end = 16, .max_depth = 4};
     if (!scene_from_text(t, MIXED, &scene))
         return;
     struct flight f = fly(t, &scene, &o, gates);
@@ -155,7 +155,7 @@ static void test_outside(struct test *t)
         "\"integer yresolution\" 8 WorldBegin LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
         "Material \"matte\" \"rgb Kd\" [0 0 0] Shape \"sphere\" \"float radius\" .01 WorldEnd\n";
     struct scene scene;
-    struct render_options o = {.integrator = method_named("pt"), .n_threads = 1, .end = 16, .max_depth = 1};
+    struct render_job o = {.integrator = method_named("pt"), .n_threads = 1, .end = 16, .max_depth = 1};
     if (!scene_from_text(t, TEXT, &scene))
         return;
     struct flight early = fly(t, &scene, &o, (struct gates){0, 1e-6, 1});
@@ -172,7 +172,7 @@ static void test_outside(struct test *t)
 static double share(struct test *t, const char *text, const char *way, long spp, double end)
 {
     struct scene scene;
-    struct render_options o = {.n_threads = os_cores(), .end = spp, .max_depth = 3};
+    struct render_job o = {.n_threads = os_cores(), .end = spp, .max_depth = 3};
     if (!scene_from_text(t, text, &scene))
         return NAN;
     o.integrator = set_row(&scene, way);

@@ -89,7 +89,7 @@ static void test_told(struct test *t, const struct scene *scene, const struct si
     size_t n = 3 * (size_t)ref->width * (size_t)ref->height;
     float *picture = mem_alloc(n, sizeof *picture), *mean = mem_alloc(n, sizeof *mean);
     for (int seed = 0; seed < SEEDS; seed++) {
-        struct render_options o = {.integrator = method_of(scene, integrator), .seed = test_seed(t) + (uint64_t)seed,
+        struct render_job o = {.integrator = method_of(scene, integrator), .seed = test_seed(t) + (uint64_t)seed,
                                    .end = SPP,
                                    .n_threads = os_cores()};
         struct film film;
@@ -140,7 +140,7 @@ static void test_end(struct test *t, const char *way, long runs)
     struct error err = {.text = ""};
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 24, 20, &scene))
         return;
-    struct render_options o = {.integrator = set_row(&scene, way), .seed = 3, .end = 1024};
+    struct render_job o = {.integrator = set_row(&scene, way), .seed = 3, .end = 1024};
     for (int i = 0; i < 3; i++) {
         film_init(&film[i], render_crop(&scene), scene.width, scene.height);
         if (i < 2)
@@ -168,7 +168,7 @@ static void test_blocks(struct test *t)
     struct error err = {.text = ""};
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 75, 75, &scene))
         return;
-    struct render_options o = {.integrator = method_named("pt"), .end = 64, .max_depth = 1, .n_threads = 2};
+    struct render_job o = {.integrator = method_named("pt"), .end = 64, .max_depth = 1, .n_threads = 2};
     for (int i = 0; i < 2; i++) {
         film_init(&film[i], render_crop(&scene), scene.width, scene.height);
         film_keep_halves(&film[i]);

@@ -116,7 +116,7 @@ static double noise(struct test *t, struct scene *scene, const char *way)
     double sum = 0;
     for (int i = 0; i < 2; i++) {
         const char *integrator = set_method(scene, way);
-        const struct render_options o = {.integrator = method_of(scene, integrator), .seed = 80 + (uint64_t)i,
+        const struct render_job o = {.integrator = method_of(scene, integrator), .seed = 80 + (uint64_t)i,
                                          .end = 64, .max_depth = 1, .n_threads = 1};
         render_pixels(t, scene, &o, pixels[i]);
     }
@@ -137,7 +137,7 @@ static void test_noise(struct test *t)
         char way[3][64];
         double error[3];
         static const char *const how[3] = {"lightsamplestrategy=power", "lightsamplestrategy=uniform", "guide=on"};
-        const struct render_options o = {.end = 2, .max_depth = 3, .n_threads = 1, .seed = 4};
+        const struct render_job o = {.end = 2, .max_depth = 3, .n_threads = 1, .seed = 4};
         for (int k = 0; k < 3; k++) {
             snprintf(way[k], sizeof way[k], "%s %s", methods[i], how[k]);
             error[k] = noise(t, &scene, way[k]);

@@ -21,10 +21,10 @@ struct rendered {
     struct planes planes;
 };
 
-static void render_planes(struct test *t, const struct scene *scene, const struct render_options *options, bool lights,
+static void render_planes(struct test *t, const struct scene *scene, const struct render_job *options, bool lights,
                           bool alpha, struct rendered *out)
 {
-    struct render_options o = *options;
+    struct render_job o = *options;
     struct error err;
     film_init(&out->film, render_crop(scene), scene->width, scene->height);
     planes_init(&out->planes, scene, &out->film, lights, alpha, false, o.n_threads);
@@ -84,7 +84,7 @@ static bool load(struct test *t, const char *filter, bool sky, bool warm, bool l
 }
 
 /* Planes of light add up to the picture, and this is what it is without them. */
-static void check_sum(struct test *t, const struct scene *scene, const struct render_options *o, const char *what)
+static void check_sum(struct test *t, const struct scene *scene, const struct render_job *o, const char *what)
 {
     struct rendered r;
     struct film plain;
@@ -110,7 +110,7 @@ static void check_sum(struct test *t, const struct scene *scene, const struct re
 static void check_sum_by(struct test *t, struct scene *scene, const char *way)
 {
     char what[64];
-    struct render_options o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
+    struct render_job o = {.n_threads = os_cores(), .seed = test_seed(t), .end = 8, .max_depth = 4};
     snprintf(what, sizeof what, "%s", way);
     o.integrator = set_row(scene, what);
     check_sum(t, scene, &o, what);
@@ -172,7 +172,7 @@ static void make_batches(struct test *t, const struct scene *scene, const char *
     for (int g = 0; g < n; g++)
         pixels[g] = batches_new(BATCHES, SUMS, false);
     for (int k = 0; k < BATCHES; k++) {
-        struct render_options o = {.integrator = method_of(scene, integrator), .n_threads = os_cores(), .max_depth = 4,
+        struct render_job o = {.integrator = method_of(scene, integrator), .n_threads = os_cores(), .max_depth = 4,
                                    .seed = (test_seed(t) * 64 + seed) * BATCHES + (uint64_t)k,
                                    .end = spp * test_effort(t)};
         struct rendered r;
@@ -222,7 +222,7 @@ static void test_alone(struct test *t, const char *way)
 static bool render_text(struct test *t, const char *text, const char *filter, int spp, struct rendered *out)
 {
     struct scene scene;
-    struct render_options o = {.integrator = method_named("pt"), .n_threads = 1, .end = spp, .max_depth = 2};
+    struct render_job o = {.integrator = method_named("pt"), .n_threads = 1, .end = spp, .max_depth = 2};
     if (!scene_from_format(t, &scene, text, filter))
         return false;
     render_planes(t, &scene, &o, false, true, out);

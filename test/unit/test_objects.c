@@ -260,7 +260,7 @@ static float *picture_of(struct test *t, const char *filler, const char *away, s
     if (!scene_from_text(t, text, scene))
         return NULL;
     float *out = mem_alloc(3 * (size_t)scene->width * (size_t)scene->height, sizeof *out);
-    const struct render_options o = {.integrator = method_named("bdpt"), .end = 4, .n_threads = 1, .max_depth = 2};
+    const struct render_job o = {.integrator = method_named("bdpt"), .end = 4, .n_threads = 1, .max_depth = 2};
     render_pixels(t, scene, &o, out);
     return out;
 }

@@ -16,7 +16,8 @@ struct target {
     double number, window[4], lengths[2];
     double time;
     const char *text, *image, *word;
-    struct texts texts, pairs, list, rest;
+    struct texts texts, list, rest;
+    struct settings pairs;
 };
 
 static const struct option SHARED[] = {
@@ -85,7 +86,8 @@ static void check_accepted(struct test *t)
         return;
     CHECK(t, o.on && o.window[1] == 0.5 && o.window[3] == 1 && o.width[1] == 4, "window with commas, height");
     CHECK(t, o.texts.n == 2 && strcmp(o.texts.item[1], "2=3") == 0, "only the first = belongs to the option");
-    CHECK(t, o.pairs.n == 2 && strcmp(o.pairs.item[0], "a=b") == 0 && strcmp(o.pairs.item[1], "c=") == 0, "pairs");
+    CHECK(t, o.pairs.n == 2 && strcmp(o.pairs.item[0].name, "a") == 0 && strcmp(o.pairs.item[0].value, "b") == 0 &&
+          strcmp(settings_find(&o.pairs, "c")->value, "") == 0, "pairs");
     CHECK(t, o.list.n == 3 && strcmp(o.list.item[1], "-") == 0, "a list ends at the next option; - is none");
     CHECK(t, strcmp(o.text, "-") == 0 && o.integer == 2 && o.number == 2, "a value behind =; other bounds");
     CHECK(t, strcmp(o.word, "two") == 0 && o.time == 30, "half a minute is %g s", o.time);
@@ -193,7 +195,7 @@ static size_t target_size(const struct option *o, char *value, size_t size)
     case OPTION_TEXT: strcpy(value, "x"); return sizeof(const char *);
     case OPTION_TEXTS:
     case OPTION_LIST:
-    case OPTION_PAIRS: strcpy(value, "x=y"); return sizeof(struct texts);
+    case OPTION_PAIRS: strcpy(value, "x=y"); return sizeof(struct settings);
     }
     return 0;
 }

@@ -184,10 +184,10 @@ static void test_estimator(struct test *t)
     char line[64];
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 4, 4, &scene))
         return;
-    struct render_options o = {.integrator = method_named("bdpt"), .end = 4, .planned = 4, .max_depth = 5};
-    struct job job;
-    CHECK(t, job_settle(&scene, &o, &job, &err), "%s", err.text);
-    struct part ours = part_describe(&job), other = part_describe(&job);
+    struct render_job o = {.integrator = method_named("bdpt"), .end = 4, .planned = 4, .max_depth = 5};
+    struct prepared prepared;
+    CHECK(t, job_settle(&o, &scene, &prepared, &err), "%s", err.text);
+    struct part ours = part_describe(&o), other = part_describe(&o);
     snprintf(line, sizeof line, "version %s, estimator %d\n", VERSION, ESTIMATOR);
     bool named = strncmp(ours.identity, line, strlen(line)) == 0;
     if (CHECK(t, named, "the lines begin with: %.40s", ours.identity)) {

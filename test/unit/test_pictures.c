@@ -110,7 +110,7 @@ static void test_worth(struct test *t)
     static float worth[SIZE * SIZE], draws[SIZE * SIZE];
     struct scene scene;
     struct error err = {.text = ""};
-    struct render_options options = {.integrator = method_named("asbdpt"), .end = 256, .n_threads = 2};
+    struct render_job options = {.integrator = method_named("asbdpt"), .end = 256, .n_threads = 2};
     if (!CHECK(t, parse_scene("scenes/cornell-box.pbrt", NULL, &scene, NULL, &err), "%s", err.text))
         return;
     scene.width = scene.height = SIZE;

@@ -276,7 +276,7 @@ static void test_names(struct test *t)
 {
     static const char *const pairs[][2] = {{"asbdpt race=all", "asbdpt race=off"},
                                            {"asbdpt race=quarter", "asbdpt race=off pathpixels=4"}};
-    const struct render_options o = {.end = 2, .n_threads = 1, .max_depth = 4};
+    const struct render_job o = {.end = 2, .n_threads = 1, .max_depth = 4};
     struct scene scene;
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
         return;

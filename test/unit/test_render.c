@@ -65,7 +65,7 @@ static void test_tiles(struct test *t)
     static const int sizes[][2] = {{161, 90}, {33, 130}, {300, 7}, {1, 1}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
         for (const struct method *const *m = method_rows; *m != NULL; m++) {
-            struct render_options o = {.end = 2, .n_threads = 2};
+            struct render_job o = {.end = 2, .n_threads = 2};
             struct scene scene;
             struct film film;
             long wrong = 0;
@@ -141,11 +141,11 @@ struct ends {
     long n;
 };
 
-static enum render_wish count_end(void *context, double done)
+static void count_end(void *context, double learnt, double done)
 {
     struct ends *e = context;
+    (void)learnt;
     e->n += done > 0 && e->film->passes == 0;
-    return RENDER_GO_ON;
 }
 
 static void blocks(struct test *t, const char *integrator, int size, int spp, int longest)
@@ -156,9 +156,9 @@ static void blocks(struct test *t, const char *integrator, int size, int spp, in
         return;
     for (int i = 0; i < 2; i++) {
         struct ends ends = {&film[i], 0};
-        struct render_options o = {.integrator = method_of(&scene, integrator), .end = spp,
+        struct render_job o = {.integrator = method_of(&scene, integrator), .end = spp,
                                    .block = i == 1 ? 1 : longest,
-                                   .n_threads = 2, .progress = count_end, .progress_context = &ends};
+                                   .n_threads = 2, .progress = count_end, .context = &ends};
         render_film(t, &scene, &o, &film[i]);
         CHECK(t, ends.n == (i == 1 ? spp : 1), "block %d: %ld ends", o.block, ends.n);
     }
@@ -182,17 +182,17 @@ struct stopper {
     long asked, most;
 };
 
-static bool stop_at(void *context)
+static enum cancel stop_at(void *context)
 {
     struct stopper *s = context;
-    return ++s->asked >= s->most;
+    return ++s->asked >= s->most ? CANCEL_NOW : CANCEL_NOT;
 }
 
-static bool stop_at_splats(void *context)
+static enum cancel stop_at_splats(void *context)
 {
     struct stopper *s = context;
     s->asked++;
-    return film_value(s->film, 3 * (8 * 16 + 8) + 1) > 0;
+    return film_value(s->film, 3 * (8 * 16 + 8) + 1) > 0 ? CANCEL_NOW : CANCEL_NOT;
 }
 
 /* Every method asks before each sample, and stops when told to; the pass it was in is left out. */
@@ -205,8 +205,8 @@ static void test_stop(struct test *t)
     for (const struct method *const *m = method_rows; *m != NULL; m++) {
         struct stopper s = {&film, 0, 100};
         const char *way = method_name(*m);
-        struct render_options o = {.integrator = set_row(&scene, way), .end = 32, .block = 32, .n_threads = 1,
-                                   .max_depth = 3, .stop = stop_at, .progress_context = &s};
+        struct render_job o = {.integrator = set_row(&scene, way), .end = 32, .block = 32, .n_threads = 1,
+                                   .max_depth = 3, .cancel = stop_at, .context = &s};
         render_film(t, &scene, &o, &film);
         CHECK(t, s.asked >= s.most && s.asked < s.most + 4 * LONGEST_BLOCK && film.iterations == 0 &&
                      (film.passes == 0 || method_is_chain(*m)), /* some chains are complete before */
@@ -224,9 +224,9 @@ static void test_stop_late(struct test *t)
     struct stopper s = {&film, 0, 0};
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", 16, 16, &scene))
         return;
-    struct render_options o = {.integrator = method_named("lt"), .end = 600, .block = 600, .n_threads = 1,
+    struct render_job o = {.integrator = method_named("lt"), .end = 600, .block = 600, .n_threads = 1,
                                .max_depth = 5,
-                               .stop = stop_at_splats, .progress_context = &s};
+                               .cancel = stop_at_splats, .context = &s};
     render_film(t, &scene, &o, &film);
     CHECK(t, s.asked < 16 * 16 * 600 && film.iterations == 600, "%ld questions, %ld samples", s.asked,
           film.iterations);
@@ -237,7 +237,7 @@ static void test_stop_late(struct test *t)
 /* --- filters with negative lobes --------------------------------------------------------------------- */
 
 /* The largest difference of a pixel from 1, of a sky of 1. */
-static double sky_error(struct test *t, const char *filter, struct render_options o, long *samples)
+static double sky_error(struct test *t, const char *filter, struct render_job o, long *samples)
 {
     struct scene scene;
     struct film film;
@@ -257,10 +257,17 @@ static double sky_error(struct test *t, const char *filter, struct render_option
     return most;
 }
 
-static enum render_wish stop_at_once(void *context, double done)
+static void note(void *context, double learnt, double done)
 {
-    (void)context;
-    return done > 0 ? RENDER_STOP : RENDER_GO_ON;
+    bool *begun = context;
+    (void)learnt;
+    *begun |= done > 0;
+}
+
+static enum cancel stop_when_begun(void *context)
+{
+    const bool *begun = context;
+    return *begun ? CANCEL_NOW : CANCEL_NOT;
 }
 
 /* The weights of four samples add up to 4, in a render that is stopped, too, but not those of half a cycle. */
@@ -268,8 +275,10 @@ static void test_negative_lobes(struct test *t)
 {
     static const char *const FILTERS[] = {"mitchell", "sinc"};
     for (int i = 0; i < 2; i++) {
-        struct render_options o = {.end = 4};
-        struct render_options stopped = {.end = 16, .max_depth = 1000, .progress = stop_at_once};
+        bool begun = false;
+        struct render_job o = {.end = 4};
+        struct render_job stopped = {.end = 16, .max_depth = 1000, .progress = note,
+                                     .cancel = stop_when_begun, .context = &begun, .n_threads = 1};
         long n;
         for (; o.end <= 64; o.end *= 4)
             CHECK(t, sky_error(t, FILTERS[i], o, &n) < 0.05, "%s, %ld samples: a sky of 1 is not 1", FILTERS[i], n);
@@ -294,7 +303,7 @@ static void test_roulette_defaults(struct test *t)
     if (!scene_from_file(t, "scenes/test/mirror-glass.pbrt", 24, 24, &scene))
         return;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const struct render_options o = {.end = 4, .max_depth = 4};
+        const struct render_job o = {.end = 4, .max_depth = 4};
         char as[128], other[128];
         snprintf(as, sizeof as, "%s%s", cases[i].way, cases[i].as);
         snprintf(other, sizeof other, "%s%s", cases[i].way, cases[i].other);

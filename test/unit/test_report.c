@@ -178,7 +178,7 @@ static double direct_rmse8(struct test *t, const struct results *r, int method, 
     settings_clear(&scene.settings);
     scene.settings = measured_settings(m, &base);
     settings_clear(&base);
-    struct render_options o = {.integrator = method_of(&scene, m->integrator), .n_threads = 2, .max_depth = 4,
+    struct render_job o = {.integrator = method_of(&scene, m->integrator), .n_threads = 2, .max_depth = 4,
                                .seed = plan_seed(r->plan, method, 1), .end = r->plan->spp[step]};
     render_pixels(t, &scene, &o, pixels);
     scene_free(&scene);

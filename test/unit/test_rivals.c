@@ -174,7 +174,7 @@ enum { SIDE = 16 };
 
 static void render_image(struct test *t, struct scene *scene, const char *method, int depth, float *image)
 {
-    struct render_options o = {.integrator = set_row(scene, method), .end = 4, .n_threads = 2, .max_depth = depth};
+    struct render_job o = {.integrator = set_row(scene, method), .end = 4, .n_threads = 2, .max_depth = depth};
     render_pixels(t, scene, &o, image);
 }
 

@@ -171,7 +171,7 @@ static void test_bridges(struct test *t, const char *name, const char *text, uin
     for (int k = 0; k < BRIDGE_BATCHES; k++) {
         struct film film;
         const struct observers look = {&made[k], look_on, look_away};
-        struct render_options o = {.integrator = method_named("bdpt"), .end = BRIDGE_SPP * test_effort(t),
+        struct render_job o = {.integrator = method_named("bdpt"), .end = BRIDGE_SPP * test_effort(t),
                                    .max_depth = DEPTH,
                                    .n_threads = 1, .observers = &look};
         o.seed = hash_combine(test_seed(t) * 7927 + number, (uint64_t)k);

@@ -13,13 +13,12 @@
 static void sleep_a_millisecond(void) { nanosleep(&(struct timespec){0, 1000000}, NULL); }
 
 /* Whoever does a piece of work sleeps, the first times and now and then, so that other threads do the next. */
-static enum render_wish share(void *context, double done)
+static void share(void *context, double learnt, double done)
 {
     int *times = context;
-    (void)done;
+    (void)learnt, (void)done;
     if (++*times <= 16 || *times % 16 == 0)
         sleep_a_millisecond();
-    return RENDER_GO_ON;
 }
 
 /* Two parts by four threads are one render by one thread, with whatever is learnt; another seed is another picture. Of
@@ -31,10 +30,10 @@ static void test_method(struct test *t, const struct scene *scene, const char *i
     struct film film[3];
     for (int i = 0; i < 3; i++) {
         int times = 0;
-        struct render_options o = {.integrator = method_of(scene, integrator), .n_threads = i == 0 ? 1 : 4,
+        struct render_job o = {.integrator = method_of(scene, integrator), .n_threads = i == 0 ? 1 : 4,
                                    .max_depth = 4,
                                    .seed = test_seed(t) + (i == 2), .end = i == 1 ? middle : end, .planned = end,
-                                   .block = 2, .progress = i == 1 ? share : NULL, .progress_context = &times};
+                                   .block = 2, .progress = i == 1 ? share : NULL, .context = &times};
         struct error err;
         bool ok;
         film_init(&film[i], render_crop(scene), scene->width, scene->height);

@@ -32,9 +32,9 @@ static const struct {
             {"ppg", "ppg", "", 0}};
 enum { N_WAYS = sizeof WAYS / sizeof WAYS[0] };
 
-static struct render_options options_of(const struct scene *scene, int way)
+static struct render_job options_of(const struct scene *scene, int way)
 {
-    struct render_options o = {.integrator = method_of(scene, WAYS[way].integrator), .seed = 7, .end = SAMPLES,
+    struct render_job o = {.integrator = method_of(scene, WAYS[way].integrator), .seed = 7, .end = SAMPLES,
                                .n_threads = 1, .max_depth = DEPTH};
     return o;
 }
@@ -129,7 +129,7 @@ static void check_light_points(struct test *t, const char *name, const struct tr
 static void check_film(struct test *t, const struct scene *scene, int way)
 {
     const char *name = WAYS[way].name;
-    struct render_options options = options_of(scene, way);
+    struct render_job options = options_of(scene, way);
     struct film rendered, told;
     struct error err;
     int added = 0, longest = 0, weighed = 0;
@@ -199,7 +199,7 @@ static int check_path(struct test *t, const struct scene *scene, const struct tr
 
 static void test_pdf_rev(struct test *t, const struct scene *scene)
 {
-    struct render_options options = options_of(scene, 2);
+    struct render_job options = options_of(scene, 2);
     int n = 0;
     for (int i = 0; i < SIZE * SIZE; i++) {
         struct error err;

@@ -6,7 +6,6 @@
 
 #include "base/alias.h"
 #include "base/number.h"
-#include "learning/patience.h"
 
 enum {
     CHAINS = 1000,                /* of a picture, about */
@@ -50,12 +49,14 @@ void chain_candidate(struct chain *c, long i)
 /* The pool of independent states; of less if it takes too long. */
 static void fill_pool(struct chains *all, const struct render_job *job, struct prepared *m)
 {
-    struct patience patience = patience_begin(job);
     struct workspace *work = workspaces_new(1, job->max_depth);
     struct chain *c = chain_new(m, job, work);
     int n = 0;
     all->before = mem_alloc((size_t)all->n + 1, sizeof *all->before);
-    for (; n < all->n && (n % ASKED_EVERY > 0 || patience_count(&patience, n > 0 ? ASKED_EVERY : 0)); n++) {
+    int most = job->scene->lights.n > 0 ? all->n : 0;
+    for (; n < most && (n % ASKED_EVERY > 0 || job_cancelled(job) == CANCEL_NOT); n++) {
+        if (n % ASKED_EVERY == 0)
+            job_progress(job, (double)n / most, 0);
         chain_candidate(c, n);
         all->before[n + 1] = all->before[n] + c->next.I;
     }
@@ -63,7 +64,6 @@ static void fill_pool(struct chains *all, const struct render_job *job, struct p
     all->b = all->n > 0 ? all->before[all->n] / all->n * all->lengths : 0;
     chain_free(c);
     workspaces_free(work, 1);
-    patience_end(&patience);
 }
 
 void chain_prepare(const struct chain_rules *rules, const struct render_job *job, struct prepared *out)
@@ -159,7 +159,7 @@ void chain_render(const struct prepared *m, const struct tile_pass *pass)
     struct chain *c = chain_new(m, pass->job, pass->work);
     long n = pixels_count(pass->tile->pixels) * (pass->end - pass->first);
     double held = 0; /* what the present state has counted since it was reached */
-    for (start(c, pass); n > 0 && !pass_enough(c->job); n--) {
+    for (start(c, pass); n > 0 && !pass_cancelled(pass); n--) {
         double a = chain_propose(c);
         held += 1 - a;
         if (rng_uniform(&c->rng) < a) {

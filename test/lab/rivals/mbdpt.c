@@ -119,7 +119,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
     double *shift = arena_alloc(&pass->work->arena, (size_t)(pass->job->max_depth + 1) * sizeof *shift);
     for (int i = 0; i < n; i++)
         sample_alone(&pixel[i].sample, pixel[i].eye, pixel[i].n);
-    for (int t = 2; t <= pass->job->max_depth && !pass_enough(pass->job); t++) {
+    for (int t = 2; t <= pass->job->max_depth && !pass_cancelled(pass); t++) {
         for (int s = 2; s <= pass->job->max_depth; s++)
             shift[s] = sampler_number(&pixel[0].sample.choice, DRAW_LIGHT_END);
         connect_length(p, pool, index, pixel, n, row, t, shift);

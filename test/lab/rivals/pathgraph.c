@@ -189,7 +189,7 @@ static void aggregate(const struct clusters *c, const struct sample *sample, int
             if (!rgb_is_black(c->node[k]->Le))
                 aggregate_light(&c->node[i], end - i, c->node[k]);
     }
-    while (times-- > 0 && !pass_enough(sample->pass->job)) {
+    while (times-- > 0 && !pass_cancelled(sample->pass)) {
         for (int i = 0; i < c->n; i++)
             c->node[i]->L = c->node[i]->direct;
         for (int i = 0, end; i < c->n; i = end) {
@@ -213,7 +213,7 @@ static void sweep(const struct pathgraph *s, struct pixel *pixel, struct node **
     bool at_once = s->iterations > 0;
     int most = pass->job->max_depth;
     struct node **node = arena_alloc(&pass->work->arena, (size_t)n * (size_t)(at_once ? longest : 1) * sizeof *node);
-    for (int t = longest, here = 0; t >= 2 && !pass_enough(pass->job); t--) {
+    for (int t = longest, here = 0; t >= 2 && !pass_cancelled(pass); t--) {
         for (int i = 0; i < n; i++)
             if (t <= pixel[i].n && pixel[i].eye[t - 1].kind == VERTEX_SURFACE)
                 node[here++] = &of[i][t - 1];
@@ -244,7 +244,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
     int longest = 0;
     (void)index;
     for (int i = 0; i < n; i++) {
-        if (pass_enough(pass->job))
+        if (pass_cancelled(pass))
             return;
         struct pixel *x = &pixel[i];
         of[i] = arena_alloc(arena, (size_t)x->n * sizeof **of);

@@ -267,10 +267,10 @@ static void take(struct learning *l, const struct lesson *lesson)
         sd_add_light(leaf, lesson->w - 1, (double)lesson->column / V_STEPS, lesson->x);
 }
 
-static bool at_once(void *context, double traced)
+static enum cancel at_once(void *context)
 {
-    (void)context, (void)traced;
-    return false;
+    (void)context;
+    return CANCEL_NOW;
 }
 
 /* The box that contains most eye vertices, which learning finds before all else. */
@@ -279,7 +279,7 @@ static void find_box(const struct render_job *job, vec3 *low, vec3 *high)
     const struct learn_options options = {.use = true, .emission = 1};
     struct render_job first = *job;
     struct tables tables = NO_TABLES;
-    first.watch = at_once;
+    first.cancel = at_once;
     learn(&first, &options, &tables);
     const struct regions *r = &tables.regions;
     *low = r->origin;
@@ -340,20 +340,23 @@ static void combine(struct ppg *own, const struct finding *f, int n, const struc
 static void prepare(const struct render_job *job, struct prepared *p)
 {
     struct ppg *own = p->own;
-    struct trainer t = {.learning = {.job = job, .work = workspaces_new(job->n_threads, job->max_depth),
-                                     .patience = patience_begin(job), .take = take}, .prepared = p};
+    struct trainer t = {.learning = {.job = job, .work = workspaces_new(job->n_threads, job->max_depth), .take = take},
+                        .prepared = p};
     struct finding finding[MOST_PASSES];
     long pixels = (long)rect_pixels(job->film_rect);
     vec3 low, high;
     int passes = 0;
+    bool going = job->scene->lights.n > 0;
     method_counts(job, p);
     find_box(job, &low, &high);
     sdtree_init(&own->tree, low, high);
-    for (long n = 1; 2 * n - 1 <= own->training && !t.learning.patience.over; n *= 2) {
+    for (long n = 1; 2 * n - 1 <= own->training && going; n *= 2) {
         t.end = n * pixels;
         t.found = mem_alloc((size_t)t.end, sizeof *t.found);
+        t.learning.budget = 2 * (double)t.end;
         lessons_learn(&t.learning, trace, &NO_TABLES, 0, t.end);
-        if (!t.learning.patience.over) {
+        going = job_cancelled(job) == CANCEL_NOT;
+        if (going) {
             sdtree_build(&own->tree, own->cell * sqrt((double)n));
             finding[passes++] = sum_up(t.found, n, pixels);
         }
@@ -365,7 +368,6 @@ static void prepare(const struct render_job *job, struct prepared *p)
         free(finding[passes].mean);
         free(finding[passes].square);
     }
-    patience_end(&t.learning.patience);
     workspaces_free(t.learning.work, job->n_threads);
 }
 

@@ -121,7 +121,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
         }
     }
     for (int i = 0; i < n; i++) {
-        if (pass_enough(pass->job))
+        if (pass_cancelled(pass))
             return;
         int near[MOST_NEIGHBOURS + 1], found = reuse_neighbours(pixel, n, i, own->neighbours, near);
         if (found > 0)

@@ -228,12 +228,12 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
     int *found = arena_alloc(arena, (size_t)n * sizeof *found);
     (void)index;
     for (int i = 0; i < n; i++) {
-        if (pass_enough(pass->job))
+        if (pass_cancelled(pass))
             return;
         found[i] = reuse_neighbours(pixel, n, i, own->neighbours, &near[i * (own->neighbours + 1)]);
         all[i] = resample(&pixel[i], found[i] > 1);
     }
-    for (int i = 0; i < n && !pass_enough(pass->job); i++)
+    for (int i = 0; i < n && !pass_cancelled(pass); i++)
         if (all[i].shares)
             reuse(pixel, all, &near[i * (own->neighbours + 1)], found[i]);
 }

@@ -42,7 +42,6 @@
 #include "caustics/surfaces.h"
 #include "integrators/prepare.h"
 #include "learning/learn.h"
-#include "learning/patience.h"
 #include "rivals/together.h"
 #include "tables/emission.h"
 
@@ -61,8 +60,6 @@ struct trainer {
     const struct render_job *job;
     const struct counts *counts;
     struct workspace *work;
-    struct patience patience;
-    double asked; /* see patience_lasts */
     struct lessons all;
 };
 
@@ -134,12 +131,11 @@ static void note_lit(struct trainer *r, const struct vertex *z, struct sampler *
     note(r, connect_lit(scene, r->counts, &l).value, f, z);
 }
 
-/* Before sub-path number i: may learning go on? */
-static bool goes_on(struct trainer *r, int i)
+/* Before each sub-path: may learning go on? */
+static bool goes_on(struct trainer *r)
 {
-    enum { OFTEN = 256 };
     arena_reset(&r->work->arena);
-    return i > 0 && i % OFTEN == 0 ? patience_count(&r->patience, OFTEN) : patience_lasts(&r->patience, &r->asked);
+    return r->job->scene->lights.n > 0 && job_cancelled(r->job) == CANCEL_NOT;
 }
 
 static struct walk begin_walk(const struct trainer *r, int i, enum transport mode, struct sampler *sampler)
@@ -222,15 +218,14 @@ static void prepare(const struct render_job *job, struct prepared *p)
     double pixels = (double)rect_pixels(job->film_rect), K = fmin(sqr(p->size.tile), pixels) / p->numbers.path_pixels;
     int n = int_within(own->training * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT;
     method_counts(job, p);
-    struct trainer r = {job, &p->counts, workspaces_new(1, job->max_depth), patience_begin(job), 0, {.n = 0}};
+    struct trainer r = {job, &p->counts, workspaces_new(1, job->max_depth), {.n = 0}};
     double *vertices = mem_alloc((size_t)own->subspaces, sizeof *vertices);
-    for (int i = 0; i < n && goes_on(&r, i); i++)
+    for (int i = 0; i < n && goes_on(&r); i++)
         trace_eye(&r, i);
     for (int end = 0; end < 2; end++)
         own->tree[end] = learn_tree(&r.all, end, own->subspaces, job->scene->lights.center, job->scene->lights.radius);
-    for (int i = 0; i < n_light && goes_on(&r, i); i++)
+    for (int i = 0; i < n_light && goes_on(&r); i++)
         trace_light(&r, i, own->tree[1], vertices);
-    patience_end(&r.patience);
     workspaces_free(r.work, 1);
     guide_subspaces(p->tables, &r.all, own->subspaces);
     learn_pairs(&r.all, own, p->numbers.draws[FIRST_HIT], K, p->parameters.delta, vertices, n_light, &p->tables->pairs);

@@ -181,7 +181,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
 {
     const struct pool *pool = &pass->work->pool;
     (void)p;
-    for (int i = 0; i < n && !pass_enough(pass->job); i++) {
+    for (int i = 0; i < n && !pass_cancelled(pass); i++) {
         struct sample *sample = &pixel[i].sample;
         struct vertex *eye = pixel[i].eye;
         const struct drawn light = {pool_path(pool, i), 1, pool->length[i], 1};

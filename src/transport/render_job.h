@@ -1,0 +1,78 @@
+/* render_job.h: a render from the words of a command line to the walk: what is asked of a scene, what follows from it,
+ * and who hears of it. Whoever asks fills the first part, job.h settles the rest once; all below read the same struct.
+ *
+ * A render ends early in one way: everybody who works asks job_cancelled, and nobody else decides. A limit of time or
+ * noise, a signal, or a window that closes are answers of the function `cancel`.
+ */
+#ifndef ASBDPT_RENDER_JOB_H
+#define ASBDPT_RENDER_JOB_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/settings.h"
+#include "scene/film.h"
+
+struct method;
+struct observers; /* render/render.h */
+
+/* pbrt-v3's lightsamplestrategy: how s = 1 chooses lights. SPATIAL: by region, if the method learns that; else, and
+ * where light sub-paths start, by power. UNIFORM is of the scene (scene_uniform). */
+enum light_strategy { LIGHTS_SPATIAL, LIGHTS_POWER, LIGHTS_UNIFORM };
+
+/* Continue; stop learning, and render until the block of iterations is complete; stop at once. */
+enum cancel { CANCEL_NOT, CANCEL_BLOCK, CANCEL_NOW };
+
+struct render_job {
+    /* What is asked. 0, NULL or false: as the scene says, or else as is usual. Texts are borrowed. */
+    const char *scene_path, *integrator_name, *filter;
+    struct settings overrides; /* parameters of the integrator, of -P; of whoever asks */
+    int spp;
+    int res[2];          /* width and height of the film; height 0: the same shape */
+    double crop[4];      /* x0, x1, y0, y1 in fractions of the film; x1 = 0: the scene's */
+    double max_memory;   /* GB; 0: what is usual (budget_new) */
+    bool quick;          /* a quarter of the width and height, one sample, unless others say otherwise */
+    bool strict, quiet;  /* warnings are errors; print nothing but warnings and errors */
+    int samples[2];      /* of each pixel, the second excluded: a part of the picture; 0, 0: all */
+
+    /* The same; job_settle replaces what is 0. */
+    uint64_t seed;
+    int max_depth;       /* 0: what the scene says, else 5 */
+    int n_threads;       /* 0: one per processor */
+    double noise[N_NOISE_SCALES]; /* stop when the film's are below; 0: never. The film must keep halves */
+
+    /* What is rendered. */
+    const struct method *integrator;
+    const struct scene *scene;
+    struct pixel_rect film_rect; /* the crop in pixels */
+    long first, end;     /* iterations [first, end) of every pixel */
+    long planned;        /* samples per pixel of the whole picture if these are a part of it; 0: `end` */
+    bool is_part;        /* they are to be added to others: whole blocks, where the method says how long these are */
+    int block;           /* iterations of a block where the method leaves that open; 0: by the picture's size */
+    uint64_t eye_seed;   /* of eye sub-paths; equal to `seed` except in measurements */
+    double rr_threshold; /* of Russian roulette, see path.h */
+    enum light_strategy strategy;
+
+    /* Who hears of it. All may be NULL, and share the context. */
+    const struct observers *observers; /* who looks on at every path */
+    /* Called after each chunk of learning and after each tile pass with the shares of both that are done, in [0,1]; one
+     * call at a time, while nothing else touches the film. */
+    void (*progress)(void *context, double learnt, double done);
+    /* Is the render to end early? Asked before every sub-path and sample, by any thread, at any time. The answer may
+     * only become more urgent. */
+    enum cancel (*cancel)(void *context);
+    void *context;
+};
+
+static inline enum cancel job_cancelled(const struct render_job *job)
+{
+    return job->cancel != NULL ? job->cancel(job->context) : CANCEL_NOT;
+}
+
+static inline void job_progress(const struct render_job *job, double learnt, double done)
+{
+    if (job->progress != NULL)
+        job->progress(job->context, learnt, done);
+}
+
+#endif
