@@ -215,7 +215,7 @@ tsan: ## run the threaded tests under the thread sanitizer
 release: all ## what a release consists of, into out/release: sources, the page that renders, man pages, checksums
 	sh test/tree/release.sh out/release
 
-doc: ## all documents as static HTML in out/html; begin with index.html
+doc: ## all documents, and the sources to read, as static HTML in out/html; begin with index.html
 	sh doc/html.sh out/html
 
 figures: asbdpt asbdpt-lab ## make the figures of doc/tour again

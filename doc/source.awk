@@ -243,16 +243,17 @@ function page(    end, lines, out) {
     return frame(file, root, "source") "<h1>" file "</h1>\n" out (lines != "" ? "<pre>" lines "</pre>" : "") "</body></html>"
 }
 
-# What pages say of lines: the formula, or for what a line is an example.
+# What pages say of lines: the formula, or the number of an example.
 BEGIN {
     while (marks != "" && (getline line < marks) > 0) {
         split(line, part, "\t")
         root = part[2]
         gsub(/[^\/]+/, "..", root); sub(/\/?\.\.$/, "", root)
+        example = part[1] !~ /\/[0-9]/
         sub(/\.md$/, ".html", part[1])
         gsub(/\003/, "\n", part[6])
         MARK[part[2], part[3]] = MARK[part[2], part[3]] "<div class=\"f\"><a href=\"" root "/" part[1] "#" part[4] "\">" \
-            part[5] (part[6] == "" ? ": " part[7] : "") "</a>" (part[6] == "" ? "" : math_block(part[6])) "</div>\n"
+            part[5] "</a>" (example ? formula(escape(part[6]), 0) : math_block(part[6])) "</div>\n"
     }
 }
 FNR == 1 {
