@@ -46,7 +46,6 @@ struct learning {
     /* What learn.c knows so far. */
     const struct learn_options *options;
     struct tables *tables;
-    struct table_sums direct, sums; /* of the table of direct light; of the pass under way */
     struct axis rays;               /* columns of the table of emission */
     double n_light;                 /* light sub-paths so far */
     struct lessons light_vertices;  /* that these have */
