@@ -1,4 +1,4 @@
-/* learn.c: see learn.h. What is traced, and what is made of it; below that the passes in their order. */
+/* learn.c: see learn.h. What is traced, and what is made of it; below that the rounds in their order. */
 #include "learning/learn.h"
 
 #include <stdlib.h>
@@ -184,7 +184,7 @@ static void take(struct learning *l, const struct lesson *lesson)
     }
 }
 
-/* --- passes, and the tables that they fill ------------------------------------------------------------ */
+/* --- rounds, and the tables that they fill ------------------------------------------------------------ */
 
 static const double DIRECT_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
 
@@ -192,7 +192,7 @@ static void learn_uses(struct learning *l, long n)
 {
     vec3 low, high;
     find_box(l, &low, &high);
-    regions_init(&l->tables->regions, low, high, REGION_CELLS, REGIONS);
+    regions_init(&l->tables->regions, low, high, REGION_CUBES, REGIONS);
     l->tables->use = mem_alloc(REGIONS, sizeof *l->tables->use);
     if (l->options->direct)
         l->tables->direct = table_learn(REGIONS, l->job->scene->lights.n_cells);
@@ -235,7 +235,7 @@ static void learn_light_paths(struct learning *l, long n)
     count_light_vertices(l);
 }
 
-/* After the last pass that adds regions. */
+/* After the last round that adds regions. */
 static void build_direct(struct learning *l)
 {
     const struct light_set *lights = &l->job->scene->lights;

@@ -9,7 +9,7 @@
  *   vertices          the same: LIGHT_VERTEX count_light_vertices            -                      base of pairs
  *   pairs             trace_trials: TRIAL    take        learn_pairs         asbdpt.c: draw         counts.h: n_pair
  *
- * There are three passes. Each needs what the ones before have learnt: the worth of a ray needs `use`, and trials need
+ * There are three rounds. Each needs what the ones before have learnt: the worth of a ray needs `use`, and trials need
  * light sub-paths that leave by `emission`.
  *
  * Learning traces a fixed number of eye sub-paths: LEARN_PER_PIXEL for each pixel of the image, but at least
@@ -29,7 +29,7 @@
 
 enum { LEARN_PER_PIXEL = 4, LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LEARN_LIGHT = 16 * 1024 };
 enum { DIRECT_PIXELS = 4, DIRECT_LEAST = 1024 };
-enum { REGIONS = 1536, REGION_CELLS = 8 }; /* at most so many; along the diagonal of the box of eye vertices */
+enum { REGIONS = 1536, REGION_CUBES = 8 }; /* at most so many; along the diagonal of the box of eye vertices */
 
 /* What to learn. */
 struct learn_options {
