@@ -5,9 +5,9 @@
  * ratio(e,l) tell what a light vertex in region l is worth to an eye vertex in region e (table.h), and L_v the
  * luminance of beta_v. Then
  *     P(v|z) = ratio(e(z), l(v)) L_v / sum over the pool.
- * A draw has two steps, first the region and then the vertex, each by bisection of cumulative sums, which keeps the C
- * strata of an eye vertex apart. Alias tables in their place cost 3 to 9 % more instructions: a region draws too rarely
- * from one to pay for its building.
+ * It draws by bisection of cumulative sums, not from alias tables: first the region, then the vertex. Bisection keeps
+ * the C strata of an eye vertex apart. Alias tables cost 3 to 9 % more instructions, because a region draws from its
+ * table too rarely to pay for building it. `select = pool` and `vertices` have one alias table for a whole tile.
  *
  * The MIS weights take this into account: the strategies count as
  *     n = x / (1 + x / M),      x = 2 C ratio(e(z), l(y)) / N,      M = K / 4

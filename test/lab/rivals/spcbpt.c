@@ -190,7 +190,7 @@ static void guide_subspaces(struct tables *tables, const struct lessons *all, in
     }
     free(region);
     table_free(t);
-    *t = (struct table){(int)rows, t->columns, ratio, before};
+    *t = (struct table){.rows = (int)rows, .columns = t->columns, .ratio = ratio, .before = before};
     regions_free(&tables->regions);
     tables->regions = NO_TABLES.regions;
 }
@@ -204,7 +204,7 @@ static void learn_pairs(const struct lessons *all, struct spcbpt *own, double C,
     for (int l = 0; l < n; l++) /* C / N_l; 1/2: a subspace without a vertex so far may have one in the render */
         vertices[l] = C * n_light / (vertices[l] + 0.5);
     own->gamma = learn_gamma(all, n, vertices, K, own->steps);
-    *pairs = (struct table){n, n, mem_alloc((size_t)n * (size_t)n, sizeof *pairs->ratio), NULL};
+    *pairs = (struct table){.rows = n, .columns = n, .ratio = mem_alloc((size_t)n * (size_t)n, sizeof(double))};
     for (int i = 0; i < n * n; i++) {
         own->gamma[i] = (1 - delta) * own->gamma[i] + delta / n;
         double x = own->gamma[i] * vertices[i % n];
