@@ -17,8 +17,8 @@
  * DIRECT_PIXELS pixels, but at least DIRECT_LEAST: then it takes the time of half a sample of each pixel. It traces as
  * many light sub-paths, but at most LEARN_LIGHT. For trial connections it traces more of them, and uses half of the eye
  * sub-paths. The number does not depend on the number of samples, so an image that is continued or rendered in parts
- * has one estimator. Memory is bounded by REGIONS. Learning ends early if the job is cancelled. Then the tables have fewer sub-paths,
- * which is valid but noisier. Tables are not stored: every render learns them again.
+ * has one estimator. Memory is bounded by REGIONS. Learning ends early if the job is cancelled. Then the tables have
+ * fewer sub-paths, which is valid but noisier. Tables are not stored: every render learns them again.
  *
  * Tests: test_asbdpt.c (same result for any number of threads, unbiased renders), test_learning.c.
  */
