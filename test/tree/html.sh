@@ -115,6 +115,9 @@ found=$(named "$dir/html")
 [ "$(echo "$found" | sed '$d')" = "" ] || wrong "$(echo "$found" | sed -n 1,5p)"
 [ "$(echo "$found" | tail -n 1)" -gt 20000 ] || wrong "only $found names of the sources lead anywhere"
 grep -q '<munderover><mo>&#x220F;</mo>' "$dir/html/src/transport/mis.h.html" || wrong "mis.h has no product"
+grep -q '^<p>Next: <a href="../../src/transport/vertex.h.html">' "$dir/html/src/transport/mis.h.html" ||
+    wrong "nothing leads from mis.h to the next file that the README names"
+[ "$(cat "$dir"/html/src/*/*.html | grep -c '^<p>Next: ')" -gt 40 ] || wrong "the order of reading ends too soon"
 # Formulas: pages 3 to 11b have marks, and where a line has a formula its page leads back to the line.
 LC_ALL=C awk -f doc/marks.awk doc/tour/*.md >"$dir/marks" || bad=1
 for page in 03 04 05 06 07 07b 08 09 10 11 11b; do
