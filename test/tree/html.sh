@@ -3,8 +3,8 @@
 #   1. that every local link and picture leads to a file;
 #   2. that [`FILE: FUNCTION`](path) leads to a file of that name, and to the line that defines the function there;
 #   3. that tags are closed as often as they are opened, and that formulas have indices, lists and tables are there;
-#   4. that every name in a source leads to a line that has it, that lines and the formulas that they compute lead to each
-#      other, and that a mark (doc/marks.awk) follows its line, and fails without it;
+#   4. that every name in a source leads to a line that has it, that lines and the formulas that they compute lead to
+#      each other, and that a mark (doc/marks.awk) follows its line, and fails without it;
 #   5. that mutant `NAME` is in test/data/mutants/list.txt, and `build/test NAME` in test/unit.
 # Damaged pages must be found. Prints what is wrong, or one line; exit status 0 only if nothing is. Run from the top.
 dir=$(mktemp -d) || exit 1
