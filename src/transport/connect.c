@@ -91,7 +91,7 @@ static double light_side(const struct scene *scene, const struct counts *counts,
     if (z->kind == VERTEX_LENS) {
         c_e = y->prev_delta ? 0 : n_if(counts, prev, y, FIRST_HIT);
         if (prev->kind == VERTEX_LIGHT && !light_is_delta(&scene->lights.light[prev->light]))
-            mis = mis_step(counts->hit[FIRST_HIT], 0, 0, prev->pdf_fwd, y->back);
+            mis = mis_step(counts->hit[FIRST_HIT], 0, 0, prev->pdf_fwd, y->g);
     }
     return mis_side(R, y->pdf_fwd, c_e, pdf_rev, mis);
 }
