@@ -16,9 +16,9 @@ void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long it
 
 /* Of every so many iterations one is drawn. Were it always the same one, its eye sub-paths would never leave a part of
  * the pixel, for those are points of nets (sampler.h). */
-bool loop_turn(const struct prepared *p, const struct tile_pass *pass, enum eye_end end, long iteration)
+bool loop_turn(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    const int *first = pass->tile->pixel[0], every = numbers_every(&p->numbers, end);
+    const int *first = pass->tile->pixel[0], every = numbers_every(&p->numbers);
     if (every == 1)
         return true;
     struct sampler sampler = sample_stream(pass, RNG_TURN, first[0], first[1], (uint64_t)(iteration / every));
@@ -28,14 +28,14 @@ bool loop_turn(const struct prepared *p, const struct tile_pass *pass, enum eye_
 /* Light sub-paths are numbered by their turns: every so-many-th point of a net is no net. */
 static uint64_t number_of_turn(const struct prepared *p, long iteration)
 {
-    return (uint64_t)(iteration / numbers_every(&p->numbers, FIRST_HIT));
+    return (uint64_t)(iteration / numbers_every(&p->numbers));
 }
 
 void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
     pool_clear(pool);
-    if (p->numbers.path_pixels == 0 || !loop_turn(p, pass, FIRST_HIT, iteration))
+    if (p->numbers.path_pixels == 0 || !loop_turn(p, pass, iteration))
         return;
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i += p->numbers.path_pixels) {
         struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
@@ -48,27 +48,19 @@ int loop_begin(const struct prepared *p, const struct tile_pass *pass, int numbe
 {
     *sample = sample_begin(pass, &p->counts, p->numbers.light_points, x, y, iteration);
     sample->number = number;
-    if (p->method->selector != NULL)
+    if (pass->work->pool.n > 0) /* else nothing is chosen */
         sample->choice = sample_stream(pass, RNG_SELECT, x, y, number_of_turn(p, iteration));
     return sample_eye_path(sample, eye, pass->job->max_depth + 2);
 }
 
-void loop_draws(const struct prepared *p, const struct tile_pass *pass, long iteration, int draws[EYE_ENDS])
-{
-    for (int end = 0; end < EYE_ENDS; end++) {
-        bool turn = pass->work->pool.n > 0 && loop_turn(p, pass, (enum eye_end)end, iteration);
-        draws[end] = turn ? p->numbers.draws[end] : 0;
-    }
-}
-
 void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
-               int t, const int draws[EYE_ENDS])
+               int t)
 {
     const struct tile_pass *pass = sample->pass;
-    const int K = pass->work->pool.n, C = draws[z->eye_end];
-    const double every = numbers_every(&p->numbers, z->eye_end);
+    const int K = pass->work->pool.n, C = p->numbers.draws[z->eye_end];
+    const double every = numbers_every(&p->numbers);
     struct drawn y;
-    for (int i = 0; i < C && t <= pass->job->max_depth && vertex_connectible(z); i++)
+    for (int i = 0; i < C && K > 0 && t <= pass->job->max_depth && vertex_connectible(z); i++)
         if (p->method->selector->draw(p, index, sample, z, i, C, &y))
             sample_pairs(sample, &y, z, t, every / (C * K) / y.pmf);
 }
@@ -91,8 +83,6 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass)
         loop_fill(p, pass, iteration);
         const struct index *index =
             pass->work->pool.n > 0 ? p->method->selector->build(p, pass, iteration) : NULL;
-        int draws[EYE_ENDS];
-        loop_draws(p, pass, iteration, draws);
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);
@@ -100,7 +90,7 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass)
             for (int t = 2; t <= n; t++) {
                 sample_hit(&sample, eye, t);
                 sample_direct(&sample, &eye[t - 1], t);
-                loop_join(p, index, &sample, &eye[t - 1], t, draws);
+                loop_join(p, index, &sample, &eye[t - 1], t);
             }
             loop_splat(p, &sample);
             sample_end(&sample);

@@ -7,7 +7,7 @@
 static const double BOUND = 0.25; /* M of counts.h for each light sub-path of a full tile */
 
 const char *const OFF_ON[] = {"off", "on", NULL};
-const char *const RACES[] = {"off", "on", "all", "quarter", "quarter_first", "path_tracer", "one_point", NULL};
+const char *const RACES[] = {"off", "on", "all", "quarter", "path_tracer", "one_point", NULL};
 
 const struct field *method_has(const struct method *m, const char *name)
 {
@@ -34,7 +34,7 @@ bool method_read(const struct method *m, const struct scene *scene, struct prepa
 
 struct pass_size method_size(const struct prepared *p)
 {
-    bool shared = p->numbers.path_pixels > 0 && numbers_every(&p->numbers, FIRST_HIT) == 1;
+    bool shared = p->numbers.path_pixels > 0 && numbers_every(&p->numbers) == 1;
     const struct pass_size alone = {p->size.block, DEFAULT_TILE_SIZE, 1};
     return p->method->selector == NULL || shared ? p->size : alone;
 }
@@ -43,11 +43,11 @@ void method_counts(const struct render_job *job, struct prepared *p)
 {
     const struct parameters *q = &p->parameters;
     double M = BOUND * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
-    int every = numbers_every(&p->numbers, FIRST_HIT);
+    int every = numbers_every(&p->numbers);
     p->counts = counts_of(p->numbers, q->credits ? DIRECT_CREDIT * every : 1, q->credits ? PAIR_CREDIT : 1,
                           (double)rect_pixels(job->film_rect), p->tables);
     for (int end = 0; end < EYE_ENDS; end++) {
         p->counts.pair[end] *= p->draw[end];
-        p->counts.bound[end] = q->bound ? p->counts.pair[end] * numbers_every(&p->numbers, (enum eye_end)end) / M : 0;
+        p->counts.bound[end] = q->bound ? p->counts.pair[end] * every / M : 0;
     }
 }

@@ -370,8 +370,6 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         loop_fill(p, pass, iteration);
         const struct index *index = build(p, pass, iteration);
-        int draws[EYE_ENDS];
-        loop_draws(p, pass, iteration, draws);
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);
@@ -380,7 +378,7 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
             for (int t = 2; t <= n; t++) {
                 sample_hit(&sample, eye, t);
                 sample_direct(&sample, &eye[t - 1], t);
-                loop_join(p, index, &sample, &eye[t - 1], t, draws);
+                loop_join(p, index, &sample, &eye[t - 1], t);
             }
             if (i % each == 0)
                 splat(p, &sample, &pool->vertex[pool->start[i / each]], pool->length[i / each],
