@@ -8,7 +8,7 @@
 #include "learning/patience.h"
 
 enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32 };
-static const double FIREFLY = 11, USELESS = 0.7;
+static const double FIREFLY = 11, USELESS = 0.95;
 
 /* Prices, fitted to CPU times; a sample costs 1, an eye vertex, too. That of a light vertex includes its splat. */
 enum { CONNECTION = 2, LIGHT_VERTEX = 3 };
@@ -19,9 +19,9 @@ struct lap {
     struct prepared by;    /* how the runner samples; shares all that it points to */
     int every;             /* of the runner; `by` has light sub-paths in each iteration */
     struct tile_pixels pixels;
-    /* Luminance of a pixel, and of the splats in its cell: the mean, what is made in each iteration, and by iteration
-     * what the render makes in one of `every`. */
-    double mean[MOST_PIXELS], often[MOST_PIXELS], rare[SAMPLES][MOST_PIXELS];
+    /* Luminance of a pixel, and of the splats in its cell: the mean, direct light at first hits, what is made in each
+     * iteration, and by iteration what the render makes in one of `every`. */
+    double mean[MOST_PIXELS], direct[MOST_PIXELS], often[MOST_PIXELS], rare[SAMPLES][MOST_PIXELS];
     double price, samples;
     struct patience *patience;
     double asked; /* see patience_lasts */
@@ -35,6 +35,7 @@ static void joined(void *context, const struct sample *sample, const struct join
     struct pixel_rect film = l->pixels.rect; /* splats around it are left out */
     double x = p->t == 1 ? floor(p->px) : sample->x, y = p->t == 1 ? floor(p->py) : sample->y;
     double value = fabs(rgb_luminance(p->added)); /* that signs of a filter differ is no noise of an image (filter.h) */
+    bool first = p->t > 1 && (p->s == 0 ? p->z - 1 : p->z)->eye_end == FIRST_HIT; /* s = 0: z is on the light */
     int every = p->s < 2 ? 1 : l->every;
     if (p->t > 1 && p->s > 0)
         l->price += (double)CONNECTION / every;
@@ -43,6 +44,7 @@ static void joined(void *context, const struct sample *sample, const struct join
     int cell = pixels_cell(l->pixels, (int)x, (int)y);
     value *= p->t == 1 ? 1 : every; /* splats are divided by the count in the weights */
     l->mean[cell] += value / every / SAMPLES;
+    l->direct[cell] += p->s < 2 && first ? value : 0;
     *(every > 1 ? &l->rare[sample->iteration][cell] : &l->often[cell]) += value;
 }
 
@@ -107,29 +109,31 @@ static double huber(double x) { return x < FIREFLY ? x * x : 2 * FIREFLY * x - F
 /* The variance of a sample, from two sums of samples. */
 static double variance(double a, double b) { return huber(fabs(a - b) / sqrt(2.0 * SAMPLES)); }
 
-/* From the two laps of a runner. */
-static void judge(struct runner *k, const struct lap *a, const double *unit)
+/* From the two laps of a runner. Returns the variance of direct light. */
+static double judge(struct runner *k, const struct lap *a, const double *unit)
 {
     const struct lap *b = a + 1;
-    double n = pixels_count(a->pixels), parts = 2 * SAMPLES * a->every * n;
+    double direct = 0, n = pixels_count(a->pixels), parts = 2 * SAMPLES * a->every * n;
     k->price = (a->price + b->price) / (a->samples + b->samples);
     k->variance = 1e-30; /* not 0: others are divided by it */
     for (int i = 0; i < n; i++) {
+        direct += variance(a->direct[i] / unit[i], b->direct[i] / unit[i]) / n;
         k->variance += variance(a->often[i] / unit[i], b->often[i] / unit[i]) / n;
         for (int j = 0; j < SAMPLES; j++)
             k->variance += (huber(a->rare[j][i] / unit[i]) + huber(b->rare[j][i] / unit[i])) / parts;
     }
+    return direct;
 }
 
-/* Let n runners compete. False if job->watch ends it. */
-static bool compete(const struct render_job *job, const struct prepared *p, struct runner *first, int n)
+/* Let n runners compete. Returns the variance of direct light of the last one; -1 if job->watch ends it. */
+static double compete(const struct render_job *job, const struct prepared *p, struct runner *first, int n)
 {
     struct patience patience = patience_begin(job);
     struct lap *lap = mem_alloc((size_t)(2 * n), sizeof *lap);
     for (int i = 0; i < 2 * n; i++)
         start_lap(job, p, &first[i / 2], (uint64_t)i % 2, &patience, &lap[i]);
     struct parallel_jobs jobs = {2 * n, job->n_threads, 2 * n, lap, run_lap, count_lap, NULL};
-    double unit[MOST_PIXELS], picture = 0;
+    double unit[MOST_PIXELS], picture = 0, direct = -1;
     bool all = parallel_run(&jobs) == 2 * n && !patience.over;
     for (int i = 0; i < pixels_count(lap->pixels); i++) {
         unit[i] = 1e-30;
@@ -140,10 +144,10 @@ static bool compete(const struct render_job *job, const struct prepared *p, stru
     for (int i = 0; i < pixels_count(lap->pixels); i++)
         unit[i] = (unit[i] + picture) / 2;
     for (int i = 0; i < n && all; i++)
-        judge(&first[i], &lap[2 * i], unit);
+        direct = judge(&first[i], &lap[2 * i], unit);
     patience_end(&patience);
     free(lap);
-    return all;
+    return direct;
 }
 
 /* --- the race ---------------------------------------------------------------------------------------- */
@@ -189,13 +193,13 @@ static int find_winner(const struct prepared *p, int first)
 bool race_early(const struct render_job *job, struct prepared *p)
 {
     struct runner *quarter = &p->runner[RUNNER_QUARTER], *pt = &p->runner[RUNNER_PATH_TRACER];
-    bool raced = compete(job, p, quarter, RUNNERS - RUNNER_QUARTER);
+    double direct = compete(job, p, quarter, RUNNERS - RUNNER_QUARTER), all = p->runner[RUNNER_ONE_POINT].variance;
     p->winner = find_winner(p, RUNNER_PATH_TRACER);
-    return raced && quarter->variance > USELESS * pt->variance;
+    return direct > 2 * (all - direct) || (direct >= 0 && quarter->variance > USELESS * pt->variance);
 }
 
 void race(const struct render_job *job, struct prepared *p)
 {
     int n = p->runner[RUNNER_PATH_TRACER].price > 0 ? RUNNER_PATH_TRACER : RUNNERS; /* the others have competed */
-    p->winner = compete(job, p, p->runner, n) ? find_winner(p, RUNNER_ALL) : RUNNER_ALL;
+    p->winner = compete(job, p, p->runner, n) >= 0 ? find_winner(p, RUNNER_ALL) : RUNNER_ALL;
 }

@@ -13,9 +13,10 @@
  * connections, so the same runner wins on every machine.
  *
  * The race has two stages. First two path tracers, with as many light points as RUNNER_ALL and with one, compete with
- * RUNNER_QUARTER, and little has been learnt for any. If it leaves more than USELESS of the variance of the first path
- * tracer, light sub-paths do not help, and the better path tracer wins. Else all is learnt, which often halves the
- * variance once more, and the others compete with it.
+ * RUNNER_QUARTER, and little has been learnt for any. The better path tracer wins if light sub-paths cannot help, since
+ * direct light at first hits makes two thirds of the variance of RUNNER_ONE_POINT, or do not help, since RUNNER_QUARTER
+ * has more than USELESS of the variance of the first path tracer. Else all is learnt, which often halves the variance
+ * of RUNNER_QUARTER, and the others compete with it.
  *
  * Tests: test_race.c.
  */
