@@ -16,7 +16,7 @@
 #include "base/number.h"
 #include "base/os.h"
 #include "cli/command.h"
-#include "cli/job_options.h"
+#include "library/job_options.h"
 #include "lab/commands.h"
 #include "image/image.h"
 #include "lab/compare.h"

@@ -34,7 +34,7 @@ static const struct option OPTIONS[] = {
 static const char *of_samples(const struct more_options *o)
 {
     return looks_variance(&o->look) ? "--aov variance" : o->look.lights != NULL ? "--lights"
-           : o->look.alpha ? "--alpha" : keep_asks_noise(&o->run.job) ? "--noise" : NULL;
+           : o->look.alpha ? "--alpha" : job_asks_noise(&o->run.of.job) ? "--noise" : NULL;
 }
 
 /* Can the method show that? */
@@ -68,7 +68,7 @@ static int run(void *options)
     int status = render_open(r);
     if (status != EXIT_OK)
         return status;
-    bool ok = can_show(o, r->job.integrator, &err) && looks_open(&looks, &o->look, r, &err);
+    bool ok = can_show(o, r->of.job.integrator, &err) && looks_open(&looks, &o->look, r, &err);
     if (ok) {
         ok = render_work(r, &err);
         ok = looks_write(&looks, ok, &err);
