@@ -128,7 +128,7 @@ check: asbdpt-lab ## facts about sources and documents, in ten seconds
 	@sh test/run/suites.sh $(FACTS)
 
 LONG  = $(foreach name,mini cli keep build examples progress,"sh test/run/$(name).sh $(PROGRAM)")
-SHORT = $(foreach name,lab corpus outputs install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") \
+SHORT = $(foreach name,lab sample corpus outputs install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") \
     "LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB)" "sh test/tree/words_test.sh" \
     "sh test/run/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
 test: asbdpt asbdpt-lab $(BUILD)/test ## build and run the test suite (three minutes on two cores)

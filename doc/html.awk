@@ -1,51 +1,11 @@
-# html.awk: a page of Markdown, or a source file (-v source=1), as HTML that needs nothing but itself and its pictures.
-#   awk -v root=../.. -v title=NAME [-v math=1] [-v source=1] [-v class=NAME] -f doc/math.awk -f doc/html.awk FILE >FILE.html
+# html.awk: a page of Markdown, or a file of text (-v source=1), as HTML that needs nothing but itself and its pictures.
+#   awk -v root=../.. -v title=NAME [-v math=1] [-v source=1] [-v class=NAME] [-v marks=FILE] \
+#       -f doc/math.awk -f doc/frame.awk -f doc/html.awk FILE >FILE.html
 # root is the way from the page to the top of the HTML tree, class that of the page's body; in slides every heading begins
 # a section. The subset of Markdown is that of this tree's documents: headings, paragraphs, lists of one level, tables,
 # indented and fenced code, pictures, links, emphasis, code.
 # With math, plain-text formulas are typeset: those of a line of text by indices and Greek letters, blocks by
 # math.awk (not with math=2).
-
-function escape(s) { gsub(/&/, "\\&amp;", s); gsub(/</, "\\&lt;", s); gsub(/>/, "\\&gt;", s); return s }
-
-# x_0, y_(s-1), m^2 of escaped text; names of two letters or more before an underscore are operators or functions.
-function formula(s, in_text,    out, base, index_, mark) {
-    gsub(/&lt;=/, "\\&le;", s); gsub(/&gt;=/, "\\&ge;", s)
-    if (!in_text) {
-        gsub(/\.\.\./, "\\&hellip;", s)
-        s = word(s, "integral", "\\&int;")
-        gsub(/sqrt\(/, "\\&radic;(", s)
-    } else { # a mirror's density is a word
-        gsub(/a delta/, "a del\003ta", s); gsub(/called delta/, "called del\003ta", s); gsub(/<em>delta/, "<em>del\003ta", s)
-        gsub(/<strong>delta/, "<strong>del\003ta", s)
-    }
-    s = word(s, "delta", "\\&delta;"); s = word(s, "kappa", "\\&kappa;")
-    gsub(/\003/, "", s)
-    s = word(s, "sum_", "\\&Sigma;_"); s = word(s, "beta", "\\&beta;"); s = word(s, "theta", "\\&theta;")
-    s = word(s, "eta", "\\&eta;"); s = word(s, "pi", "\\&pi;"); s = word(s, "sigma", "\\&sigma;")
-    while (match(s, /[A-Za-z*;)][_^](\([^()]*\)|[A-Za-z0-9]+)/)) {
-        base = substr(s, RSTART, 1)
-        mark = substr(s, RSTART + 1, 1) == "_" ? "sub" : "sup"
-        index_ = substr(s, RSTART + 2, RLENGTH - 2)
-        if (index_ ~ /^\(/) index_ = substr(index_, 2, length(index_) - 2)
-        out = out substr(s, 1, RSTART - 1) base "<" mark ">" index_ "</" mark ">"
-        s = substr(s, RSTART + RLENGTH)
-        if (match(s, /^\^[0-9]/)) { out = out "<sup>" substr(s, 2, 1) "</sup>"; s = substr(s, 3) }
-    }
-    return out s
-}
-# Replace a name that is no part of a longer one; what follows may be an index.
-function word(s, name, with,    out, before, after, at, w) {
-    w = with
-    gsub(/\\/, "", w)
-    while (at = index(s, name)) {
-        before = at > 1 ? substr(s, at - 1, 1) : " "
-        after = substr(s, at + length(name), 1)
-        out = out substr(s, 1, at - 1) (before ~ /[A-Za-z&]/ || (after ~ /[A-Za-z;]/ && name !~ /_$/) ? name : w)
-        s = substr(s, at + length(name))
-    }
-    return out s
-}
 
 # Where a link leads in the HTML tree: documents and sources have a page each; "FILE: FUNCTION" leads to the line.
 function target(url, label) {
@@ -68,6 +28,18 @@ function line_of(url, label,    name, folder, line, n) {
     return ""
 }
 
+# `transport/mis` leads to that file of src, and in the README of a folder of src `mis` to that of the folder.
+function to_source(name, text,    path, line) {
+    path = FILENAME
+    if (name ~ /^[a-z]+\/[a-z_]+(\.[ch])?$/) path = "src/" name
+    else if (!sub(/README\.md$/, "", path) || path !~ /^src\// || name !~ /^[a-z_]+(\.[ch])?$/) return text
+    else path = path name
+    if (name !~ /\./) path = path ((getline line < (path ".h")) > 0 ? ".h" : ".c")
+    if ((getline line < path) <= 0) return text
+    close(path)
+    return "<a href=\"" root "/" path ".html\">" text "</a>"
+}
+
 # A label whose code was set aside.
 function plain(label,    n, text) {
     if (label !~ /^\001[0-9]+\002$/) return label
@@ -78,12 +50,13 @@ function plain(label,    n, text) {
 }
 
 # Emphasis, links and code of a paragraph.
-function inline(s,    out, at, code, label, url, i) {
+function inline(s,    out, at, code, text, label, url, i) {
     n_kept = 0
     s = escape(s)
     while (match(s, /`[^`]+`/)) {
         code = substr(s, RSTART + 1, RLENGTH - 2)
-        kept[++n_kept] = "<code" (RLENGTH > 38 && kind != "table" ? " class=\"long\"" : "") ">" breakable(code) "</code>"
+        text = "<code" (RLENGTH > 38 && kind != "table" ? " class=\"long\"" : "") ">" breakable(code) "</code>"
+        kept[++n_kept] = substr(s, RSTART - 1, 1) == "[" ? text : to_source(code, text)
         s = substr(s, 1, RSTART - 1) "\001" n_kept "\002" substr(s, RSTART + RLENGTH)
     }
     while (match(s, /!?\[[^][]*\]\([^() ]*\)/)) {
@@ -93,7 +66,10 @@ function inline(s,    out, at, code, label, url, i) {
         label = substr(code, 1, at - 1)
         sub(/^!?\[/, "", label)
         if (substr(code, 1, 1) == "!") kept[++n_kept] = "<img src=\"" url "\" alt=\"" label "\"" (is_drawing(url) ? " class=\"drawing\"" : "") ">"
-        else kept[++n_kept] = "<a href=\"" target(url, plain(label)) "\">" label "</a>"
+        else if (substr(s, RSTART + RLENGTH) ~ /^ at \001/) { # doc/marks.awk knows where its line is
+            marked++
+            kept[++n_kept] = "<a id=\"computed-" marked "\" href=\"" url ".html#L" at_line[marked] "\">" label "</a>"
+        } else kept[++n_kept] = "<a href=\"" target(url, plain(label)) "\">" label "</a>"
         s = substr(s, 1, RSTART - 1) "\001" n_kept "\002" substr(s, RSTART + RLENGTH)
     }
     while (match(s, /&lt;https?:[^ ]*&gt;/)) {
@@ -149,7 +125,7 @@ function colour(s,    out, at, code) {
 function keywords(s,    out, name) {
     while (match(s, /[A-Za-z_][A-Za-z0-9_]*/)) {
         name = substr(s, RSTART, RLENGTH)
-        out = out substr(s, 1, RSTART - 1) (index(KEYWORDS, " " name " ") ? "<b>" name "</b>" : name)
+        out = out substr(s, 1, RSTART - 1) (is_keyword(name) ? "<b>" name "</b>" : name)
         s = substr(s, RSTART + RLENGTH)
     }
     return out s
@@ -192,17 +168,14 @@ function head(line,    n, i, cell) {
 }
 
 BEGIN {
-    KEYWORDS = " bool break case char const continue default do double else enum extern float for if int long return short" \
-        " sizeof static struct switch union unsigned void while "
-    print "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-    print "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" title "</title>"
-    print "<link rel=\"stylesheet\" href=\"" root "/style.css\"></head><body" (class != "" ? " class=\"" class "\"" : "") ">"
-    print "<nav><a href=\"" root "/index.html\">asbdpt</a> <a href=\"" root "/doc/tour/README.html\">tour</a> " \
-        "<a href=\"" root "/doc/course/README.html\">course</a> <a href=\"" root "/doc/tour/glossary.html\">glossary</a> " \
-        "<a href=\"" root "/doc/README.html\">all pages</a></nav>"
+    print frame(title, root, class)
     if (source) print "<h1>" title "</h1><pre>"
+    while (marks != "" && (getline line < marks) > 0) {
+        split(line, part, "\t")
+        if (part[1] == ARGV[1]) at_line[++n_marks] = part[3]
+    }
 }
-source { printf "<span id=\"L%d\" class=\"n\">%4d</span> %s\n", FNR, FNR, title ~ /\.[ch]$/ ? colour($0) : escape($0); next }
+source { printf "<span id=\"L%d\" class=\"n\">%4d</span> %s\n", FNR, FNR, escape($0); next }
 
 fence && /^ *```/ { fence = 0; print "</pre>"; next }
 fence { print (fence == 2 ? colour($0) : escape($0)); next }

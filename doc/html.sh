@@ -9,7 +9,7 @@ cat >"$out/style.css" <<'STYLE'
 :root { color-scheme: light dark; }
 body { max-width: 46em; margin: 0 auto; padding: 0 1em 4em; font: 1rem/1.55 Georgia, "Times New Roman", serif; }
 nav { padding: 0.6em 0; border-bottom: 1px solid #8884; font-family: sans-serif; font-size: 0.9rem; }
-nav a { margin-right: 1.2em; }
+nav a { margin-right: 1.2em; display: inline-block; }
 h1, h2, h3 { font-family: sans-serif; line-height: 1.25; }
 h2 { margin-top: 1.8em; }
 a { color: #0b62b8; text-decoration: none; overflow-wrap: anywhere; }
@@ -54,13 +54,31 @@ img { max-width: 100%; height: auto; vertical-align: middle; }
 img[src$=".svg"] { background: white; }
 img[src*="figures/"][src$=".png"] { min-width: min(14em, 48%); }
 sub, sup { font-size: 0.72em; line-height: 0; }
-.source { max-width: none; }
+.source { max-width: 68rem; }
+.source pre, .source .wide { width: auto; margin: 0; padding: 0; overflow: visible; background: none; }
+.source h2 { margin: 1.6em 0 0.2em; font-size: 1.2em; }
+.source > p { margin: 0; height: 0.7em; }
+.source pre a { color: inherit; overflow-wrap: normal; }
+.source pre i { font: italic 1.1em/1.1 Georgia, "Times New Roman", serif; }
+.source .n, .source .n:hover { display: inline-block; width: 2.6em; margin-right: 1.4em; text-align: right; color: #8889; user-select: none; }
+.l { display: block; }
+.c { margin: 1em 0 0.5em; padding-left: 0.9em; border-left: 3px solid #4878; }
+.c p { max-width: 44em; margin: 0.5em 0; }
+.c pre { margin: 0.4em 0; white-space: pre; overflow-x: auto; }
+.f { display: flow-root; margin: 0.3em 0 0.1em 3.4em; padding: 0.2em 0.8em; border-left: 3px solid #0b62b8; font: 0.85rem sans-serif; background: #0b62b811; }
+.f > a { float: right; margin-left: 1em; }
+.f .math { margin: 0; border: none; }
+.c .math { margin: 0; border: none; }
+.f .math td { padding: 0.15em 1em 0.15em 0; }
 .n { color: #888; }
 :target { background: #fd08; }
 @media screen and (max-width: 45em) {
     wbr { display: inline; }
     td code { font-size: 0.8em; }
     .drawing { max-width: none; width: 38em; }
+    .source pre .l { white-space: pre-wrap; overflow-wrap: anywhere; padding-left: 2.8em; text-indent: -2.8em; font-size: 0.92em; }
+    .source .n, .source .n:hover { width: 2.2em; margin-right: 0.6em; text-indent: 0; }
+    .f { margin-left: 0; }
     .wide td, .wide th { padding: 0.25em 0.35em; font-size: 0.85em; }
     .math td { display: inline-block; padding: 0.2em 0.8em; font-size: 1em; }
 }
@@ -118,11 +136,12 @@ page() {
         README.md) math=2 ;;
         doc/tour/* | doc/course/* | doc/method.md | doc/dissertation.md | doc/design-notes.md | doc/add-a-method.md) math=1 ;;
         esac
-        awk -v root="$root" -v math=$math -v class=$class -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -f doc/math.awk -f doc/html.awk "$1" \
+        awk -v root="$root" -v math=$math -v class=$class -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -v marks="$work/marks" -f doc/math.awk -f doc/frame.awk -f doc/html.awk "$1" \
             >"$out/${1%.md}.html" ;;
     *.png | *.svg) cp "$1" "$out/$1" ;;
     *.html) sed 's/\(href="[^"]*\)\.md"/\1.html"/' "$1" >"$out/$1" ;;
-    *) awk -v root="$root" -v title="$1" -v source=1 -v class=source -f doc/math.awk -f doc/html.awk "$1" >"$out/$1.html" ;;
+    *.[ch]) echo "$1" >>"$work/sources" ;;
+    *) awk -v root="$root" -v title="$1" -v source=1 -v class=source -f doc/math.awk -f doc/frame.awk -f doc/html.awk "$1" >"$out/$1.html" ;;
     esac
 }
 
@@ -146,9 +165,11 @@ awk '
             for (i = 2; i <= depth; i++) path = path "/" kept[i]
             print path
         } }' $documents >"$work/linked"
-for file in $documents $(sort -u "$work/linked"); do
+LC_ALL=C awk -f doc/marks.awk doc/tour/*.md >"$work/marks"
+for file in $documents $({ cat "$work/linked" && ls src/*/*.[ch]; } | sort -u); do
     if [ -f "$file" ]; then page "$file"; fi
 done
+LC_ALL=C awk -v out="$out" -v marks="$work/marks" -f doc/math.awk -f doc/frame.awk -f doc/source.awk $(cat "$work/sources")
 
 # The first page: images, all pages, the small programs, and the headings of all pages to search in.
 {
@@ -161,7 +182,7 @@ done
     printf '\n## Eight programs, from a ray to the whole method\n\n[How to read them](doc/mini/README.md)\n\n| program | what is new | image |\n|---|---|---|\n'
     sed -n 's,^| \([1-8]\) | \(\[.*\]\)(\(.*\)) | \(.*\) | [0-9]* |$,| \2(doc/mini/\3) | \4 | ![](doc/mini/figures/\1.png) |,p' doc/mini/README.md
 } >"$work/index.md"
-awk -v root=. -v title=asbdpt -f doc/math.awk -f doc/html.awk "$work/index.md" >"$work/index.html"
+awk -v root=. -v title=asbdpt -f doc/math.awk -f doc/frame.awk -f doc/html.awk "$work/index.md" >"$work/index.html"
 {
     sed '$d' "$work/index.html"
     echo '<h2 id="headings">Headings</h2><p><label>Search <input id="search" type="search"></label></p><ul id="list">'

@@ -37,7 +37,7 @@ function math_entity(c) {
     if (c == "&") return "&amp;"
     return c
 }
-function is_text(i) { return T[i] ~ /^[A-Za-z][A-Za-z]+$/ && !(T[i] in MI) && T[i] !~ /^(integral|sqrt|wi|wo|ns|ng)$/ && T[i + 1] !~ /^[_^]$/ }
+function is_text(i) { return T[i] ~ /^[A-Za-z][A-Za-z]+$/ && !(T[i] in MI) && T[i] !~ /^(integral|prod|sqrt|wi|wo|ns|ng)$/ && T[i + 1] !~ /^[_^]$/ }
 
 # From token I on, up to `closer`: terms and the signs between them.
 function math_terms(closer,    out) {
@@ -72,11 +72,14 @@ function math_product(closer,    out, top, n) {
     return out top
 }
 # A sum or integral of a quantity, which has an index or stands before one: "sum over draws" is words.
-function math_sums(i) { return T[i] == "integral" || T[i] == "sum" && (T[i + 1] == "_" || !is_text(i + 1)) }
+function math_sums(i) { return T[i] ~ /^(integral|prod)$/ || T[i] == "sum" && (T[i + 1] == "_" || !is_text(i + 1)) }
 function math_sign(    out) {
-    out = T[I++] == "sum" ? "<mo>&#x2211;</mo>" : "<mo>&#x222B;</mo>"
-    if (T[I] == "_") { I++; out = "<munder>" out math_index() "</munder>" }
-    return out
+    out = "<mo>" (T[I] == "sum" ? "&#x2211;" : T[I] == "prod" ? "&#x220F;" : "&#x222B;") "</mo>"
+    I++
+    if (T[I] == "_") { I++; out = out math_index() } else return out
+    if (T[I] != "^") return "<munder>" out "</munder>"
+    I++
+    return "<munderover>" out math_index() "</munderover>"
 }
 # A group without its parentheses, which a fraction does not need.
 function math_bare(s) {
@@ -144,4 +147,43 @@ function math_block(text,    line, n, i, rest, chunk, cell, out) {
         out = out "</tr>"
     }
     return out "</table></div>"
+}
+
+# x_0, y_(s-1), m^2 of escaped text; names of two letters or more before an underscore are operators or functions.
+function formula(s, in_text,    out, base, index_, mark) {
+    gsub(/&lt;=/, "\\&le;", s); gsub(/&gt;=/, "\\&ge;", s)
+    if (!in_text) {
+        gsub(/\.\.\./, "\\&hellip;", s)
+        s = word(s, "integral", "\\&int;")
+        gsub(/sqrt\(/, "\\&radic;(", s)
+    } else { # a mirror's density is a word
+        gsub(/a delta/, "a del\003ta", s); gsub(/called delta/, "called del\003ta", s); gsub(/<em>delta/, "<em>del\003ta", s)
+        gsub(/<strong>delta/, "<strong>del\003ta", s)
+    }
+    s = word(s, "delta", "\\&delta;"); s = word(s, "kappa", "\\&kappa;")
+    gsub(/\003/, "", s)
+    s = word(s, "sum_", "\\&Sigma;_"); s = word(s, "beta", "\\&beta;"); s = word(s, "theta", "\\&theta;")
+    s = word(s, "eta", "\\&eta;"); s = word(s, "pi", "\\&pi;"); s = word(s, "sigma", "\\&sigma;")
+    while (match(s, /[A-Za-z*;)][_^](\([^()]*\)|[A-Za-z0-9]+)/)) {
+        base = substr(s, RSTART, 1)
+        mark = substr(s, RSTART + 1, 1) == "_" ? "sub" : "sup"
+        index_ = substr(s, RSTART + 2, RLENGTH - 2)
+        if (index_ ~ /^\(/) index_ = substr(index_, 2, length(index_) - 2)
+        out = out substr(s, 1, RSTART - 1) base "<" mark ">" index_ "</" mark ">"
+        s = substr(s, RSTART + RLENGTH)
+        if (match(s, /^\^[0-9]/)) { out = out "<sup>" substr(s, 2, 1) "</sup>"; s = substr(s, 3) }
+    }
+    return out s
+}
+# Replace a name that is no part of a longer one; what follows may be an index.
+function word(s, name, with,    out, before, after, at, w) {
+    w = with
+    gsub(/\\/, "", w)
+    while (at = index(s, name)) {
+        before = at > 1 ? substr(s, at - 1, 1) : " "
+        after = substr(s, at + length(name), 1)
+        out = out substr(s, 1, at - 1) (before ~ /[A-Za-z&]/ || (after ~ /[A-Za-z;]/ && name !~ /_$/) ? name : w)
+        s = substr(s, at + length(name))
+    }
+    return out s
 }

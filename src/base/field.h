@@ -1,5 +1,8 @@
 /* field.h: the parameters of a method, a material, a shape or any other object of a scene as one table, from which
  * help, scene files, -P and tests take all they know. Defaults are given nowhere else.
+ *
+ * Two readers go by such tables, for what is wrong has other consequences: of an object pbrt-v3 warns and goes on with
+ * the default (parser/parse.c), of a method it is an error (settings.h).
  * Tests: test_options.c, test_parser.c, test_format.c, test_asbdpt.c, test/run/cli.sh. */
 #ifndef ASBDPT_FIELD_H
 #define ASBDPT_FIELD_H
@@ -7,9 +10,6 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
-#include <string.h>
-
-#include "base/error.h"
 
 /* What a parameter is, and the type of its place in the struct. Methods have those of the second line alone. */
 enum field_kind {
@@ -21,8 +21,8 @@ enum field_kind {
     FIELD_RGB_TEXTURE,   /* int: of colours */
     FIELD_OPERAND,       /* int: of what the texture is that is being made; */
     FIELD_VALUE,         /* rgb: a value of that type */
-    FIELD_MATERIAL,      /* int: a material made before */
-    FIELD_FOURIER_TABLE, /* const struct fourier_table *: from a file; the scene's */
+    FIELD_PART,          /* int: an object of the same directive that was made before */
+    FIELD_TABLE,         /* a pointer to what a file holds; the scene's */
     FIELD_FILE,          /* const char *: a path that may be read, or NULL; borrowed */
     FIELD_INDICES, FIELD_POINTS, FIELD_VECTORS, FIELD_NORMALS, FIELD_PAIRS, /* struct field_list: of three, of two */
     FIELD_IGNORED        /* nothing depends on it */
@@ -49,40 +49,5 @@ struct field_list {
  * that methods have: the default as text [size]. */
 const struct field *field_find(const struct field *table, const char *name);
 void field_fallback(const struct field *f, char *text, size_t size);
-
-/* --- settings ----------------------------------------------------------------------------------------- */
-
-/* The parameters of an integrator as a scene file and -P give them, kept as text until they are read by a table. Later
- * ones override earlier ones. */
-struct setting {
-    char *name, *value; /* owned */
-    char *origin;       /* "FILE:LINE:COL" or "-P", for messages; owned */
-};
-
-/* setting_is_of_file: or of -P? */
-static inline bool setting_is_of_file(const struct setting *s) { return strcmp(s->origin, "-P") != 0; }
-
-struct settings {
-    struct setting *item; /* [n], owned */
-    int n;
-};
-
-/* settings_set: add, or replace the one of that name; the texts are copied. settings_remove: forget number i.
- * settings_clear: forget and free everything. */
-void settings_set(struct settings *s, const char *name, const char *value, const char *origin);
-void settings_remove(struct settings *s, int i);
-void settings_clear(struct settings *s);
-
-/* settings_text: the value, or `fallback` when the name is not set. */
-const char *settings_text(const struct settings *s, const char *name, const char *fallback);
-
-/* settings_choice: which of the names, ended by NULL, the value is; *out = fallback when not set. Returns false with a
- * message naming origin, name, value and the names. */
-bool settings_choice(const struct settings *s, const char *name, int fallback, const char *const *names, int *out,
-                     struct error *err);
-
-/* settings_fields: all fields of a table of integers, numbers and words into the struct at `into`. Returns false with a
- * message naming origin, name, value and what is allowed. */
-bool settings_fields(const struct settings *s, const struct field *table, void *into, struct error *err);
 
 #endif

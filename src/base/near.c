@@ -5,6 +5,26 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+int names_find(const char *const *names, const char *name)
+{
+    for (int i = 0; names[i] != NULL; i++)
+        if (strcmp(names[i], name) == 0)
+            return i;
+    return -1;
+}
+
+const char *names_list(const char *const *names, char text[NAMES_TEXT])
+{
+    text[0] = '\0';
+    for (int i = 0; names[i] != NULL; i++) {
+        size_t used = strlen(text);
+        const char *join = i == 0 ? "" : names[i + 1] == NULL ? " or " : ", ";
+        snprintf(text + used, NAMES_TEXT - used, "%s\"%s\"", join, names[i]);
+    }
+    return text;
+}
 
 static int least(int a, int b) { return a < b ? a : b; }
 

@@ -1,4 +1,4 @@
-/* near.h: which of several names was probably meant by one that is none of them, for messages.
+/* near.h: lists of names, ended by NULL, and which of several names was probably meant by one that is none of them.
  *
  * It is the name into which the unknown one turns by the fewest letters that are changed, left out or put in, case
  * apart (Levenshtein's distance). A name of three letters may differ by one, one of six by two. Names longer than
@@ -6,6 +6,12 @@
  * Tests: test_parser.c, test_options.c. */
 #ifndef ASBDPT_NEAR_H
 #define ASBDPT_NEAR_H
+
+/* names_find: the number of a name in a list, or -1. names_list: the whole of it in `text`, which is returned:
+ * "a", "b" or "c", with the quotation marks. */
+enum { NAMES_TEXT = 256 };
+int names_find(const char *const *names, const char *name);
+const char *names_list(const char *const *names, char text[NAMES_TEXT]);
 
 enum { NEAR_LONGEST = 32, NEAR_TEXT = NEAR_LONGEST + 32 };
 

@@ -13,14 +13,13 @@ struct convert_options {
 #define AT(member) offsetof(struct convert_options, member)
 static const struct option OPTIONS[] = {
     {"IN", NULL, OPTION_TEXT, AT(in), 1,
-     .help = "an image to read: .exr .pfm .png .tga .ppm .pgm, - for .pfm from standard input"},
+     .help = "an image to read, - for .pfm from standard input", .list = image_list_read},
     {"--weights", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab sum adds up images"},
     {"-o", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "--outfile", .written = true,
-     .help = "image to write: linear .pfm or .exr, sRGB .png or .ppm, - for .pfm to standard output; repeatable"},
+     .help = IMAGE_HELP, .list = image_list_written},
     {"--linear", NULL, OPTION_ON, AT(linear),
-     .help = "take the values of .png, .tga, .ppm and .pgm as light, as \"mapname\" does (default: they are sRGB)"},
-    {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
-    {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
+     .help = "take the values of 8-bit formats as light, as \"mapname\" does (default: they are sRGB)"},
+    TONE_ROWS,
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not print what was written"}, {.name = NULL}};
 
 static int run(void *options)

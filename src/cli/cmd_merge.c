@@ -20,9 +20,8 @@ static const struct option OPTIONS[] = {
     {"-o", "FILE", OPTION_TEXTS, AT(output), 1, .alias = "--outfile", .written = true,
      .help = "an image or .part to write; repeatable"},
     {"--partial", NULL, OPTION_ON, AT(partial), .help = "make an image even if samples are missing"},
-    {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
-    {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
-    {"--unclamped", NULL, OPTION_ON, AT(unclamped), .help = UNCLAMPED_HELP},
+    TONE_ROWS,
+    UNCLAMPED_ROW,
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not print what was written"}, {.name = NULL}};
 
 struct named {

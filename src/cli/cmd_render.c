@@ -17,11 +17,9 @@
 const struct option RENDER_OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(of.job.scene_path), 1, .help = "a scene file; - reads standard input"},
     {"-o", "FILE", OPTION_TEXTS, AT(output), .alias = "--outfile", .written = true,
-     .help = "image to write: linear .pfm or .exr, sRGB .png or .ppm, - for .pfm to standard output; repeatable "
-             "(default: the scene's Film name)"},
-    {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", .help = EXPOSURE_HELP},
-    {"--tonemap", "NAME", OPTION_TEXT, AT(tone.curve), .help = TONEMAP_HELP},
-    {"--unclamped", NULL, OPTION_ON, AT(unclamped), .help = UNCLAMPED_HELP},
+     .help = IMAGE_HELP " (default: the scene's Film name)", .list = image_list_written},
+    TONE_ROWS,
+    UNCLAMPED_ROW,
     {"--time", "TIME", OPTION_TIME, AT(keep.time), 1e-9, 1e9,
      .help = "render for at most TIME, in seconds or as 90s, 5m, 1h, and write the image so far (default: no limit)"},
     {"--preview", "TIME", OPTION_TIME, AT(keep.preview), 1e-9, 1e9,
@@ -246,6 +244,6 @@ static int run(void *options)
 }
 
 const struct command command_render = {
-    "render", "render a scene to images", {"SCENE.pbrt [-o FILE.{pfm,exr,png,ppm}]... [options]"}, RENDER_OPTIONS,
+    "render", "render a scene to images", {"SCENE.pbrt [-o FILE]... [options]"}, RENDER_OPTIONS,
     sizeof(struct render_run), run, false,
     "render scenes/veach-ajar.pbrt --quick --spp 16 -o out/ajar.png"};

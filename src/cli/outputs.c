@@ -16,20 +16,14 @@ static void release(struct outputs *o)
 
 static bool read_tone(const struct tone_options *t, const struct texts *names, struct tone *out, struct error *err)
 {
-    struct tone tone = {0, TONE_NONE};
     bool shown = false;
-    if (t != NULL) {
-        bool filmic = t->curve != NULL && strcmp(t->curve, "filmic") == 0;
-        if (t->curve != NULL && !filmic && strcmp(t->curve, "none") != 0)
-            return error_usage(err, "--tonemap %s: known are none, filmic", t->curve);
-        tone.stops = t->exposure;
-        tone.curve = filmic ? TONE_FILMIC : TONE_NONE;
-    }
+    *out = (struct tone){0, TONE_NONE};
+    if (t != NULL)
+        *out = (struct tone){t->exposure, (enum tone_curve)names_find(TONE_NAMES, t->curve)};
     for (int i = 0; i < names->n; i++)
         shown = shown || image_is_8_bit(names->item[i]);
-    *out = tone;
-    return shown || tone_is_plain(&tone) ||
-           error_usage(err, "--exposure and --tonemap are for 8-bit images (.png, .ppm); none is written");
+    return shown || tone_is_plain(out) ||
+           error_usage(err, "--exposure and --tonemap are for 8-bit images; none is written");
 }
 
 bool outputs_is_part(const char *name)

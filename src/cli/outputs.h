@@ -29,14 +29,21 @@ struct outputs {
     bool unclamped;          /* pictures keep values below 0 */
 };
 
-/* What the options --exposure and --tonemap say, and their help. */
+/* What the options --exposure and --tonemap say; and rows of options that several tables have, for members `tone` and
+ * `unclamped` of the struct that AT is about. */
 struct tone_options {
     double exposure;
-    const char *curve; /* NULL: none */
+    const char *curve; /* one of TONE_NAMES */
 };
-#define EXPOSURE_HELP "make 8-bit images brighter by EV stops, a factor of 2 each"
-#define TONEMAP_HELP "tone curve of 8-bit images: none or filmic (default none)"
-#define UNCLAMPED_HELP "keep negative values in .pfm and .exr, for images that are averaged (default: 0 instead)"
+#define TONE_ROWS \
+    {"--exposure", "EV", OPTION_NUMBER, AT(tone.exposure), -100, 100, .fallback = "0", \
+     .help = "make 8-bit images brighter by EV stops, a factor of 2 each"}, \
+    {"--tonemap", "NAME", OPTION_WORD, AT(tone.curve), .fallback = "none", .words = TONE_NAMES, \
+     .help = "tone curve of 8-bit images"}
+#define UNCLAMPED_ROW \
+    {"--unclamped", NULL, OPTION_ON, AT(unclamped), \
+     .help = "keep negative values in linear images, for images that are averaged (default: 0 instead)"}
+#define IMAGE_HELP "image to write, repeatable; 8-bit formats are sRGB, others linear; - is .pfm to standard output"
 
 /* outputs_is_part: does the name end in .part? outputs_possible: can a file of this name be made? False with a
  * message. */

@@ -145,3 +145,14 @@ static void write_file(FILE *f, const struct raster *r, enum exr_type type)
 
 void exr_write_half(FILE *f, const struct raster *r) { write_file(f, r, EXR_HALF); }
 void exr_write_float(FILE *f, const struct raster *r) { write_file(f, r, EXR_FLOAT); }
+
+/* Halfs end at HALF_MAX. */
+void exr_warn_half(const char *path, const struct raster *r)
+{
+    long cut = 0;
+    for (size_t i = 0; i < 3 * (size_t)r->width * (size_t)r->height; i++)
+        cut += isfinite(r->pixels[i]) && fabsf(r->pixels[i]) > HALF_MAX;
+    if (cut > 0)
+        say_line("asbdpt: warning: %s: %ld values are beyond %d, the most that half floats hold, and were cut to it; a "
+                 "name that ends in .float.exr keeps them", path, cut, HALF_MAX);
+}

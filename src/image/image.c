@@ -2,13 +2,12 @@
 #include "image/image.h"
 
 #include <math.h>
-#include <string.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/bits.h"
 #include "base/maths.h"
 #include "base/mem.h"
-#include "image/exr.h"
 
 /* --- pixels ------------------------------------------------------------------------------------------- */
 
@@ -93,19 +92,32 @@ struct format {
     bool (*read)(const uint8_t *data, size_t size, const struct budget *memory, struct image *out, struct error *err);
     void (*write)(FILE *f, const struct raster *r); /* NULL where it is not written */
     bool is_8_bit;
+    void (*warn)(const char *path, const struct raster *r); /* of what is lost in what was written; or NULL */
 };
 
 /* The first whose extension fits counts. */
 static const struct format FORMATS[] = {
-    {".pfm", pfm_matches, pfm_read, pfm_write, false},
-    {".float.exr", exr_matches, exr_read, exr_write_float, false},
-    {".exr", exr_matches, exr_read, exr_write_half, false},
-    {".ppm", ppm_matches, ppm_read, ppm_write, true},
-    {".pgm", ppm_matches, ppm_read, NULL, true},
-    {".png", png_matches, png_read, png_write, true},
-    {".tga", NULL, tga_read, NULL, true},
+    {".pfm", pfm_matches, pfm_read, pfm_write, false, NULL},
+    {".float.exr", exr_matches, exr_read, exr_write_float, false, NULL},
+    {".exr", exr_matches, exr_read, exr_write_half, false, exr_warn_half},
+    {".ppm", ppm_matches, ppm_read, ppm_write, true, NULL},
+    {".pgm", ppm_matches, ppm_read, NULL, true, NULL},
+    {".png", png_matches, png_read, png_write, true, NULL},
+    {".tga", NULL, tga_read, NULL, true, NULL},
 };
 enum { N_FORMATS = sizeof FORMATS / sizeof FORMATS[0] };
+
+static const char *list(bool written, char text[IMAGE_LIST_TEXT])
+{
+    int n = 0;
+    for (int i = 0; i < N_FORMATS; i++)
+        if (!written || FORMATS[i].write != NULL)
+            n += snprintf(text + n, (size_t)(IMAGE_LIST_TEXT - n), "%s%s", n > 0 ? " " : "", FORMATS[i].extension);
+    return text;
+}
+
+const char *image_list_read(char text[IMAGE_LIST_TEXT]) { return list(false, text); }
+const char *image_list_written(char text[IMAGE_LIST_TEXT]) { return list(true, text); }
 
 static const struct format *format_by_name(const char *path)
 {
@@ -129,8 +141,9 @@ static bool read_bytes(const char *path, const uint8_t *data, size_t size, const
     const struct format *format = format_by_content(data, size);
     if (format == NULL)
         format = format_by_name(path);
+    char known[IMAGE_LIST_TEXT];
     if (format == NULL)
-        return error_set(err, "unknown image format; convert it to PFM, OpenEXR, PNG, PPM or TGA");
+        return error_set(err, "unknown image format; known are %s", image_list_read(known));
     return format->read(data, size, memory, out, err);
 }
 
@@ -171,28 +184,18 @@ bool image_writable(const char *path) { return format_to_write(path) != NULL; }
 
 bool image_create(const char *path, struct file_output *out, struct error *err)
 {
+    char known[IMAGE_LIST_TEXT];
     if (!image_writable(path))
-        return error_usage(err, "%s: images are written as " IMAGE_WRITTEN "; end the name in one of these", path);
+        return error_usage(err, "%s: an image to write ends in one of %s", path, image_list_written(known));
     return file_create(path, out, err);
-}
-
-/* Halfs end at HALF_MAX. */
-static void warn_of_halfs(const char *path, const struct raster *r)
-{
-    long cut = 0;
-    for (size_t i = 0; i < 3 * (size_t)r->width * (size_t)r->height; i++)
-        cut += isfinite(r->pixels[i]) && fabsf(r->pixels[i]) > HALF_MAX;
-    if (cut > 0)
-        say_line("asbdpt: warning: %s: %ld values are beyond %d, the most that half floats hold, and were cut to it; a "
-                 "name that ends in .float.exr keeps them", path, cut, HALF_MAX);
 }
 
 bool image_finish(struct file_output *f, const struct raster *r, struct error *err)
 {
     const struct format *format = format_to_write(f->path);
     format->write(f->stream, r);
-    if (format->write == exr_write_half)
-        warn_of_halfs(f->path, r);
+    if (format->warn != NULL)
+        format->warn(f->path, r);
     return file_commit(f, err);
 }
 

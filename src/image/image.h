@@ -104,8 +104,11 @@ float *image_read_values(const char *path, int *width, int *height, struct image
 /* image_mend: make samples that are NaN or infinite 0, and negative ones too if asked; `replaced` counts them. */
 void image_mend(struct image *img, bool negative_too);
 
-/* The extensions of what is written, for messages. */
-#define IMAGE_WRITTEN ".pfm, .exr, .png or .ppm"
+/* image_list_read, image_list_written: the extensions of all formats with a blank between them, for messages and help.
+ * Both return `text`. */
+enum { IMAGE_LIST_TEXT = 128 };
+const char *image_list_read(char text[IMAGE_LIST_TEXT]);
+const char *image_list_written(char text[IMAGE_LIST_TEXT]);
 
 /* image_create, image_finish: write a picture in the format named by the extension; to standard output, -, as PFM.
  * .ppm and .png are clamped to [0,1] and sRGB encoded; .exr has halfs, like pbrt-v3's, and a warning says how many
@@ -164,5 +167,6 @@ bool exr_matches(const uint8_t *data, size_t size);
 bool exr_read(const uint8_t *data, size_t size, const struct budget *memory, struct image *out, struct error *err);
 void exr_write_half(FILE *f, const struct raster *r);
 void exr_write_float(FILE *f, const struct raster *r);
+void exr_warn_half(const char *path, const struct raster *r); /* of what halfs cut */
 
 #endif

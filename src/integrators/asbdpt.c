@@ -17,7 +17,7 @@
  * weights valid.
  *
  * [Su 2022] has subspaces of eye and light sub-paths and a matrix of probabilities between them. Here the regions are
- * cells of grids, and the table is learnt from trial connections.
+ * cubes, and the table is learnt from trial connections.
  *
  * Tests: test_asbdpt.c.
  */
@@ -32,7 +32,7 @@ struct group {
 };
 
 struct index {
-    struct candidate *candidate; /* [n], sorted by region */
+    const struct vertex **candidate; /* [n], sorted by region */
     double *before;              /* [n], sum of L of the candidates before it in its group */
     struct group *group;         /* [n_groups], in the order of their regions */
     int n_groups;
@@ -47,7 +47,7 @@ static void make_groups(struct index *v, struct pool *pool, int *group_of, int n
 {
     memset(group_of, 0, (size_t)n_regions * sizeof *group_of);
     for (int i = 0; i < pool->n_candidates; i++)
-        group_of[candidate_vertex(&pool->candidate[i])->region] += pool->candidate[i].L > 0;
+        group_of[pool->candidate[i]->place] += rgb_luminance(pool->candidate[i]->beta) > 0;
     v->group = arena_alloc(&pool->arena, (size_t)n_regions * sizeof *v->group);
     v->n_groups = 0;
     for (int region = 0, first = 0; region < n_regions; region++) {
@@ -73,13 +73,14 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     v->candidate = arena_alloc(arena, (size_t)pool->n_candidates * sizeof *v->candidate);
     v->before = arena_alloc(arena, (size_t)pool->n_candidates * sizeof *v->before);
     for (int i = 0; i < pool->n_candidates; i++) {
-        struct candidate c = pool->candidate[i];
-        if (!(c.L > 0))
+        const struct vertex *y = pool->candidate[i];
+        double L = rgb_luminance(y->beta);
+        if (!(L > 0))
             continue;
-        struct group *g = &v->group[group_of[candidate_vertex(&c)->region]];
-        v->candidate[g->first + g->n] = c;
+        struct group *g = &v->group[group_of[y->place]];
+        v->candidate[g->first + g->n] = y;
         v->before[g->first + g->n++] = g->L;
-        g->L += c.L;
+        g->L += L;
     }
     v->row = arena_alloc(arena, (size_t)n_regions * sizeof *v->row);
     for (int e = 0; e < n_regions; e++)
@@ -107,29 +108,26 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
 {
     if (v->n_groups == 0)
         return false;
-    const double *row = row_of_region(v, &sample->pass->work->pool.arena, &p->tables->pairs, z->region);
+    const double *row = row_of_region(v, &sample->pass->work->pool.arena, &p->tables->pairs, z->place);
     double total = row[v->n_groups], target = (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n * total;
     int k = cumulative_find(row, v->n_groups, target);
     const struct group *g = &v->group[k];
     double share = row[k + 1] - row[k], within = (target - row[k]) / share * g->L;
-    const struct candidate *c = &v->candidate[g->first + cumulative_find(&v->before[g->first], g->n, within)];
-    *out = c->drawn;
-    out->pmf = share / total * c->L / g->L;
+    const struct vertex *y = v->candidate[g->first + cumulative_find(&v->before[g->first], g->n, within)];
+    *out = drawn_vertex(y, share / total * rgb_luminance(y->beta) / g->L);
     return true;
 }
 
 /* --- the loop ---------------------------------------------------------------------------------------- */
 
-/* loop_render (loop.h), written out for the reader. After a race (race.h) only one of `every` iterations may have light
- * sub-paths, or draws of later hits. What is drawn then counts `every` times. In the other iterations K = 0: they are
- * those of a path tracer. */
+/* After a race (race.h) only one of `every` iterations may have light sub-paths, or draws of later hits. What is drawn
+ * then counts `every` times. In the other iterations K = 0: they are those of a path tracer. */
 static void render_iteration(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    const int longest = pass->job->max_depth; /* t of a vertex that can be joined to one of s >= 2 */
     struct vertex *eye = pass->work->eye;
     loop_fill(p, pass, iteration); /* K light sub-paths, and their vertices by region */
     const int K = pass->work->pool.n;
-    const struct index *index = K > 0 ? build(p, pass, iteration) : NULL;
+    const struct index *index = K > 0 ? p->method->build(p, pass, iteration) : NULL;
     int draws[EYE_ENDS];
     loop_draws(p, pass, iteration, draws);
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
@@ -138,21 +136,21 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
         int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
         for (int t = 2; t <= n; t++) {
             const struct vertex *z = &eye[t - 1];
-            const int C = t <= longest && vertex_connectible(z) ? draws[z->eye_end] : 0;
+            const int C = t <= pass->job->max_depth && vertex_connectible(z) ? draws[z->eye_end] : 0;
             const double every = numbers_every(&p->numbers, z->eye_end);
-            struct drawn light;
+            struct drawn drawn;
             sample_hit(&sample, eye, t);  /* s = 0 */
             sample_direct(&sample, z, t); /* s = 1 */
             for (int j = 0; j < C; j++)   /* s >= 2 */
-                if (draw(p, index, &sample, z, j, C, &light))
-                    sample_pairs(&sample, &light, z, t, every / (C * K) / light.pmf);
+                if (p->method->draw(p, index, &sample, z, j, C, &drawn))
+                    sample_pairs(&sample, &drawn, z, t, every / (C * K) / drawn.pmf);
         }
         loop_splat(p, &sample); /* t = 1 */
         sample_end(&sample);
     }
 }
 
-static void render(const struct prepared *p, const struct tile_pass *pass)
+void selection_render(const struct prepared *p, const struct tile_pass *pass)
 {
     for (long iteration = pass->first; iteration < pass->end; iteration++)
         render_iteration(p, pass, iteration);
@@ -170,9 +168,8 @@ static const struct field PARAMETERS[] = {
     PARAMETERS_SHARED(true, 2, true, 0.2, MAX_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
-static const struct selector SELECTOR = {build, draw};
-
 const struct method method_subspaces = {
     .name = "asbdpt", .select = "subspaces", .help = "light vertices by what they are worth where the eye vertex is",
     .parameters = PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .vertices = true, .learns_use = true, .learns_pairs = true, .selector = &SELECTOR, .render = render};
+    .vertices = true, .learns_use = true, .learns_pairs = true, .build = build, .draw = draw,
+    .render = selection_render};

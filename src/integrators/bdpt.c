@@ -12,14 +12,14 @@
 static void render_pixel(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration)
 {
     const struct numbers *numbers = &p->numbers;
-    const int longest = pass->job->max_depth + 1; /* vertices of a light sub-path */
+    const int max_vertices = pass->job->max_depth + 1; /* vertices of a light sub-path */
     struct arena *arena = &pass->work->arena;
     struct vertex *eye = pass->work->eye, *light = NULL;
     arena_reset(arena);
     struct sample sample = sample_begin(pass, &p->counts, numbers->light_points, x, y, iteration);
-    int n_eye = sample_eye_path(&sample, eye, numbers->light_points > 0 ? longest + 1 : 2), n_light = 0;
+    int n_eye = sample_eye_path(&sample, eye, numbers->light_points > 0 ? max_vertices + 1 : 2), n_light = 0;
     if (numbers->path_pixels > 0) {
-        light = arena_alloc(arena, (size_t)longest * sizeof *light);
+        light = arena_alloc(arena, (size_t)max_vertices * sizeof *light);
         n_light = sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, arena, light);
     }
     for (int t = 2; t <= n_eye; t++) {

@@ -4,8 +4,8 @@
 /* Fisher and Yates, from the inside out. [Durstenfeld 1964] */
 void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long iteration, int *order)
 {
-    const int *first = pass->tile->pixel[0];
-    struct sampler sampler = sample_stream(pass, RNG_SHUFFLE, first[0], first[1], (uint64_t)iteration);
+    const int *corner = pass->tile->pixel[0];
+    struct sampler sampler = sample_stream(pass, RNG_SHUFFLE, corner[0], corner[1], (uint64_t)iteration);
     for (int i = 0; i < pool->n; i++) {
         /* at most i, since what is drawn is below 1 by more than rounding can add */
         int j = (int)(sampler_number(&sampler, DRAW_ORDER) * (i + 1));
@@ -18,10 +18,10 @@ void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long it
  * the pixel, for those are points of nets (sampler.h). */
 bool loop_turn(const struct prepared *p, const struct tile_pass *pass, enum eye_end end, long iteration)
 {
-    const int *first = pass->tile->pixel[0], every = numbers_every(&p->numbers, end);
+    const int *corner = pass->tile->pixel[0], every = numbers_every(&p->numbers, end);
     if (every == 1)
         return true;
-    struct sampler sampler = sample_stream(pass, RNG_TURN, first[0], first[1], (uint64_t)(iteration / every));
+    struct sampler sampler = sample_stream(pass, RNG_TURN, corner[0], corner[1], (uint64_t)(iteration / every));
     return iteration % every == (long)(sampler_number(&sampler, DRAW_ORDER) * every);
 }
 
@@ -48,7 +48,7 @@ int loop_begin(const struct prepared *p, const struct tile_pass *pass, int numbe
 {
     *sample = sample_begin(pass, &p->counts, p->numbers.light_points, x, y, iteration);
     sample->number = number;
-    if (p->method->selector != NULL)
+    if (p->method->build != NULL)
         sample->choice = sample_stream(pass, RNG_SELECT, x, y, number_of_turn(p, iteration));
     return sample_eye_path(sample, eye, pass->job->max_depth + 2);
 }
@@ -61,18 +61,6 @@ void loop_draws(const struct prepared *p, const struct tile_pass *pass, long ite
     }
 }
 
-void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
-               int t, const int draws[EYE_ENDS])
-{
-    const struct tile_pass *pass = sample->pass;
-    const int K = pass->work->pool.n, C = draws[z->eye_end];
-    const double every = numbers_every(&p->numbers, z->eye_end);
-    struct drawn y;
-    for (int i = 0; i < C && t <= pass->job->max_depth && vertex_connectible(z); i++)
-        if (p->method->selector->draw(p, index, sample, z, i, C, &y))
-            sample_pairs(sample, &y, z, t, every / (C * K) / y.pmf);
-}
-
 /* The weights count one sub-path per path_pixels pixels of the film. A tile has K, which is rounded up: `scale` makes
  * up for the difference. */
 void loop_splat(const struct prepared *p, struct sample *sample)
@@ -82,28 +70,4 @@ void loop_splat(const struct prepared *p, struct sample *sample)
     if (pool->n > 0 && sample->number == k * each)
         sample_lens(sample, pool_path(pool, k), pool->length[k],
                     sample->pass->tile->n_pixels / ((double)pool->n * each));
-}
-
-void loop_render(const struct prepared *p, const struct tile_pass *pass)
-{
-    struct vertex *eye = pass->work->eye;
-    for (long iteration = pass->first; iteration < pass->end; iteration++) {
-        loop_fill(p, pass, iteration);
-        const struct index *index =
-            pass->work->pool.n > 0 ? p->method->selector->build(p, pass, iteration) : NULL;
-        int draws[EYE_ENDS];
-        loop_draws(p, pass, iteration, draws);
-        for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
-            struct sample sample;
-            arena_reset(&pass->work->arena);
-            int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
-            for (int t = 2; t <= n; t++) {
-                sample_hit(&sample, eye, t);
-                sample_direct(&sample, &eye[t - 1], t);
-                loop_join(p, index, &sample, &eye[t - 1], t, draws);
-            }
-            loop_splat(p, &sample);
-            sample_end(&sample);
-        }
-    }
 }

@@ -1,4 +1,4 @@
-/* loop.h: the loop over the samples of a tile pass for methods that choose light sub-paths by a selector; its steps.
+/* loop.h: the loop over the samples of a tile pass whose pixels share light sub-paths, and its steps.
  *
  *     pool  = light sub-paths of the tile, one for every path_pixels of its pixels
  *     index = build(pool)
@@ -19,8 +19,8 @@
 
 #include "integrators/method.h"
 
-/* loop_render: the `render` of a method. */
-void loop_render(const struct prepared *p, const struct tile_pass *pass);
+/* selection_render: the `render` of such methods. It stands in asbdpt.c, beside the choice of the default. */
+void selection_render(const struct prepared *p, const struct tile_pass *pass);
 
 /* Its steps.
  *
@@ -29,7 +29,6 @@ void loop_render(const struct prepared *p, const struct tile_pass *pass);
  *   loop_begin  begin a sample of pixel (x,y), the tile's pixel of this number, and trace its eye sub-path into eye
  *               [max_depth + 2]; returns the number of vertices
  *   loop_draws  how many light vertices an eye vertex of each kind draws in the iteration, whose pool is filled
- *   loop_join   add what eye vertex z = z_{t-1} draws
  *   loop_splat  connect to the lens the light sub-path of the pixel, if it is one of those that have one
  */
 bool loop_turn(const struct prepared *p, const struct tile_pass *pass, enum eye_end end, long iteration);
@@ -37,8 +36,6 @@ void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iter
 int loop_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y, long iteration,
                struct sample *sample, struct vertex *eye);
 void loop_draws(const struct prepared *p, const struct tile_pass *pass, long iteration, int draws[EYE_ENDS]);
-void loop_join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
-               int t, const int draws[EYE_ENDS]);
 void loop_splat(const struct prepared *p, struct sample *sample);
 
 /* pool_shuffle: write a random permutation of the sub-paths' numbers for one iteration to order [pool->n]. */

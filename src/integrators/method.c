@@ -7,7 +7,11 @@
 static const double BOUND = 0.25; /* M of counts.h for each light sub-path of a full tile */
 
 const char *const OFF_ON[] = {"off", "on", NULL};
-const char *const RACES[] = {"off", "on", "all", "quarter", "quarter_first", "path_tracer", "one_point", NULL};
+const char RUNNER_NUMBERS[RUNNERS][24] = {"race_all", "race_quarter", "race_quarter_first", "race_path_tracer",
+                                          "race_one_point"};
+enum { NAME = sizeof "race_" - 1 }; /* where a runner's own name begins */
+const char *const RACES[] = {"off", "on", &RUNNER_NUMBERS[0][NAME], &RUNNER_NUMBERS[1][NAME], &RUNNER_NUMBERS[2][NAME],
+                             &RUNNER_NUMBERS[3][NAME], &RUNNER_NUMBERS[4][NAME], NULL};
 
 const struct field *method_has(const struct method *m, const char *name)
 {
@@ -36,7 +40,7 @@ struct pass_size method_size(const struct prepared *p)
 {
     bool shared = p->numbers.path_pixels > 0 && numbers_every(&p->numbers, FIRST_HIT) == 1;
     const struct pass_size alone = {p->size.block, DEFAULT_TILE_SIZE, 1};
-    return p->method->selector == NULL || shared ? p->size : alone;
+    return p->method->build == NULL || shared ? p->size : alone;
 }
 
 void method_counts(const struct render_job *job, struct prepared *p)

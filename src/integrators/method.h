@@ -13,7 +13,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
-#include "base/field.h"
+#include "base/settings.h"
 #include "transport/sample.h"
 
 #define DEFAULT_RR_THRESHOLD 0.5
@@ -83,8 +83,9 @@ struct runner {
 };
 enum runner_number { RUNNER_ALL, RUNNER_QUARTER, RUNNER_QUARTER_FIRST, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
 
-/* runner_name: as -P race= has it. */
+/* runner_name: as -P race= has it. RUNNER_NUMBERS: as --stats names what the race has found. */
 static inline const char *runner_name(int runner) { return RACES[RACE_RUNNERS + runner]; }
+extern const char RUNNER_NUMBERS[RUNNERS][24];
 
 /* A method that is ready to render. It does not change while it renders. */
 struct prepared {
@@ -102,17 +103,8 @@ struct prepared {
     bool hasty;               /* the job was cancelled before all was learnt and raced */
 };
 
-/* What a selector has made of a pool, in the pool's arena; each has a struct of its own. */
+/* What a method has made of a pool, in the pool's arena; each has a struct of its own. */
 struct index;
-
-/* How eye vertices choose among the light sub-paths that the pixels of a tile share. */
-struct selector {
-    /* An index of the pool of an iteration, or NULL. */
-    struct index *(*build)(const struct prepared *p, const struct tile_pass *pass, long iteration);
-    /* Choice number i of n for eye vertex z. False if there is none. */
-    bool (*draw)(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
-                 int i, int n, struct drawn *out);
-};
 
 struct method {
     const char *name;   /* --integrator NAME */
@@ -126,7 +118,13 @@ struct method {
     double rr_threshold;            /* of Russian roulette (path.h), unless the user gives another */
     bool vertices;                  /* a draw is a light vertex, not a sub-path */
     bool learns_use, learns_pairs;  /* see tables.h */
-    const struct selector *selector; /* NULL: the pixels of a tile share no light sub-paths */
+
+    /* How eye vertices choose among the light sub-paths that the pixels of a tile share. First, an index of the pool of
+     * an iteration, or NULL. `build` is NULL if the pixels share none. */
+    struct index *(*build)(const struct prepared *p, const struct tile_pass *pass, long iteration);
+    /* Choice number i of n for eye vertex z. False if there is none. */
+    bool (*draw)(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+                 int i, int n, struct drawn *out);
 
     /* Each parameter is valid by itself. Check that they fit each other and the scene; false with a message if not. May
      * be NULL. */
@@ -135,7 +133,7 @@ struct method {
     void (*prepare)(const struct render_job *job, struct prepared *p);
     void (*release)(struct prepared *p); /* release what `prepare` has added to p->own. May be NULL */
 
-    /* A tile pass: a loop of the method's own, or that of all that have a selector (loop.h). */
+    /* A tile pass: a loop of the method's own, or selection_render (loop.h). */
     void (*render)(const struct prepared *p, const struct tile_pass *pass);
 };
 

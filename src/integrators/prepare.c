@@ -70,8 +70,6 @@ void method_prepare(const struct render_job *job, struct prepared *p)
 
 void method_numbers(const struct prepared *p, struct method_number out[METHOD_NUMBERS])
 {
-    static const char *const NAMES[RUNNERS] = {"race_all", "race_quarter", "race_quarter_first", "race_path_tracer",
-                                                "race_one_point"};
     const struct numbers *n = &p->numbers;
     const struct runner *winner = &p->runner[p->winner];
     int draws = n->path_pixels > 0;
@@ -85,8 +83,8 @@ void method_numbers(const struct prepared *p, struct method_number out[METHOD_NU
     memcpy(out, numbers, sizeof numbers);
     for (int i = 0; i < RUNNERS; i++)
         if (p->runner[i].price > 0)
-            out[used++] = (struct method_number){NAMES[i], p->runner[i].variance * p->runner[i].price /
-                                                               (winner->variance * winner->price)};
+            out[used++] = (struct method_number){RUNNER_NUMBERS[i], p->runner[i].variance * p->runner[i].price /
+                                                                        (winner->variance * winner->price)};
 }
 
 void method_release(struct prepared *p)

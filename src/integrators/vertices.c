@@ -25,8 +25,8 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     pool_find_candidates(pool);
     double *weight = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *weight);
     for (int i = 0; i < pool->n_candidates; i++) {
-        const struct candidate *c = &pool->candidate[i];
-        double q = c->L * table_ratio(&p->tables->pairs, 0, candidate_vertex(c)->region);
+        const struct vertex *y = pool->candidate[i];
+        double q = rgb_luminance(y->beta) * table_ratio(&p->tables->pairs, 0, y->place);
         bool usable = q >= 0 && isfinite(q);
         weight[i] = usable ? q : 0;
         pass->tile->nonfinite += !usable;
@@ -43,8 +43,8 @@ static bool draw(const struct prepared *p, const struct index *index, struct sam
     if (pool->alias.n == 0)
         return false;
     double pmf, u = (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n; /* stratified over the table */
-    *out = pool->candidate[alias_sample(&pool->alias, u, &pmf, NULL)].drawn;
-    out->pmf = pmf;
+    const struct vertex *y = pool->candidate[alias_sample(&pool->alias, u, &pmf, NULL)];
+    *out = drawn_vertex(y, pmf);
     return true;
 }
 
@@ -65,9 +65,7 @@ static const struct field PARAMETERS[] = {
     PARAMETERS_SHARED(false, 1, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
-static const struct selector SELECTOR = {build, draw};
-
 const struct method method_vertices = {
     .name = "asbdpt", .select = "vertices", .help = "one alias table over the light vertices of a tile",
     .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true,
-    .learns_use = true, .prepare = prepare, .selector = &SELECTOR, .render = loop_render};
+    .learns_use = true, .prepare = prepare, .build = build, .draw = draw, .render = selection_render};

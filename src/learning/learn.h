@@ -1,5 +1,17 @@
 /* learn.h: learn tables about a scene before it is rendered (tables.h).
  *
+ * The way of each number from a sample to a weight; functions without a file are in learn.c, in this order:
+ *
+ *   table (tables.h)  sample, a lesson       sums        table               drawn by               in the weights
+ *   use               trace_uses: VISIT      take        as it is            select_pool, vertices  -
+ *   direct            trace_uses: DIRECT     take        build_direct        connect.c: light_draw  counts.h: n_direct
+ *   emission          trace_light_path: RAY  take        learn_light_paths   emission_sample        emission_pdf
+ *   vertices          the same: LIGHT_VERTEX count_light_vertices            -                      base of pairs
+ *   pairs             trace_trials: TRIAL    take        learn_pairs         asbdpt.c: draw         counts.h: n_pair
+ *
+ * There are three passes. Each needs what the ones before have learnt: the worth of a ray needs `use`, and trials need
+ * light sub-paths that leave by `emission`.
+ *
  * Learning traces a fixed number of eye sub-paths: LEARN_PER_PIXEL for each pixel of the image, but at least
  * LEARN_LEAST and at most LEARN_MOST. If only `direct` is learnt, or if `few` are asked for, it traces one for
  * DIRECT_PIXELS pixels, but at least DIRECT_LEAST: then it takes the time of half a sample of each pixel. It traces as

@@ -15,49 +15,43 @@ void lessons_add(struct lessons *list, struct lesson lesson)
     list->item[list->n++] = lesson;
 }
 
-/* A pass under way. */
-struct run {
-    struct learning *learning;
-    const struct pass *pass;
-    struct counts counts; /* of any values, since no weight is used */
-    long first, end;
-    struct lessons *list; /* [n_slots] */
-};
-
 static void trace_chunk(void *context, int64_t job, int slot, int thread)
 {
-    struct run *r = context;
-    struct workspace *work = &r->learning->work[thread];
-    long first = r->first + (long)job * CHUNK, end = first + CHUNK < r->end ? first + CHUNK : r->end;
-    r->list[slot].n = 0;
-    for (long i = first; i < end && job_cancelled(r->learning->job) == CANCEL_NOT; i++) {
+    struct learning *l = context;
+    struct workspace *work = &l->work[thread];
+    long first = l->first + (long)job * CHUNK, end = first + CHUNK < l->end ? first + CHUNK : l->end;
+    l->list[slot].n = 0;
+    for (long i = first; i < end && job_cancelled(l->job) == CANCEL_NOT; i++) {
         arena_reset(&work->arena);
-        r->pass->trace(r->learning, &r->counts, work, i, &r->list[slot]);
+        l->trace(l, work, i, &l->list[slot]);
     }
 }
 
 static bool take_chunk(void *context, int64_t job, int slot)
 {
-    struct run *r = context;
-    struct learning *l = r->learning;
+    struct learning *l = context;
     (void)job;
-    for (size_t i = 0; i < r->list[slot].n; i++)
-        r->pass->take(l, &r->list[slot].item[i]);
+    for (size_t i = 0; i < l->list[slot].n; i++)
+        l->take(l, &l->list[slot].item[i]);
     l->traced += CHUNK;
     job_progress(l->job, fmin(l->traced / l->budget, 1), 0);
     return job_cancelled(l->job) == CANCEL_NOT;
 }
 
-void lessons_learn(struct learning *l, const struct pass *pass, long first, long end)
+void lessons_learn(struct learning *l, void (*trace)(struct learning *, struct workspace *, long, struct lessons *),
+                   const struct tables *known, long first, long end)
 {
     int n_threads = l->job->n_threads, n_slots = 4 * n_threads;
     end = l->job->scene->lights.n > 0 ? end : first; /* without lights there is nothing to learn */
-    struct run r = {l, pass, {.direct = {1, 1}, .tables = &pass->known}, first, end, NULL};
-    struct parallel_jobs jobs = {(end - first + CHUNK - 1) / CHUNK, n_threads, n_slots, &r, trace_chunk, take_chunk,
+    struct parallel_jobs jobs = {(end - first + CHUNK - 1) / CHUNK, n_threads, n_slots, l, trace_chunk, take_chunk,
                                  NULL};
-    r.list = mem_alloc((size_t)n_slots, sizeof *r.list);
+    l->trace = trace;
+    l->counts = (struct counts){.direct = {1, 1}, .tables = known};
+    l->first = first;
+    l->end = end;
+    l->list = mem_alloc((size_t)n_slots, sizeof *l->list);
     parallel_run(&jobs);
     for (int i = 0; i < n_slots; i++)
-        free(r.list[i].item);
-    free(r.list);
+        free(l->list[i].item);
+    free(l->list);
 }

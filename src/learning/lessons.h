@@ -11,10 +11,20 @@
 
 struct learn_options; /* learn.h */
 
+/* What a lesson is about. Those of an eye vertex, and where they go: */
+enum lesson_kind {
+    VISIT,        /* it was there                                    use */
+    DIRECT,       /* what it receives from a light cell              direct */
+    TRIAL,        /* what it receives from a light vertex            pairs */
+    RAY,          /* of a light sub-path: what its ray was worth     emission */
+    LIGHT_VERTEX  /* of a light sub-path: where it has a vertex      vertices, light_vertices */
+};
+
 /* A sample for a table: its row and column, worth and weight. */
 struct lesson {
+    int kind;
     uint64_t row; /* a region, or the key of one that may be new */
-    int column;
+    int column;   /* a region, light cell, or column of a ray */
     double x, w;
 };
 
@@ -26,31 +36,33 @@ struct lessons {
 /* lessons_add: add it if w > 0 and x >= 0, and neither is so extreme that sums could overflow; else drop it. */
 void lessons_add(struct lessons *list, struct lesson lesson);
 
-/* What learning knows so far. */
+enum { CHUNK = 256 }; /* number of sub-paths of a chunk */
+
 struct learning {
     const struct render_job *job;
+    struct workspace *work; /* [n_threads] */
+
+    /* What learn.c knows so far. */
     const struct learn_options *options;
     struct tables *tables;
     struct table_sums direct, sums; /* of the table of direct light; of the pass under way */
-    struct axis columns;
-    double n_light;          /* light sub-paths so far */
-    struct lessons light_vertices; /* that these have */
-    struct workspace *work;  /* [n_threads] */
-    double budget, traced;   /* number of sub-paths: all that learning is by, and those so far */
-};
+    struct axis rays;               /* columns of the table of emission */
+    double n_light;                 /* light sub-paths so far */
+    struct lessons light_vertices;  /* that these have */
+    double budget, traced;          /* number of sub-paths: all that learning is by, and those so far */
 
-enum { CHUNK = 256 }; /* number of sub-paths of a chunk */
-
-struct pass {
-    /* List the lessons of sub-path number i, whose vertices and lobes are in the workspace. */
-    void (*trace)(struct learning *l, const struct counts *counts, struct workspace *work, long i,
-                  struct lessons *out);
+    /* The pass under way. */
+    void (*trace)(struct learning *l, struct workspace *work, long i, struct lessons *out);
     void (*take)(struct learning *l, const struct lesson *lesson);
-    struct tables known; /* that walks and connections use; they do not change meanwhile */
+    struct counts counts; /* of any values, since no weight is used */
+    long first, end;
+    struct lessons *list; /* of the chunks under way */
 };
 
-/* lessons_learn: run a pass over sub-paths first .. end-1, unless the job is cancelled. After each chunk
- * job->progress hears of it. */
-void lessons_learn(struct learning *l, const struct pass *pass, long first, long end);
+/* lessons_learn: run a pass over sub-paths first .. end-1, unless the job is cancelled. `trace` lists the lessons of
+ * sub-path number i, whose vertices and lobes are in the workspace. l->take takes one in. Walks and connections use the
+ * tables `known`, which do not change meanwhile. After each chunk job->progress hears of it. */
+void lessons_learn(struct learning *l, void (*trace)(struct learning *, struct workspace *, long, struct lessons *),
+                   const struct tables *known, long first, long end);
 
 #endif

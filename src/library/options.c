@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "base/near.h"
 #include "image/image.h"
 
 /* How far the arguments are read, and the option being read. */
@@ -169,6 +168,15 @@ static bool read_seed(struct reader *r, uint64_t *out)
            error_set(r->err, "%s %s: expected a whole number from 0 to 18446744073709551615", r->option->name, text);
 }
 
+static bool read_word(struct reader *r, const char **out)
+{
+    const char *const *words = r->option->words;
+    char list[NAMES_TEXT];
+    return next_value(r, out) && (names_find(words, *out) >= 0 ||
+           error_set(r->err, "%s %s: expected %s%s", r->option->name, *out, names_list(words, list),
+                     near_of(*out, words).text));
+}
+
 static bool read_pair(struct reader *r, struct settings *pairs)
 {
     const char *text, *equals;
@@ -208,6 +216,8 @@ static bool read_value(struct reader *r, void *target)
         return read_pair(r, target);
     if (kind == OPTION_TEXT)
         return next_value(r, target);
+    if (kind == OPTION_WORD)
+        return read_word(r, target);
     return is_texts(r->option) ? read_texts(r, target) : read_numbers(r, target);
 }
 
@@ -364,12 +374,13 @@ void options_print(const struct option *table)
     for (const struct option *o = table; o != NULL; o = options_next(o)) {
         if (o->kind == OPTION_ELSEWHERE)
             continue;
-        char left[80], right[300];
+        char left[80], list[NAMES_TEXT], right[300 + NAMES_TEXT];
         bool fallback = o->fallback != NULL && o->fallback[0] != '\0';
+        const char *values = o->list != NULL ? o->list(list) : o->words != NULL ? names_list(o->words, list) : "";
         snprintf(left, sizeof left, "%s%s%s %s", o->name, o->alias != NULL ? ", " : "",
                  o->alias != NULL ? o->alias : "", o->value != NULL ? o->value : "");
-        snprintf(right, sizeof right, "%s%s%s%s", o->help, fallback ? " (default " : "", fallback ? o->fallback : "",
-                 fallback ? ")" : "");
+        snprintf(right, sizeof right, "%s%s%s%s%s%s", o->help, values[0] != '\0' ? ": " : "", values,
+                 fallback ? " (default " : "", fallback ? o->fallback : "", fallback ? ")" : "");
         int width = printf("    %-25s ", left);
         if (width > HELP)
             printf("\n%*s", HELP, "");

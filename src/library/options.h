@@ -15,7 +15,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/field.h"
+#include "base/error.h"
+#include "base/near.h"
+#include "base/settings.h"
 
 /* What a value is, and what it becomes. Numbers are from low to high. */
 enum option_kind {
@@ -30,6 +32,7 @@ enum option_kind {
     OPTION_LENGTHS, /* double[2]: so, too */
     OPTION_WINDOW,  /* double[4]: X0 X1 Y0 Y1 in four arguments, or with commas between; pairs, each the lesser first */
     OPTION_SEED,    /* uint64_t, any */
+    OPTION_WORD,    /* const char *: one of `words`, which the help lists */
     OPTION_TEXT,    /* const char *, borrowed from the arguments */
     OPTION_PAIRS,   /* struct settings: one more each time, something, = and anything */
     OPTION_TEXTS,   /* struct texts: one more each time */
@@ -52,6 +55,8 @@ struct option {
     const char *fallback;        /* text of the default; NULL: the target stays zero */
     const char *help;            /* where one must be given: what it is, with an article */
     bool written;                /* its texts name files that are written */
+    const char *const *words;    /* of an OPTION_WORD: all there are, ended by NULL */
+    const char *(*list)(char text[NAMES_TEXT]); /* what its help ends with, or NULL */
     const struct option *others; /* in the row without a name: the table that goes on, or NULL */
 };
 

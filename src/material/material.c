@@ -32,7 +32,7 @@ void material_settle(struct material *m, struct material *const *materials)
     const struct material *first = NULL;
     m->most_lobes = m->row->most_lobes;
     for (const struct field *f = m->row->fields; f->name != NULL; f++)
-        if (f->kind == FIELD_MATERIAL) {
+        if (f->kind == FIELD_PART) {
             const struct material *part = materials[*place_of(m, f)];
             m->most_lobes += part->most_lobes;
             if (first == NULL)
@@ -69,7 +69,7 @@ void material_prepare(struct material *const *materials, int id, const struct te
     m->reads_uv = false;
     for (const struct field *f = m->row->fields; f->name != NULL; f++) {
         bool texture = f->kind == FIELD_FLOAT_TEXTURE || f->kind == FIELD_RGB_TEXTURE;
-        if (f->kind == FIELD_MATERIAL)
+        if (f->kind == FIELD_PART)
             m->reads_uv |= materials[*place_of(m, f)]->reads_uv;
         else if (texture && *place_of(m, f) >= 0)
             m->reads_uv |= textures->texture[*place_of(m, f)].kind != TEXTURE_CONSTANT;

@@ -41,7 +41,7 @@ struct material_row {
     const char *name;           /* Material "name" */
     const struct field *fields; /* ended by one without a name */
     size_t size;                /* of the struct to be filled */
-    int most_lobes;             /* that it has itself, besides those of its FIELD_MATERIALs */
+    int most_lobes;             /* that it has itself, besides those of its FIELD_PARTs */
     bool may_be_delta;          /* may one of these be a mirror, or smooth glass? */
     bool diffuse;               /* none of these can be sharp */
     bool may_be_brushed;        /* may they depend on where u and v run, be `rough` as it may? */

@@ -163,8 +163,8 @@ static void mix(struct lobe_list *list, const struct material *m)
 }
 
 static const struct field MIX[] = {
-    {"namedmaterial1", .kind = FIELD_MATERIAL, .place = AT(part[0])},
-    {"namedmaterial2", .kind = FIELD_MATERIAL, .place = AT(part[1])},
+    {"namedmaterial1", .kind = FIELD_PART, .place = AT(part[0])},
+    {"namedmaterial2", .kind = FIELD_PART, .place = AT(part[1])},
     COLOUR_FIELD("amount", AT(amount), 0.5), {.name = NULL}};
 
 const struct material_row material_mix = {
@@ -178,7 +178,7 @@ static void fourier(struct lobe_list *list, const struct material *m)
     l->of.table = ((const struct simple *)m)->table;
 }
 
-static const struct field FOURIER[] = {{"bsdffile", .kind = FIELD_FOURIER_TABLE, .place = AT(table)}, LAST_FIELDS};
+static const struct field FOURIER[] = {{"bsdffile", .kind = FIELD_TABLE, .place = AT(table)}, LAST_FIELDS};
 
 const struct material_row material_fourier = {
     .name = "fourier", .fields = FOURIER, .size = sizeof(struct simple), .most_lobes = 1, .lobes = fourier};

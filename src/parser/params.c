@@ -365,9 +365,9 @@ int params_choice(struct params *p, const char *name, const char *const *choices
     const struct param *item = find_one(p, name, PARAM_STRING);
     if (item == NULL)
         return 0;
-    for (int i = 0; choices[i] != NULL; i++)
-        if (strcmp(choices[i], item->text[0]) == 0)
-            return i;
+    int i = names_find(choices, item->text[0]);
+    if (i >= 0)
+        return i;
     struct near near = near_of(item->text[0], choices);
     source_warn(p->messages, item->position, "\"%s\" cannot be \"%.40s\", so it is \"%s\"%s", name, item->text[0],
                 choices[0], near.name != choices[0] ? near.text : "");

@@ -266,8 +266,8 @@ static void read_field(struct parser *p, const struct field *f, void *place)
         *(rgb *)place = is_float ? rgb_grey(params_number(q, f->name, x, least(f), most(f)))
                                  : params_rgb(q, f->name, rgb_grey(x));
         break;
-    case FIELD_MATERIAL: *whole = parse_part(p, f->name); break;
-    case FIELD_FOURIER_TABLE: *(const struct fourier_table **)place = parse_fourier_table(p, f->name); break;
+    case FIELD_PART: *whole = parse_part(p, f->name); break;
+    case FIELD_TABLE: *(const struct fourier_table **)place = parse_fourier_table(p, f->name); break;
     case FIELD_FILE: *(const char **)place = path_of(p, f->name); break;
     case FIELD_INDICES: *list = params_list(q, f->name, 1u << PARAM_INTEGER, 3); break;
     case FIELD_POINTS: *list = params_list(q, f->name, 1u << PARAM_POINT, 3); break;

@@ -157,8 +157,8 @@ static const struct object_type SAMPLER_TYPES[] = {
 /* Film and sampler are fields of the scene itself. */
 static bool of_scene(struct parser *p) { return parse_object(p, p->scene); }
 
-/* Which parameters an integrator has is its own affair: the first value of each is kept as text, with its position;
- * none has several. */
+/* Which parameters an integrator has is its own affair: the first value of each is kept with its position; none has
+ * several. */
 static bool integrator(struct parser *p)
 {
     if (!parse_typed(p))
@@ -169,12 +169,13 @@ static bool integrator(struct parser *p)
     s->integrator = mem_copy_text(q->type);
     settings_clear(&s->settings);
     for (struct param *item = q->item; item < q->item + q->n; item++) {
-        char origin[512], number[32] = "";
+        char origin[512];
         snprintf(origin, sizeof origin, "%s:%d:%d", item->position.file->path, item->position.line,
                  item->position.column);
         if (item->n > 0 && !item->is_text)
-            snprintf(number, sizeof number, "%.15g", item->number[0]); /* what was written, if it had no more digits */
-        settings_set(&s->settings, item->name, item->n > 0 && item->is_text ? item->text[0] : number, origin);
+            settings_set_number(&s->settings, item->name, item->number[0], origin);
+        else
+            settings_set(&s->settings, item->name, item->n > 0 ? item->text[0] : "", origin);
     }
     return true;
 }

@@ -110,8 +110,7 @@ static void adapt(struct settings *s, const struct setting *item, const struct m
     char text[96], most[32];
     snprintf(most, sizeof most, "%d", PATH_MAX_DEPTH);
     snprintf(text, sizeof text, "is %.20s, which counts as %s", item->value, most);
-    bool deep = strcmp(item->name, "maxdepth") == 0 && setting_is_of_file(item) &&
-                strtod(item->value, NULL) > PATH_MAX_DEPTH;
+    bool deep = strcmp(item->name, "maxdepth") == 0 && setting_is_of_file(item) && item->number > PATH_MAX_DEPTH;
     if (deep && warn(sink, item, text))
         settings_set(s, item->name, most, item->origin);
 }
@@ -213,7 +212,7 @@ bool job_settle(struct render_job *job, const struct scene *scene, struct prepar
     job->max_depth = job->max_depth > 0 ? job->max_depth : c.max_depth;
     job->eye_seed = job->seed;
     job->strategy = (enum light_strategy)c.strategy;
-    job->rr_threshold = settings_text(s, "rrthreshold", NULL) != NULL ? c.rr_threshold : m->rr_threshold;
+    job->rr_threshold = settings_find(s, "rrthreshold") != NULL ? c.rr_threshold : m->rr_threshold;
     return true;
 }
 
@@ -268,16 +267,12 @@ static bool apply(const struct render_job *q, struct scene *scene, struct error 
         scene->width = scene->width > 4 ? scene->width / 4 : 1;
         scene->height = scene->height > 4 ? scene->height / 4 : 1;
     }
-    if (q->filter != NULL && !filter_default(q->filter, &scene->filter))
-        return error_usage(err, "--filter %s: known are box, triangle, gaussian, mitchell, sinc%s", q->filter,
-                           near_of(q->filter, (const char *const[])
-                                   {"box", "triangle", "gaussian", "mitchell", "sinc", NULL}).text);
+    if (q->filter != NULL)
+        filter_default(q->filter, &scene->filter);
     for (int i = 0; i < given->n; i++)
         settings_set(&scene->settings, given->item[i].name, given->item[i].value, given->item[i].origin);
-    char depth[32];
-    snprintf(depth, sizeof depth, "%d", q->max_depth);
-    if (q->max_depth > 0)
-        settings_set(&scene->settings, "maxdepth", depth, "-P"); /* for who lists them; the job has the number */
+    if (q->max_depth > 0) /* for who lists them; the job has the number */
+        settings_set_number(&scene->settings, "maxdepth", q->max_depth, "-P");
     if (q->crop[1] > 0)
         memcpy(scene->crop, q->crop, sizeof scene->crop);
     struct pixel_rect crop = render_crop(scene);

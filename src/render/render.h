@@ -14,7 +14,7 @@
 
 #include "base/error.h"
 #include "render/job.h"
-#include "transport/observer.h"
+#include "transport/sample.h"
 
 /* Who looks on: an observer for each tile pass. So many passes for each thread are under way or wait for their turn. */
 enum { OBSERVED_SLOTS = 2 };

@@ -6,6 +6,7 @@
 
 #include "base/alias.h"
 #include "base/maths.h"
+#include "base/near.h"
 #include "base/vec.h"
 
 /* [Mitchell & Netravali 1988] [PBRT3 7.8.1] */
@@ -37,26 +38,16 @@ static double profile(const struct filter *f, int axis, double x)
     return 0;
 }
 
+const char *const FILTER_NAMES[] = {"box", "triangle", "gaussian", "mitchell", "sinc", NULL};
+
 bool filter_default(const char *name, struct filter *out)
 {
-    static const struct {
-        const char *name;
-        enum filter_kind kind;
-        double radius;
-    } known[] = {{"box", FILTER_BOX, 0.5},
-                 {"triangle", FILTER_TRIANGLE, 2},
-                 {"gaussian", FILTER_GAUSSIAN, 2},
-                 {"mitchell", FILTER_MITCHELL, 2},
-                 {"sinc", FILTER_SINC, 4}};
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-        if (strcmp(name, known[i].name) != 0)
-            continue;
-        struct filter f = {.kind = known[i].kind, .alpha = 2, .B = 1.0 / 3, .C = 1.0 / 3, .tau = 3};
-        f.radius[0] = f.radius[1] = known[i].radius;
-        *out = f;
-        return true;
-    }
-    return false;
+    static const double RADIUS[] = {0.5, 2, 2, 2, 4};
+    int kind = names_find(FILTER_NAMES, name);
+    if (kind >= 0)
+        *out = (struct filter){.kind = (enum filter_kind)kind, .radius = {RADIUS[kind], RADIUS[kind]}, .alpha = 2,
+                               .B = 1.0 / 3, .C = 1.0 / 3, .tau = 3};
+    return kind >= 0;
 }
 
 /* Integrals by the midpoint rule on a grid that is fine enough for its error not to matter; filter_sample makes up for

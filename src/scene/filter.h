@@ -38,8 +38,11 @@ struct filter {
     double cdf[2][2][FILTER_STEPS + 1]; /* running integrals of both, normalised; box, triangle: unused */
 };
 
-/* filter_default: the filter of that name ("box", "triangle", "gaussian", "mitchell", "sinc") at pbrt's default
- * radius and shape, not yet prepared. Returns false for an unknown name. */
+/* The names of the kinds, ended by NULL. */
+extern const char *const FILTER_NAMES[];
+
+/* filter_default: the filter of that name at pbrt's default radius and shape, not yet prepared. Returns false for an
+ * unknown name. */
 bool filter_default(const char *name, struct filter *out);
 
 /* filter_prepare: fill the derived fields. Call once, after the parameters are final. */

@@ -25,7 +25,7 @@
 #include "scene/filter.h"
 #include "scene/light.h"
 #include "scene/medium.h"
-#include "base/field.h"
+#include "base/settings.h"
 
 struct scene {
     vec3 origin;            /* of world space in the file's coordinates; see scene_set_origin */

@@ -12,32 +12,31 @@ enum { SIDE = 8, BINS = SIDE * SIDE };
 /* Nodes of a cell: the cell, 2 x 2, 4 x 4 and 8 x 8 parts, one level behind the other. */
 enum { LEVELS = 4, NODES = 1 + 4 + 16 + BINS, FIRST_BIN = NODES - BINS };
 
-struct emission_axis emission_axis_new(const struct light_set *lights)
+struct axis emission_axis_new(const struct light_set *lights, double **base)
 {
     size_t n = 1 + (size_t)lights->n_cells * NODES;
-    struct emission_axis a = {.above = mem_alloc(n, sizeof *a.above), .level = mem_alloc(n, sizeof *a.level),
-                              .base = mem_alloc(n, sizeof *a.base)};
+    struct axis a = {(int)n, mem_alloc(n, sizeof *a.above), mem_alloc(n, sizeof *a.level)};
+    *base = mem_alloc(n, sizeof **base);
     a.level[0] = LEVELS;
     for (int cell = 0; cell < lights->n_cells; cell++)
         for (int side = 1, level = LEVELS - 1, node = 1 + cell * NODES, wider = 0; level >= 0; level--) {
             for (int i = 0; i < side * side; i++) {
                 a.above[node + i] = side == 1 ? 0 : wider + i / side / 2 * (side / 2) + i % side / 2;
                 a.level[node + i] = level;
-                a.base[node + i] = side == SIDE ? alias_pmf(&lights->choice, cell) / BINS : 0;
+                (*base)[node + i] = side == SIDE ? alias_pmf(&lights->choice, cell) / BINS : 0;
             }
             wider = node;
             node += side * side;
             side *= 2;
         }
-    a.axis = (struct axis){(int)n, a.above, a.level};
     return a;
 }
 
-void emission_axis_free(struct emission_axis *a)
+void emission_axis_free(struct axis *a, double *base)
 {
     free(a->above);
     free(a->level);
-    free(a->base);
+    free(base);
 }
 
 int emission_column(int cell, const double square[2])
@@ -67,10 +66,10 @@ rgb emission_sample(const struct table *t, const struct light_set *lights, const
         cell = alias_sample(&lights->choice, u[0], &pmf, &in_cell[0]);
         *column = emission_column(cell, direction);
     } else {
-        cell = table_draw(t, 0, (struct span){1, lights->n_cells, NODES}, u[0], &pmf, &in_cell[0]);
+        cell = table_draw(t, 0, 1, lights->n_cells, NODES, u[0], &pmf, &in_cell[0]);
         int bin = 1 + cell * NODES + FIRST_BIN; /* then the bin's row, then its column, each by a number of its own */
         for (int i = 0, each = SIDE; i < 2; i++, each = 1) {
-            int part = table_draw(t, 0, (struct span){bin, SIDE, each}, direction[i], &pmf, &in_square[i]);
+            int part = table_draw(t, 0, bin, SIDE, each, direction[i], &pmf, &in_square[i]);
             in_square[i] = below_one((part + in_square[i]) / SIDE);
             bin += part * each;
         }

@@ -20,14 +20,9 @@
 #include "scene/light.h"
 #include "tables/table.h"
 
-/* The tree of columns, and base [axis.n]; emission_axis_free releases them. */
-struct emission_axis {
-    struct axis axis;
-    int *above, *level; /* of the axis; owned */
-    double *base;       /* owned */
-};
-struct emission_axis emission_axis_new(const struct light_set *lights);
-void emission_axis_free(struct emission_axis *a);
+/* emission_axis_new: the tree of columns, and *base [n] of them. emission_axis_free releases both. */
+struct axis emission_axis_new(const struct light_set *lights, double **base);
+void emission_axis_free(struct axis *a, double *base);
 
 /* emission_column: the column of a ray that emission by power draws from a cell with a point of the square.
  * emission_column_of: that of the ray of direction w through p that leaves y0. */

@@ -27,7 +27,8 @@ void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int limit)
     r->limit = limit;
     for (r->n_slots = 1; r->n_slots < 2 * (size_t)limit; r->n_slots *= 2)
         ;
-    r->slot = mem_alloc(r->n_slots, sizeof *r->slot);
+    r->key = mem_alloc(r->n_slots, sizeof *r->key);
+    r->number = mem_alloc(r->n_slots, sizeof *r->number);
     r->above = mem_alloc((size_t)limit, sizeof *r->above);
     r->level = mem_alloc((size_t)limit, sizeof *r->level);
     r->level[r->n++] = REGION_LEVELS;
@@ -35,7 +36,8 @@ void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int limit)
 
 void regions_free(struct regions *r)
 {
-    free(r->slot);
+    free(r->key);
+    free(r->number);
     free(r->above);
     free(r->level);
 }
@@ -68,23 +70,26 @@ static uint64_t key_above(uint64_t key)
 }
 
 /* The slot of the key, or the free slot for it. */
-static struct region_slot *slot_of(const struct regions *r, uint64_t key)
+static size_t slot_of(const struct regions *r, uint64_t key)
 {
     size_t mask = r->n_slots - 1, i = (size_t)hash_mix(key) & mask;
-    while (r->slot[i].key != 0 && r->slot[i].key != key)
+    while (r->key[i] != 0 && r->key[i] != key)
         i = (i + 1) & mask;
-    return &r->slot[i];
+    return i;
 }
 
 /* Add a region of the given level, after those that contain it. */
 static int add_region(struct regions *r, uint64_t key, int level)
 {
-    if (slot_of(r, key)->key == key)
-        return slot_of(r, key)->number;
+    size_t slot = slot_of(r, key);
+    if (r->key[slot] == key)
+        return r->number[slot];
     int above = level + 1 < REGION_LEVELS ? add_region(r, key_above(key), level + 1) : 0;
     if (r->n >= r->limit)
         return above;
-    *slot_of(r, key) = (struct region_slot){key, r->n};
+    slot = slot_of(r, key); /* which those above may have taken */
+    r->key[slot] = key;
+    r->number[slot] = r->n;
     r->above[r->n] = above;
     r->level[r->n] = level;
     return r->n++;
@@ -95,9 +100,9 @@ int regions_add(struct regions *r, uint64_t key) { return add_region(r, key, 0);
 int regions_find(const struct regions *r, uint64_t key)
 {
     for (int level = 0; r->n_slots > 0 && level < REGION_LEVELS; level++, key = key_above(key)) {
-        const struct region_slot *s = slot_of(r, key);
-        if (s->key == key)
-            return s->number;
+        size_t slot = slot_of(r, key);
+        if (r->key[slot] == key)
+            return r->number[slot];
     }
     return 0;
 }

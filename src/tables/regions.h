@@ -24,17 +24,13 @@
 
 enum { REGION_LEVELS = 4 };
 
-struct region_slot {
-    uint64_t key; /* level, coordinates of the cube and face, packed; 0: free */
-    int32_t number;
-};
-
 struct regions {
     vec3 origin;              /* corner of cube (0,0,0) */
     double per_metre;         /* cubes of level 0 per unit of length */
     int last[3];              /* the last cube along each axis */
     int limit;                /* largest number of regions */
-    struct region_slot *slot; /* [n_slots], owned */
+    uint64_t *key;            /* [n_slots] level, coordinates of the cube and face, packed; 0: free; owned */
+    int *number;              /* [n_slots] of the region with this key; owned */
     size_t n_slots;           /* a power of 2, at least 2 limit; 0: there is only region 0 */
     int *above, *level;       /* [limit] the tree of regions (struct axis); owned */
     int n;                    /* number of regions of all levels, >= 1 */

@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "base/number.h"
 
-static const double K = 4;
+static const double PRIOR = 4; /* samples of mean weight that the pair above counts as */
 
 void table_sums_init(struct table_sums *s, int rows, int columns)
 {
@@ -44,7 +44,7 @@ void table_sums_add(struct table_sums *s, struct axis row, struct axis column, i
 static void find_means(const struct table_sums *s, struct axis row, struct axis column)
 {
     int tops = column.above == NULL ? column.n : 1; /* pairs without one above */
-    double worth = sum_of(s->worth, tops), weight = sum_of(s->weight, tops), prior = K * weight / s->samples;
+    double worth = sum_of(s->worth, tops), weight = sum_of(s->weight, tops), prior = PRIOR * weight / s->samples;
     for (int r = 0; r < row.n; r++)
         for (int c = 0; c < column.n; c++) {
             int r_above = r, c_above = c;
@@ -106,19 +106,15 @@ void table_free(struct table *t)
 }
 
 /* Rounding may move the target to the end of the sums or beyond. Then this is the last group that can be drawn. */
-int table_draw(const struct table *t, int r, struct span among, double u, double *pmf, double *left)
+int table_draw(const struct table *t, int r, int first, int n, int each, double u, double *pmf, double *left)
 {
-    const double *before = &t->before[(size_t)r * (size_t)(t->columns + 1) + (size_t)among.first];
-    double total = before[among.n * among.each] - before[0], target = before[0] + u * total;
-    int low = 0, high = among.n;
-    while (high - low > 1) {
-        int middle = low + (high - low) / 2;
-        *(before[middle * among.each] <= target ? &low : &high) = middle;
-    }
-    while (low > 0 && before[(low + 1) * among.each] == before[low * among.each])
-        low--;
-    double own = before[(low + 1) * among.each] - before[low * among.each];
+    const double *before = &t->before[(size_t)r * (size_t)(t->columns + 1) + (size_t)first];
+    double total = before[n * each] - before[0], target = before[0] + u * total;
+    int group = cumulative_find(before, n * each, target) / each;
+    while (group > 0 && before[(group + 1) * each] == before[group * each])
+        group--;
+    double own = before[(group + 1) * each] - before[group * each];
     *pmf = own / total;
-    *left = below_one((target - before[low * among.each]) / own);
-    return low;
+    *left = below_one((target - before[group * each]) / own);
+    return group;
 }

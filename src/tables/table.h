@@ -1,8 +1,11 @@
 /* table.h: what the columns of a table are worth to its rows, learnt from samples; choices by it, and their density.
  *
+ * A row is a place where an eye vertex may be. A column is what it can choose: the place of a light vertex, or a light
+ * cell. (The table of rays that leave lights has one row.)
+ *
  * A sample of row r and column c has the worth x >= 0 and the weight w > 0. The mean worth m(r,c) is learnt for more
  * pairs than there are samples. So the mean of a pair is regularised towards that of the pair above it:
- *     m(r,c) = (sum of w x + K w_mean m(r',c')) / (sum of w + K w_mean),      K = 4 samples of mean weight.
+ *     m(r,c) = (sum of w x + PRIOR w_mean m(r',c')) / (sum of w + PRIOR w_mean),      PRIOR = 4 samples.
  * Rows and columns may be nodes of trees, in which a node contains those below it: places on several levels, parts of a
  * light. In the pair above, both nodes are one level up. The top pair is regularised towards the mean of all samples.
  *
@@ -25,8 +28,8 @@
 /* The nodes of a tree; 0 is the top. Without `above` there is no tree: all n nodes are on one level, below nothing. */
 struct axis {
     int n;
-    const int *above; /* [n] the node that contains it, of a lower number; NULL: no tree */
-    const int *level; /* [n] 0: the finest; the top has the highest */
+    int *above; /* [n] the node that contains it, of a lower number; NULL: no tree */
+    int *level; /* [n] 0: the finest; the top has the highest */
 };
 
 /* Sums of samples while learning. */
@@ -71,16 +74,10 @@ static inline double table_ratio(const struct table *t, int r, int c)
     return t->rows > 0 ? table_row(t, r)[c] : 1;
 }
 
-/* Columns first, first + 1 ..., in n groups of `each`. */
-struct span {
-    int first, n, each;
-};
-static inline struct span table_all(const struct table *t) { return (struct span){0, t->columns, 1}; }
-
-/* table_draw: draw one of the groups of columns with the uniform number u; returns its number. The table is not empty,
- * and one of the columns of the span can be drawn.
+/* table_draw: draw one of n groups of `each` columns, of which `first` is the first, with the uniform number u; returns
+ * its number. The table is not empty, and one of these columns can be drawn.
  *   pmf   out: its probability among them
  *   left  out: what is left of u, uniform in [0,1) */
-int table_draw(const struct table *t, int r, struct span among, double u, double *pmf, double *left);
+int table_draw(const struct table *t, int r, int first, int n, int each, double u, double *pmf, double *left);
 
 #endif

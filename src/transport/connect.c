@@ -13,7 +13,7 @@ struct connection connect_hit(const struct scene *scene, const struct counts *co
     z = z->lamp != NULL ? z->lamp : z;
     if (z->light < 0 || (seen && z->kind == VERTEX_SURFACE && lights->light[z->light].hidden))
         return c;
-    struct light_point at = vertex_light_point(z);
+    struct light_point at = vertex_light_point(scene, z);
     c.light = z->light;
     rgb Le = z->kind == VERTEX_ESCAPED ? light_Le_sky(lights, at.w, seen) : light_Le(lights, &at, z->wo);
     c.value = rgb_mul(z->beta, Le); /* C* = alpha_t Le [V97 10.2] */
@@ -21,61 +21,55 @@ struct connection connect_hit(const struct scene *scene, const struct counts *co
     if (rgb_is_black(c.value) || seen)
         return c;
     /* n of s = 1, which connects prev to z; z->mis_c is n of s >= 2 */
-    double c_e = z->prev_delta ? 0 : n_direct(counts, prev->region, prev->eye_end, z->cell);
+    double c_e = z->prev_delta ? 0 : n_direct(counts, prev->place, prev->eye_end, at.cell);
     /* density of the direction of the light sub-path's first ray; at infinity, of its origin */
     const vec3 start = z->kind == VERTEX_ESCAPED ? prev->p : z->p;
     double pdf_emit = emission_pdf(&counts->tables->emission, lights, &at, start, z->wo);
-    double eye_side = mis_side(z->pdf_origin, z->pdf_fwd, c_e, pdf_emit, z->mis); /* mis.h (5) */
+    double eye_side = mis_side(at.pdf, z->pdf_fwd, c_e, pdf_emit, z->mis); /* mis.h (5) */
     c.weight = mis_weight(counts->hit[prev->eye_end], 0, eye_side); /* mis.h (7), A_light being 0 */
     return c;
 }
 
 /* --- two vertices ------------------------------------------------------------------------------------ */
 
-/* The straight line between both ends. */
-struct line {
-    vec3 w;        /* from z to y, unit */
-    double length; /* infinite if y is at infinity */
-    double spread; /* of rays: area across w at one end per steradian at the other, 1/length^2; parallel rays: 1 */
-};
-
-static struct line line_between(const struct scene *scene, const struct vertex *y, const struct vertex *z)
+/* The unit direction from z to y.
+ *   length  out: infinite if y is at infinity
+ *   spread  out, of rays: area across w at one end per steradian at the other, 1/length^2; parallel rays: 1 */
+static inline vec3 line_between(const struct scene *scene, const struct vertex *y, const struct vertex *z,
+                                double *length, double *spread)
 {
+    *length = INFINITY;
+    *spread = 1;
     if (vertex_at_infinity(scene, y))
-        return (struct line){y->wo, INFINITY, 1};
+        return y->wo;
     vec3 d = sub(y->p, z->p);
-    double d2 = length2(d), length = sqrt(d2);
-    double spread = z->kind == VERTEX_LENS ? camera_spread(&scene->camera, d2) : 1 / d2;
-    return (struct line){mul(d, 1 / length), length, spread};
+    double d2 = length2(d);
+    *length = sqrt(d2);
+    *spread = z->kind == VERTEX_LENS ? camera_spread(&scene->camera, d2) : 1 / d2;
+    return mul(d, 1 / *length);
 }
 
-/* What an end makes of light, or of importance, that goes on in direction wi: the factor of the throughput, and the
- * densities, 1/sr, of that direction and of the reverse move to the vertex before. */
-struct scatter {
-    rgb factor;
-    double pdf, pdf_rev;
-};
-
-/* Of a light or the lens beta has what it sends there, except for the cosine at an area light. For the density of a
- * light see emitted_pdf, which costs more than the rest. */
-static inline struct scatter scatter_towards(const struct vertex *v, vec3 wi, enum transport mode)
+/* What an end makes of light, or of importance, that goes on in direction wi: f times the cosine, and the densities,
+ * 1/sr, of that direction and of the reverse move to the vertex before. Of a light or the lens beta has what it sends
+ * there, except for the cosine at an area light. For the density of a light see emitted_pdf, which costs more than the
+ * rest. */
+static inline struct bsdf_value scatter_towards(const struct vertex *v, vec3 wi, enum transport mode)
 {
     if (v->kind == VERTEX_LENS)
-        return (struct scatter){rgb_grey(1), v->beta.g, 0};
+        return (struct bsdf_value){rgb_grey(1), v->beta.g, 0};
     if (v->kind == VERTEX_LIGHT)
-        return (struct scatter){rgb_grey(vertex_cosine(v, wi)), 0, 0};
+        return (struct bsdf_value){rgb_grey(vertex_cosine(v, wi)), 0, 0};
     struct bsdf_value b = bsdf_eval(&v->bsdf, v->wo, wi, mode);
-    struct scatter s = {{0, 0, 0}, b.pdf, b.pdf_rev};
     if (!rgb_is_black(b.f))
-        s.factor = rgb_scale(b.f, scatter_cosine(v, wi, mode));
-    return s;
+        b.f = rgb_scale(b.f, scatter_cosine(v, wi, mode));
+    return b;
 }
 
 /* With what density a light sub-path that begins in y goes in direction w, to p: 1/sr, at infinity 1/m^2. */
 static double emitted_pdf(const struct scene *scene, const struct counts *counts, const struct vertex *y, vec3 p,
                           vec3 w)
 {
-    const struct light_point at = vertex_light_point(y);
+    const struct light_point at = vertex_light_point(scene, y);
     return emission_pdf(&counts->tables->emission, &scene->lights, &at, p, w);
 }
 
@@ -106,24 +100,24 @@ struct connection connect_vertices(const struct scene *scene, const struct count
                                    const struct vertex *z)
 {
     struct connection c = {.light = y->kind == VERTEX_LIGHT ? y->light : -1};
-    const struct line l = line_between(scene, y, z);
-    const vec3 back = neg(l.w);
-    if (!(l.length > 0) || rgb_is_black(y->beta) || !may_leave(z, l.w) || !may_leave(y, back))
+    double length, spread;
+    const vec3 w = line_between(scene, y, z, &length, &spread), back = neg(w);
+    if (!(length > 0) || rgb_is_black(y->beta) || !may_leave(z, w) || !may_leave(y, back))
         return c;
-    const struct scatter at_z = scatter_towards(z, l.w, RADIANCE);
-    if (rgb_is_black(at_z.factor))
+    const struct bsdf_value at_z = scatter_towards(z, w, RADIANCE);
+    if (rgb_is_black(at_z.f))
         return c;
-    const struct scatter at_y = scatter_towards(y, back, IMPORTANCE);
+    const struct bsdf_value at_y = scatter_towards(y, back, IMPORTANCE);
     /* C* = alpha_s c alpha_t, c = f G f: both cosines are in the factors [V97 10.2] */
-    rgb value = rgb_mul(rgb_mul(y->beta, at_y.factor), rgb_scale(rgb_mul(z->beta, at_z.factor), l.spread));
-    struct ray ray = {z->p, l.w, 0, l.length, z->prim_id, y->prim_id};
+    rgb value = rgb_mul(rgb_mul(y->beta, at_y.f), rgb_scale(rgb_mul(z->beta, at_z.f), spread));
+    struct ray ray = {z->p, w, 0, length, z->prim_id, y->prim_id};
     struct edge edge;
     if (rgb_is_black(value) ||
-        !scene_edge(scene, &ray, vertex_medium(scene, z, l.w), y->kind == VERTEX_LIGHT, &edge))
+        !scene_edge(scene, &ray, vertex_medium(scene, z, w), y->kind == VERTEX_LIGHT, &edge))
         return c;
     double pdf_y = y->kind == VERTEX_LIGHT ? emitted_pdf(scene, counts, y, z->p, back) : at_y.pdf;
-    double R_y = at_z.pdf * vertex_cosine(y, l.w) * l.spread * edge.density[1];
-    double R_z = pdf_y * vertex_cosine(z, l.w) * l.spread * edge.density[0];
+    double R_y = at_z.pdf * vertex_cosine(y, w) * spread * edge.density[1];
+    double R_z = pdf_y * vertex_cosine(z, w) * spread * edge.density[0];
     double eye_side = mis_side(R_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis); /* mis.h (5) */
     c.value = rgb_mul(value, edge.left);
     c.weight = mis_weight(n_of(counts, y, z), light_side(scene, counts, y, z, R_y, at_y.pdf_rev), eye_side); /* (7) */
@@ -142,7 +136,7 @@ bool light_draw(const struct scene *scene, const struct counts *counts, const st
     sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
     if (!vertex_connectible(z) || lights->choice.n == 0)
         return false;
-    int cell = table->rows > 0 ? table_draw(table, z->region, table_all(table), u[0], &pmf, &u[0])
+    int cell = table->rows > 0 ? table_draw(table, z->place, 0, table->columns, 1, u[0], &pmf, &u[0])
                                : alias_sample(&lights->choice, u[0], &pmf, &u[0]);
     bool emits = light_sample_cell(lights, &scene->geo, cell, u, at) && at->pdf > 0;
     *pdf = emits ? pmf * at->pdf_cell : 0;
@@ -183,4 +177,21 @@ bool lens_point(const struct scene *scene, const struct vertex *y, struct sample
         return false;
     vertex_lens(camera, p, rgb_grey(J), z);
     return true;
+}
+
+struct connection connect_direct(const struct scene *scene, const struct counts *counts, const struct vertex *z,
+                                 struct sampler *sampler, int i, int n, struct vertex *y)
+{
+    y->light = -1;
+    return light_point(scene, counts, z, sampler, i, n, y) ? connect_vertices(scene, counts, y, z)
+                                                           : (struct connection){.light = -1};
+}
+
+struct connection connect_lens(const struct scene *scene, const struct counts *counts, const struct vertex *y,
+                               struct sampler *sampler, double raster[2])
+{
+    struct vertex z;
+    raster[0] = raster[1] = 0;
+    return lens_point(scene, y, sampler, &z, raster) ? connect_vertices(scene, counts, y, &z)
+                                                     : (struct connection){.light = -1};
 }

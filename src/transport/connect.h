@@ -48,4 +48,11 @@ bool light_point(const struct scene *scene, const struct counts *counts, const s
 bool lens_point(const struct scene *scene, const struct vertex *y, struct sampler *sampler, struct vertex *z,
                 double raster[2]);
 
+/* connect_direct: draw light_point *y for z, and connect both. y->light is -1 if there is none.
+ * connect_lens: draw lens_point for y, and connect both. */
+struct connection connect_direct(const struct scene *scene, const struct counts *counts, const struct vertex *z,
+                                 struct sampler *sampler, int i, int n, struct vertex *y);
+struct connection connect_lens(const struct scene *scene, const struct counts *counts, const struct vertex *y,
+                               struct sampler *sampler, double raster[2]);
+
 #endif

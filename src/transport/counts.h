@@ -5,11 +5,12 @@
  *   pair    s >= 2, t >= 2 connection to a light vertex
  *   lens    s >= 2, t = 1  connection of a light vertex to the lens
  *
- * The number n of a strategy for a path is a function of the two ends of the connecting edge: of their places and of
- * the kind of the eye end. A place is a *region*, a cube of space and a side of its surfaces, or on a light a *cell*: a
- * light, a group of lights, or a part of the sky. A *ratio* tells how much more often a place is chosen than if nothing
- * had been learnt (tables.h); then it is 1. A walk that arrives at the second end knows both, so every strategy
- * computes the same number for the same path.
+ * BDPT takes one sample of each. In general the number n of a strategy for a path is a function of the two ends of the
+ * connecting edge: of the kind of the eye end, and of the places of both (vertex.h). A walk that arrives at the second
+ * end knows both, so every strategy computes the same number for the same path.
+ *
+ * Places count for methods that learn: these choose one place more often than another. Their tables (table.h) have the
+ * *ratio*: how much more often than if nothing had been learnt. Elsewhere it is 1: take it for 1 at a first reading.
  *
  * The balance heuristic compares second moments. The samples of some strategies are better distributed than independent
  * samples and have less variance. Such a strategy deserves a higher count, a credit [Grittmann 2019]. The weights still
@@ -19,8 +20,8 @@
  * / (N V_N) samples, X its contribution and V_N the variance of the mean. For N = 16 that ratio is between 1 and 64 in
  * most scenes. One constant costs 3 % more squared error than to measure it before each render.
  *
- * Draws from a pool have a bound M: where few light vertices are useful, the same ones are drawn again and again. Draws
- * that would count as x samples of an endless pool count as x / (1 + x / M), less than M.
+ * Draws from a pool of light vertices (asbdpt.c) have a bound M: where few of them are useful, the same ones are drawn
+ * again and again. Draws that would count as x samples of an endless pool count as x / (1 + x / M), less than M.
  */
 #ifndef ASBDPT_COUNTS_H
 #define ASBDPT_COUNTS_H
@@ -86,8 +87,8 @@ static inline double n_pair(const struct counts *c, int e, enum eye_end end, int
 static inline double n_if(const struct counts *c, const struct vertex *y, const struct vertex *z, enum eye_end end)
 {
     return z->kind == VERTEX_LENS    ? c->lens
-           : y->kind == VERTEX_LIGHT ? n_direct(c, z->region, end, y->cell)
-                                     : n_pair(c, z->region, end, y->region);
+           : y->kind == VERTEX_LIGHT ? n_direct(c, z->place, end, y->place)
+                                     : n_pair(c, z->place, end, y->place);
 }
 static inline double n_of(const struct counts *c, const struct vertex *y, const struct vertex *z)
 {

@@ -39,8 +39,7 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
         return false;
     memset(v, 0, sizeof *v);
     v->kind = VERTEX_ESCAPED;
-    v->pdf_origin = light_pdf_sky(lights, from->ray.d, &v->cell);
-    v->light = v->cell >= 0 ? lights->sky : -1;
+    v->light = lights->n_layers > 0 ? lights->sky : -1;
     v->lamp = lamp;
     v->prev_delta = from->delta;
     v->wo = neg(from->ray.d);
@@ -50,7 +49,7 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
 
 /* Make the vertex where the ray met a surface, except its scattering. False if the surface is edge-on. */
 static bool meet(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
-                 const struct edge *edge, const struct surface *at, enum transport mode)
+                 const struct edge *edge, const struct surface *at)
 {
     double d2 = length2(sub(at->p, from->ray.o));
     if (d2 == 0 || (dot(at->ng, from->ray.d) == 0 && at->prim_id != WITHIN_MEDIUM))
@@ -59,11 +58,9 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     v->ng = at->ng;
     v->prev_delta = from->delta;
     v->light = at->light;
-    v->cell = at->light < 0 ? -1 : w->scene->lights.light[at->light].cell;
     v->p = at->p;
     v->prim_id = at->prim_id;
     v->wo = neg(from->ray.d);
-    v->pdf_origin = mode == RADIANCE ? light_pdf_surface(&w->scene->lights, &w->scene->geo, at) : 0;
     measure(w, v, prev, from, edge, d2);
     return true;
 }
@@ -83,20 +80,20 @@ static const struct vertex *meet_lamp(const struct walk *w, const struct vertex 
     scene_pass(w->scene, &ray, vertex_medium(w->scene, prev, ray.d), &edge);
     struct vertex *v = arena_alloc(w->arena, sizeof *v);
     memset(v, 0, sizeof *v);
-    return meet(w, v, prev, from, &edge, &at, RADIANCE) ? v : NULL;
+    return meet(w, v, prev, from, &edge, &at) ? v : NULL;
 }
 
 /* Make the whole vertex where the ray met a surface. False if the surface is edge-on. */
 static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                    const struct edge *edge, const struct surface *at, enum transport mode)
 {
-    if (!meet(w, v, prev, from, edge, at, mode))
+    if (!meet(w, v, prev, from, edge, at))
         return false;
-    bool first =
+    bool first_hit =
         prev->kind == VERTEX_LENS || (prev->kind == VERTEX_SURFACE && prev->eye_end == FIRST_HIT && from->delta);
-    v->eye_end = mode == RADIANCE && first ? FIRST_HIT : LATER_HIT;
+    v->eye_end = mode == RADIANCE && first_hit ? FIRST_HIT : LATER_HIT;
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
-    v->region = region_at(&w->counts->tables->regions, v->p, vertex_side(v));
+    v->place = region_at(&w->counts->tables->regions, v->p, vertex_side(v));
     v->mis_c = n_before(w->counts, prev, v, mode);
     return true;
 }
@@ -213,6 +210,6 @@ double path_use(const struct tables *tables, const struct vertex *light, int n)
     double sum = 0;
     for (int i = 1; i < n; i++)
         if (vertex_connectible(&light[i]))
-            sum += rgb_luminance(light[i].beta) * tables->use[light[i].region];
+            sum += rgb_luminance(light[i].beta) * tables->use[light[i].place];
     return sum;
 }

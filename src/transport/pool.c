@@ -10,9 +10,9 @@ void pool_clear(struct pool *p)
     p->used = 0;
 }
 
-struct vertex *pool_room(struct pool *p, size_t longest)
+struct vertex *pool_room(struct pool *p, size_t max_vertices)
 {
-    p->vertex = mem_grow(p->vertex, &p->capacity, p->used + longest, sizeof *p->vertex);
+    p->vertex = mem_grow(p->vertex, &p->capacity, p->used + max_vertices, sizeof *p->vertex);
     return &p->vertex[p->used];
 }
 
@@ -37,7 +37,6 @@ void pool_find_candidates(struct pool *p)
         const struct vertex *path = pool_path(p, k);
         for (int i = 1; i < p->length[k]; i++)
             if (vertex_connectible(&path[i]))
-                p->candidate[p->n_candidates++] = (struct candidate){{path, i, i + 1, 1},
-                                                                     rgb_luminance(path[i].beta)};
+                p->candidate[p->n_candidates++] = &path[i];
     }
 }

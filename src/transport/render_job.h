@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/field.h"
+#include "base/settings.h"
 #include "parser/source_position.h" /* struct message_sink */
 #include "scene/film.h"
 

@@ -85,12 +85,9 @@ void sample_direct(struct sample *sample, const struct vertex *z, int t)
         return;
     for (int i = 0; i < n; i++) {
         struct vertex y;
-        struct connection c = {.light = -1};
-        bool found = light_point(job->scene, sample->counts, z, &sample->sampler, i, n, &y);
-        if (found)
-            c = connect_vertices(job->scene, sample->counts, &y, z);
-        sample_add(sample, (struct joined){.s = 1, .t = t, .light = found ? &y : NULL, .z = z, .c = &c, .pmf = 1,
-                                           .scale = 1.0 / n});
+        struct connection c = connect_direct(job->scene, sample->counts, z, &sample->sampler, i, n, &y);
+        sample_add(sample, (struct joined){.s = 1, .t = t, .light = y.light >= 0 ? &y : NULL, .z = z, .c = &c,
+                                           .pmf = 1, .scale = 1.0 / n});
     }
 }
 
@@ -129,11 +126,8 @@ void sample_lens(struct sample *sample, const struct vertex *light, int n_light,
     const struct render_job *job = sample->pass->job;
     tell_walked(sample, IMPORTANCE, light, n_light);
     for (int s = 2; s <= n_light && s <= job->max_depth + 1; s++) {
-        struct vertex z;
-        struct connection c = {.light = -1};
-        double raster[2] = {0, 0};
-        if (lens_point(job->scene, &light[s - 1], &sample->sampler, &z, raster))
-            c = connect_vertices(job->scene, sample->counts, &light[s - 1], &z);
+        double raster[2];
+        struct connection c = connect_lens(job->scene, sample->counts, &light[s - 1], &sample->sampler, raster);
         sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .px = raster[0], .py = raster[1],
                                              .pmf = 1, .scale = scale / sample->counts->lens});
     }

@@ -34,7 +34,7 @@ struct tile_pass {
     long first, end;
     struct tile *tile; /* started; receives the result */
     struct workspace *work;
-    const struct observer *observer; /* observer.h; NULL: none */
+    const struct observer *observer; /* sample.h; NULL: none */
     bool trial; /* no picture has it: it ends at CANCEL_BLOCK, too */
     bool taken; /* some of it is in the film already: it must be rendered to its end */
 };

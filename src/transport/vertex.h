@@ -23,18 +23,19 @@ enum vertex_kind {
  * They are per area, or per solid angle for directions towards infinity.
  *
  *                LENS         LIGHT (y_0)                       SURFACE                      ESCAPED
- *   light, cell  -1           its light and light cell          of the area light, or -1     of the sky, or -1
+ *   light        -1           its light                         of the area light, or -1     of the sky, or -1
+ *   place        -            its light cell                    its region                   -
  *   p            on the lens  on the light; at infinity -       the point                    -
  *   ng           0            area light: its normal; else 0    geometric normal             0
  *   prim_id      0            area light: see shape.h; else 0   see shape.h                  0
  *   wo           0            at infinity: towards the light    towards the previous vertex  inwards
  *   beta         1 (below)    emitted towards y_1 (below)       throughput on arrival        throughput on arrival
  *   pdf_fwd      1            1/m^2; at infinity 1/sr           1/m^2                        1/sr
- *   pdf_origin   -            -                                 eye walk, on a light:        1/sr, of y_0 in this
- *                                                               density of y_0 here, 1/m^2   direction
- *   region       -            -                                 by tables.h                  -
  *   bsdf         -            -                                 its scattering               -
  *   lamp         -            -                                 eye walk: see below          see below
+ *
+ * A light cell is a light, a group of lights, or a part of the sky (light.h). A region is a cube of space and a side of
+ * its surfaces (regions.h), if a method learns; else the whole scene.
  *
  * A vertex within a medium (scene/medium.h) has the fields of a SURFACE, with ng 0, prim_id WITHIN_MEDIUM and pdf_fwd
  * per volume, 1/m^3.
@@ -51,17 +52,16 @@ struct vertex {
     enum vertex_kind kind;
     bool prev_delta; /* the walk left the previous vertex by a delta lobe */
     enum eye_end eye_end;
-    int light, cell;
+    int light, place;
     vec3 p, ng;
     uint64_t prim_id;
     vec3 wo; /* unit */
     rgb beta;
-    double pdf_fwd, pdf_origin;
+    double pdf_fwd;
     int medium;   /* of the edge that ends here; LENS, LIGHT: of the place */
     double back;  /* g of mis.h: turns a density per steradian here into one per area at the previous vertex */
     double mis;   /* mis_e of mis.h */
     double mis_c; /* c_e of mis.h, if this vertex is not left by a delta lobe */
-    int region;
     struct bsdf bsdf;
     const struct vertex *lamp; /* see above; NULL: none */
 };
@@ -72,8 +72,9 @@ struct vertex {
 void vertex_light(const struct scene *scene, const struct light_point *at, rgb beta, double hit, struct vertex *out);
 void vertex_lens(const struct camera *camera, vec3 p, rgb beta, struct vertex *out);
 
-/* vertex_light_point: the light_point of a y_0, of a surface on an area light, or of an escaped vertex. */
-struct light_point vertex_light_point(const struct vertex *v);
+/* vertex_light_point: the point of a y_0, or where an eye sub-path ends on an area light or the sky. Its pdf is the
+ * density of y_0 there. */
+struct light_point vertex_light_point(const struct scene *scene, const struct vertex *v);
 
 /* vertex_at_infinity: y_0 of an infinite or distant light. */
 static inline bool vertex_at_infinity(const struct scene *scene, const struct vertex *v)

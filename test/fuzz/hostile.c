@@ -94,8 +94,8 @@ static const struct open OF_KIND[] = {
     [FIELD_SWITCH] = {NULL, "bool", "true,false"}, [FIELD_POINT] = {NULL, "point", NULL},
     [FIELD_FLOAT_TEXTURE] = {NULL, "float", NULL}, [FIELD_RGB_TEXTURE] = {NULL, "rgb", NULL},
     [FIELD_OPERAND] = {NULL, "rgb", NULL}, [FIELD_VALUE] = {NULL, "rgb", NULL},
-    [FIELD_MATERIAL] = {NULL, "string", "m1,m0"},
-    [FIELD_FOURIER_TABLE] = {NULL, "string", "../../scenes/features/layered.bsdf,parts/broken.ply"},
+    [FIELD_PART] = {NULL, "string", "m1,m0"},
+    [FIELD_TABLE] = {NULL, "string", "../../scenes/features/layered.bsdf,parts/broken.ply"},
     [FIELD_FILE] = {NULL, "string", "parts/triangle.ply,parts/broken.ply"},
     [FIELD_INDICES] = {NULL, "integer", "0 1 2 0 2 3,0 1 2,0 1 2 3,0 -1 2 0 2 4"},
     [FIELD_POINTS] = {NULL, "point", NULL}, [FIELD_VECTORS] = {NULL, "vector", NULL},
@@ -167,7 +167,7 @@ static void parameter(struct writer *w, const struct field *f)
 static bool needed(struct writer *w, const struct field *f)
 {
     bool count_of_list = f->kind == FIELD_INTEGER && f->fallback == 0;
-    bool essential = is_list(f->kind) || f->kind == FIELD_FILE || f->kind == FIELD_FOURIER_TABLE || count_of_list ||
+    bool essential = is_list(f->kind) || f->kind == FIELD_FILE || f->kind == FIELD_TABLE || count_of_list ||
                      strcmp(f->name, "filename") == 0;
     return essential ? !rarely(w, 64) : choose(w, 3) == 1;
 }

@@ -119,8 +119,10 @@ static int run(void *options)
 {
     const struct compare_options *o = options;
     struct error err;
+    char known[IMAGE_LIST_TEXT];
     if (o->heatmap != NULL && !image_writable(o->heatmap))
-        return usage_error(&command_compare, "--heatmap %s: images are written as " IMAGE_WRITTEN, o->heatmap);
+        return usage_error(&command_compare, "--heatmap %s: an image to write ends in one of %s", o->heatmap,
+                           image_list_written(known));
     return compare_files(o, &err) ? EXIT_OK : fail(&err);
 }
 

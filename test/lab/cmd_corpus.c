@@ -30,7 +30,7 @@
 #include "lab/timed.h"
 
 struct corpus_options {
-    const char *scene_path, *methods;
+    const char *scene_path, *methods, *half;
     int width, spp, seeds;
     double limit;
 };
@@ -39,6 +39,8 @@ struct corpus_options {
 static const struct option OPTIONS[] = {
     {"SCENE.pbrt", NULL, OPTION_TEXT, AT(scene_path), 1, .help = "a scene file"},
     {"--methods", "LIST", OPTION_TEXT, AT(methods), .fallback = METHODS_CORPUS, .help = METHODS_HELP},
+    {"--half", "HALF", OPTION_TEXT, AT(half),
+     .help = "choice: all services off; services: each method with all it can have; without it: as given"},
     {"--width", "N", OPTION_INTEGER, AT(width), 8, 10000, .fallback = "112", .help = "pixels from left to right"},
     {"--spp", "N", OPTION_INTEGER, AT(spp), 1, 1 << 20, .fallback = "32", .help = "samples per pixel"},
     {"--seeds", "N", OPTION_INTEGER, AT(seeds), 2, PLAN_MAX_SEEDS, .fallback = "3",
@@ -130,6 +132,13 @@ static void print_scene(struct corpus *c, double loading)
            s->height, c->depth, loading, delta, sky, lamps, mirror, s->space != NULL, inside(s), winner(c));
 }
 
+/* A method as it was given. */
+static const char *name(const struct corpus *c, int v)
+{
+    const struct measured *m = &c->methods.item[v];
+    return c->o->half != NULL ? m->label : m->text;
+}
+
 /* --- renders ------------------------------------------------------------------------------------------ */
 
 /* The clock is looked at between chunks of work: often it would take time itself. */
@@ -160,7 +169,7 @@ static void render_method(struct corpus *c, int v)
     const struct measured *m = &c->methods.item[v];
     struct entry *e = &c->entry[v];
     struct error err = {.text = ""};
-    say_line("begin %s", m->text);
+    say_line("begin %s", name(c, v));
     c->started = os_cpu_seconds();
     c->late = false;
     for (int i = 0; i < c->o->seeds; i++) {
@@ -174,7 +183,7 @@ static void render_method(struct corpus *c, int v)
         e->seconds[i] = took.seconds;
         if (ok && !late)
             continue;
-        printf("failed,%s,%s\n", m->text, ok ? "more CPU time than the limit" : "refused");
+        printf("failed,%s,%s\n", name(c, v), ok ? "more CPU time than the limit" : "refused");
         if (!ok)
             say_line("%s", err.text);
         forget(c, e);
@@ -254,7 +263,7 @@ static void print_runs(const struct corpus *c, int v)
         else
             out[k][0] = out[k][1] = half[k][1];
     for (int i = 0; i < n; i++)
-        printf("run,%s,%d,%d,%.4f,%.6g,%.6g,%.6g,%.6g,%s\n", c->methods.item[v].text, i + 1, c->o->spp, e->seconds[i],
+        printf("run,%s,%d,%d,%.4f,%.6g,%.6g,%.6g,%.6g,%s\n", name(c, v), i + 1, c->o->spp, e->seconds[i],
                out[SQUARE_MSE8][i], out[SQUARE_RELMSE][i], out[SQUARE_BLOCKS][i], brightness(c, e->picture[i]),
                MARKS[e->mark]);
 }
@@ -265,7 +274,8 @@ static int run(void *options)
     struct error err;
     double start = os_cpu_seconds();
     c->o = options;
-    bool ok = methods_read(c->o->methods, &c->methods, &err);
+    bool ok = c->o->half == NULL ? methods_read(c->o->methods, &c->methods, &err)
+                                 : methods_add_halves(c->o->methods, c->o->half[0] == 'c' ? 1 : 2, &c->methods, &err);
     if (!ok) {
         free(c);
         return usage_error(&command_corpus, "--methods: %s", err.text);

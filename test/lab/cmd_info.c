@@ -85,23 +85,23 @@ static void print_channel(const float *value, int channel, long pixels)
 }
 
 /* The format's, if it is the name of a picture; else NULL. */
-static const char *extension(const char *path)
+static const char *extension(const char *path, char known[IMAGE_LIST_TEXT])
 {
-    static const char *const KNOWN[] = {".pfm", ".float.exr", ".exr", ".ppm", ".pgm", ".png", ".tga"};
-    for (size_t i = 0; i < sizeof KNOWN / sizeof KNOWN[0]; i++)
-        if (file_has_extension(path, KNOWN[i]))
-            return KNOWN[i];
+    image_list_read(known);
+    for (char *name = strtok(known, " "); name != NULL; name = strtok(NULL, " "))
+        if (file_has_extension(path, name))
+            return name;
     return NULL;
 }
 
-static bool print_picture(const char *path, struct error *err)
+static bool print_picture(const char *path, const char *format, struct error *err)
 {
     int width, height;
     struct image about;
     float *value = image_read_linear(path, &width, &height, &about, err);
     if (value == NULL)
         return false;
-    printf("format        %s, %s\nsize          %dx%d\nchannels      %s\n", extension(path),
+    printf("format        %s, %s\nsize          %dx%d\nchannels      %s\n", format,
            about.linear ? "linear" : "sRGB, here made linear", width, height,
            about.channels == 1 ? "1, grey" : "3, RGB");
     for (int c = 0; c < 3; c++)
@@ -137,8 +137,10 @@ static int run(void *options)
     struct prepared prepared;
     double start = os_wall_seconds();
     struct error err;
-    if (extension(o->scene_path) != NULL)
-        return print_picture(o->scene_path, &err) ? EXIT_OK : fail(&err);
+    char known[IMAGE_LIST_TEXT];
+    const char *format = extension(o->scene_path, known);
+    if (format != NULL)
+        return print_picture(o->scene_path, format, &err) ? EXIT_OK : fail(&err);
     if (info->race && o->integrator_name == NULL)
         o->integrator_name = "asbdpt";
     int status = load_job(o, &scene, &prepared);

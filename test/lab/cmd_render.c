@@ -77,5 +77,5 @@ static int run(void *options)
 }
 
 const struct command command_render_more = {
-    "render", "render a scene", {"SCENE.pbrt [-o FILE.{pfm,exr,png,ppm}]... [options]"}, OPTIONS,
+    "render", "render a scene", {"SCENE.pbrt [-o FILE]... [options]"}, OPTIONS,
     sizeof(struct more_options), run, false, "render scenes/veach-ajar.pbrt --quick --spp 16 -o out/ajar.png"};

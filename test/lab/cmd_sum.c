@@ -18,10 +18,10 @@ struct sum_options {
 
 #define AT(member) offsetof(struct sum_options, member)
 static const struct option OPTIONS[] = {
-    {"IN", NULL, OPTION_TEXTS, AT(in), 1, .help = "an image to read: .exr .pfm .png .tga .ppm .pgm; all are added up"},
+    {"IN", NULL, OPTION_TEXTS, AT(in), 1, .help = "an image to add up", .list = image_list_read},
     {"--weights", "LIST", OPTION_TEXT, AT(weights), .help = "factor of each image, as 1,0.5,2 (default: 1)"},
     {"-o", "FILE", OPTION_TEXTS, AT(out), 1, .alias = "--outfile", .written = true,
-     .help = "an image to write: linear .pfm or .exr, sRGB .png or .ppm; repeatable"},
+     .help = IMAGE_HELP, .list = image_list_written},
     {"--quiet", NULL, OPTION_ON, AT(quiet), .help = "do not print what was written"}, {.name = NULL}};
 
 /* A weight of the list at *text, which moves behind it. */

@@ -8,7 +8,7 @@
 struct trace_options {
     struct render_job job;
     int pixel[2], sample;
-    bool brightest, all;
+    bool brightest, all, values;
     const char *svg; /* NULL: no drawing */
 };
 
@@ -19,6 +19,7 @@ static const struct option OPTIONS[] = {
     {"--sample", "K", OPTION_INTEGER, AT(sample), 0, 1 << 30, .fallback = "0", .help = "which, from 0"},
     {"--brightest", NULL, OPTION_ON, AT(brightest), .help = "instead, the sample that contributes most to the pixel"},
     {"--all", NULL, OPTION_ON, AT(all), .help = "every vertex, density and connection, and what the columns mean"},
+    {"--values", NULL, OPTION_ON, AT(values), .help = "instead, a line for each number, NAME VALUE, for scripts"},
     {"--svg", "FILE", OPTION_TEXT, AT(svg), .written = true, .help = "also draw the paths within the scene"},
     {.others = RUN_OPTIONS},
 };
@@ -29,7 +30,8 @@ static int run(void *options)
     struct scene scene;
     struct prepared prepared;
     struct error err;
-    struct trace trace = {.x = o->pixel[0], .y = o->pixel[1], .iteration = o->brightest ? TRACE_BRIGHTEST : o->sample};
+    struct trace trace = {.x = o->pixel[0], .y = o->pixel[1], .iteration = o->brightest ? TRACE_BRIGHTEST : o->sample,
+                          .wants_splats = o->values};
     struct file_output svg = {.stream = NULL}; /* opened before the work */
     int status = load_job(&o->job, &scene, &prepared);
     if (status != EXIT_OK)
@@ -38,7 +40,9 @@ static int run(void *options)
     struct texts outputs = {(const char **)&o->svg, o->svg != NULL};
     bool ok = job_spares(&scene, &outputs, &err) && (o->svg == NULL || file_create(o->svg, &svg, &err)) &&
               trace_render(&scene, &o->job, &trace, &err);
-    if (ok)
+    if (ok && o->values)
+        trace_values(stdout, &story);
+    else if (ok)
         trace_tell(stdout, &story, o->all);
     if (ok && svg.stream != NULL)
         trace_svg(svg.stream, &story);
@@ -54,6 +58,6 @@ static int run(void *options)
 
 const struct command command_trace = {
     "trace", "one sample of a pixel, told in ten lines or in full: sub-paths, choices, connections, weights",
-    {"SCENE.pbrt --pixel X,Y [--sample K | --brightest] [--all] [--svg FILE] [options]"},
+    {"SCENE.pbrt --pixel X,Y [--sample K | --brightest] [--all | --values] [--svg FILE] [options]"},
     OPTIONS, sizeof(struct trace_options), run, true,
     "trace scenes/bathroom.pbrt --pixel 150,120 --svg out/paths.svg"};

@@ -2,6 +2,7 @@
 #include "lab/methods.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -30,8 +31,11 @@ struct settings measured_settings(const struct measured *m, const struct setting
 {
     struct settings out = {0};
     struct error err;
-    for (int i = 0; base != NULL && i < base->n; i++)
-        settings_set(&out, base->item[i].name, base->item[i].value, base->item[i].origin);
+    for (const struct setting *b = base != NULL ? base->item : NULL; b != NULL && b < base->item + base->n; b++)
+        if (isnan(b->number))
+            settings_set(&out, b->name, b->value, b->origin);
+        else
+            settings_set_number(&out, b->name, b->number, b->origin);
     set_pairs(m->text, &out, &err); /* which has been read before */
     return out;
 }
@@ -95,7 +99,7 @@ const char *method_why(const struct method *m)
     for (size_t i = 0; i < sizeof REASONS / sizeof *REASONS; i++)
         if (strcmp(REASONS[i].name, m->select != NULL ? m->select : m->name) == 0)
             return REASONS[i].why;
-    return m->selector != NULL ? m->help : NULL;
+    return m->build != NULL ? m->help : NULL;
 }
 
 const struct method *method_named(const char *name)
@@ -238,7 +242,7 @@ static void in_half(const char *text, enum half half, char out[METHOD_TEXT])
     const struct method *row = method_find(integrator, &s, NULL);
     int n = snprintf(out, METHOD_TEXT, "%s", text);
     for (size_t i = 0; row != NULL && i < sizeof SERVICES / sizeof SERVICES[0]; i++)
-        if (method_has(row, SERVICES[i].name) != NULL && settings_text(&s, SERVICES[i].name, NULL) == NULL &&
+        if (method_has(row, SERVICES[i].name) != NULL && settings_find(&s, SERVICES[i].name) == NULL &&
             n < METHOD_TEXT)
             n += snprintf(out + n, (size_t)(METHOD_TEXT - n), ":%s=%s", SERVICES[i].name, SERVICES[i].value[half]);
     settings_clear(&s);

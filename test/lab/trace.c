@@ -8,6 +8,7 @@
 #include "caustics/derived.h"
 #include "integrators/prepare.h"
 #include "lab/methods.h"
+#include "tables/emission.h"
 
 static void free_path(struct trace_path *path)
 {
@@ -94,6 +95,33 @@ static vec3 end_of(const struct trace *trace, const struct scene *scene, const s
     return vertex_at_infinity(scene, p->light) ? p->light->wo : p->light->p;
 }
 
+/* As connect_vertices makes a value and a weight, without media and what is infinitely far. */
+static struct trace_weight weigh(const struct sample *sample, const struct joined *p)
+{
+    struct trace_weight of = {.n = 0};
+    const struct scene *scene = sample->pass->job->scene;
+    const struct vertex *y = p->s > 0 && p->light != NULL ? &p->light[p->s - 1] : NULL, *z = p->z;
+    if (y == NULL || z == NULL || scene->space != NULL || vertex_at_infinity(scene, y) || rgb_is_black(p->c->value))
+        return of;
+    const bool light = y->kind == VERTEX_LIGHT;
+    const vec3 d = sub(y->p, z->p), w = normalize(d), back = neg(w);
+    const double spread = 1 / length2(d);
+    struct bsdf_value at_z = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE), at_y = {.f = {1, 1, 1}, .pdf = 0};
+    if (light) {
+        const struct light_point at = vertex_light_point(scene, y);
+        at_y.pdf = emission_pdf(&sample->counts->tables->emission, &scene->lights, &at, z->p, back);
+    } else
+        at_y = bsdf_eval(&y->bsdf, y->wo, back, IMPORTANCE);
+    of = (struct trace_weight){.f_y = at_y.f, .f_z = at_z.f, .distance = length(d), .n = n_of(sample->counts, y, z)};
+    of.cos_y = light ? vertex_cosine(y, back) : scatter_cosine(y, back, IMPORTANCE);
+    of.cos_z = scatter_cosine(z, w, RADIANCE);
+    of.R_y = at_z.pdf * vertex_cosine(y, w) * spread;
+    of.R_z = at_y.pdf * vertex_cosine(z, w) * spread;
+    of.light_side = mis_side(of.R_y, y->pdf_fwd, y->mis_c, light ? 0 : at_y.pdf_rev, y->mis);
+    of.eye_side = mis_side(of.R_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
+    return of;
+}
+
 static void joined(void *context, const struct sample *sample, const struct joined *p)
 {
     struct trace *trace = context;
@@ -102,7 +130,8 @@ static void joined(void *context, const struct sample *sample, const struct join
     int light = p->s > 1 ? light_path(trace, p->light, p->s) : -1;
     const struct scene *scene = sample->pass->job->scene;
     struct trace_connection made = {p->s, p->t, light, p->pmf, *p->c, p->px, p->py, end_of(trace, scene, p), p->scale,
-                                    p->added};
+                                    p->added, weigh(sample, p)};
+    trace->n_pool = sample->pass->work->pool.n;
     size_t n = (size_t)trace->n_connections + 1;
     trace->connection = mem_grow(trace->connection, &trace->connection_capacity, n, sizeof *trace->connection);
     trace->connection[trace->n_connections++] = made;
@@ -148,22 +177,54 @@ static bool pixels_have(struct tile_pixels p, int x, int y)
     return i >= 0 && pixels_get(p, i, &has_x, &has_y) && x == has_x && y == has_y;
 }
 
-/* The tile pass that holds the pixel, of iterations `first` to below `end`. */
+/* A tile pass, of iterations `first` to below `end`. */
+static void observe_tile(const struct render_job *job, const struct prepared *prepared, struct tile_pixels pixels,
+                         long first, long end, const struct observer *observer)
+{
+    struct tile tile = {.sum = NULL};
+    struct workspace *work = workspaces_new(1, job->max_depth);
+    struct tile_pass pass = {.job = job, .first = first, .end = end, .tile = &tile, .work = work,
+                             .observer = observer};
+    tile_start(&tile, pixels, job->film_rect, &job->scene->filter);
+    prepared->method->render(prepared, &pass);
+    tile_free(&tile);
+    workspaces_free(work, 1);
+}
+
+/* That which holds the pixel. */
 static void observe(const struct render_job *job, const struct prepared *prepared, const struct trace *trace,
                     long first, long end, const struct observer *observer)
 {
     const struct tiling tiling = tiling_of(job->film_rect, &prepared->size);
-    struct tile tile = {.sum = NULL};
-    struct workspace *work = workspaces_new(1, job->max_depth);
     int64_t number = 0;
     while (!pixels_have(tiling_pixels(&tiling, number), trace->x, trace->y))
         number++;
-    struct tile_pass pass = {.job = job, .first = first, .end = end, .tile = &tile, .work = work,
-                             .observer = observer};
-    tile_start(&tile, tiling_pixels(&tiling, number), job->film_rect, &job->scene->filter);
-    prepared->method->render(prepared, &pass);
-    tile_free(&tile);
-    workspaces_free(work, 1);
+    observe_tile(job, prepared, tiling_pixels(&tiling, number), first, end, observer);
+}
+
+/* Where light that is joined to the lens arrives in the pixel, as the film spreads it. */
+static void splat(void *context, const struct sample *sample, const struct joined *p)
+{
+    struct trace *trace = context;
+    const struct filter *filter = &sample->pass->job->scene->filter;
+    const struct splat s = {p->px, p->py, p->added};
+    float part[3];
+    if (p->t != 1 || rgb_is_black(p->added) || sample->iteration != trace->iteration)
+        return;
+    const struct pixel_rect pixel = {trace->x, trace->y, trace->x + 1, trace->y + 1};
+    struct pixel_rect in = splat_pixels(&s, filter, pixel);
+    if (in.x1 <= in.x0 || in.y1 <= in.y0 || !splat_part(&s, filter, trace->x, trace->y, part))
+        return;
+    trace->splats = rgb_add(trace->splats, rgb_make((double)part[0], (double)part[1], (double)part[2]));
+    trace->n_splats++;
+}
+
+static void find_splats(const struct render_job *job, const struct prepared *prepared, struct trace *trace, long first)
+{
+    const struct observer observer = {.context = trace, .joined = splat};
+    const struct tiling tiling = tiling_of(job->film_rect, &prepared->size);
+    for (int64_t i = 0; i < tiling_count(&tiling); i++)
+        observe_tile(job, prepared, tiling_pixels(&tiling, i), first, trace->iteration + 1, &observer);
 }
 
 /* From where what the sample depends on begins: in blocks of a length that the integrator has chosen one iteration
@@ -172,8 +233,11 @@ void trace_sample(const struct render_job *job, const struct prepared *prepared,
 {
     const struct observer observer = {.context = trace, .walked = walked, .joined = joined};
     long block = prepared->size.block > 0 ? prepared->size.block : 1;
-    observe(job, prepared, trace, trace->iteration / block * block, trace->iteration + 1, &observer);
-    bool chooses = prepared->method->selector == NULL || prepared->numbers.path_pixels > 0;
+    long first = trace->iteration / block * block;
+    observe(job, prepared, trace, first, trace->iteration + 1, &observer);
+    if (trace->wants_splats)
+        find_splats(job, prepared, trace, first);
+    bool chooses = prepared->method->build == NULL || prepared->numbers.path_pixels > 0;
     trace->why = chooses ? method_why(prepared->method) : NULL;
     trace->race = race_result(prepared);
     method_numbers(prepared, trace->number);

@@ -19,6 +19,15 @@ struct trace_path {
     const struct vertex *source; /* what was copied: how a sub-path is recognised */
 };
 
+/* What the value and the weight of a connection of y and z are made of (connect.c), computed once more. */
+struct trace_weight {
+    rgb f_y, f_z;                 /* BSDFs; of a light 1 */
+    double cos_y, cos_z, distance;
+    double n;                     /* of the strategy; 0: nothing of this is known: media, lights at infinity, t = 1 */
+    double R_y, R_z;              /* densities in the other walk, 1/m^2 */
+    double light_side, eye_side;  /* A_light and A_eye of mis.h */
+};
+
 /* One connection that was tried. */
 struct trace_connection {
     int s, t;
@@ -29,6 +38,7 @@ struct trace_connection {
     vec3 end;            /* s = 1: the point on the light; at infinity, its direction. t = 1: on the lens */
     double scale;        /* what else C* is multiplied by: numbers of samples, filter, 1/probabilities of a choice */
     rgb added;           /* C* times scale times weight, as it was added; t = 1: at the raster point */
+    struct trace_weight of;
 };
 
 enum { TRACE_BRIGHTEST = -1 };
@@ -44,6 +54,10 @@ struct trace {
     struct trace_connection *connection; /* [n_connections] in the order of adding; owned */
     int n_connections;
     size_t light_capacity, connection_capacity;
+    int n_pool;        /* K, light sub-paths that the pixels of the tile share */
+    bool wants_splats; /* to be set before: find these, too, which takes all tiles */
+    rgb splats;        /* what light sub-paths of all pixels add to this one in the sample's iteration, */
+    int n_splats;      /* by so many vertices that were joined to the lens */
     const char *why;   /* how the method chooses what to connect with; NULL: it does not */
     struct race_result race;
     struct method_number number[METHOD_NUMBERS]; /* what it has chosen for itself, ended by a NULL name */

@@ -22,6 +22,11 @@ struct trace_story {
 void trace_tell(FILE *f, const struct trace_story *story, bool all);
 void trace_text(FILE *f, const struct trace_story *story);
 
+/* trace_values: a line for each number: its name, and the number or words. z.I.beta and others are of an eye vertex,
+ * c.J.C and others of a connection to the pixel, from 1 on, c.J.y.beta of its light end; c.most is the pair that
+ * contributes most. sum: of all; pixel: with what light sub-paths of the image add to it by t = 1. */
+void trace_values(FILE *f, const struct trace_story *story);
+
 /* trace_name_joined: what a connection joins: "y_2 - z_1", or "y_2(5) - z_1" of the fifth light sub-path. */
 enum { TRACE_JOINED = 64 };
 void trace_name_joined(const struct trace *trace, const struct trace_connection *c, char out[TRACE_JOINED]);

@@ -45,7 +45,7 @@ static void map_worth(const struct view *v)
     const struct scene *s = v->job.scene;
     for (int y = 0; y < s->height; y++)
         for (int x = 0; x < s->width; x++)
-            v->worth[y * s->width + x] = look(v, x, y) ? float_within(v->ratio[v->work->eye[1].region]) : 0;
+            v->worth[y * s->width + x] = look(v, x, y) ? float_within(v->ratio[v->work->eye[1].place]) : 0;
 }
 
 /* Adds p to the pixel in which the camera sees the light vertex y, if it does. */
@@ -72,7 +72,7 @@ static void map_draws(const struct view *v)
             int n = path_light(&w, v->light, v->job.max_depth + 1, NULL);
             for (int i = 1; i < n; i++) {
                 const struct vertex *y = &v->light[i];
-                double worth = vertex_connectible(y) ? v->ratio[y->region] * rgb_luminance(y->beta) : 0;
+                double worth = vertex_connectible(y) ? v->ratio[y->place] * rgb_luminance(y->beta) : 0;
                 if (pass == 0)
                     total += worth;
                 else if (worth > 0)
@@ -92,7 +92,7 @@ static bool fill(struct view *v, int x, int y, struct error *err)
         return error_usage(err, "--pixel %d,%d lies outside the film of %dx%d", x, y, s->width, s->height);
     if (!look(v, x, y))
         return error_set(err, "no surface that can be connected to is seen through pixel %d,%d", x, y);
-    v->ratio = table_row(&v->counts.tables->pairs, v->work->eye[1].region);
+    v->ratio = table_row(&v->counts.tables->pairs, v->work->eye[1].place);
     map_worth(v);
     map_draws(v);
     return true;

@@ -4,11 +4,12 @@
 #   awk -v scores=yes -f test/measure/corpus.awk DIR/list.txt OUT/*.csv       a line for each scene, for corpus_svg.awk:
 #                                                   NUMBER SET RUNNER, asbdpt over the better by relmse, pt over bdpt
 #   awk -v page=sets -f test/measure/corpus.awk FILE                          the first table for a page; page=runners: the
-#                                                   second, by mse8; page=sentence: of `report`, by mse8, in words
+#                                                   second, by mse8; page=sentence: of `report`, by mse8, in words;
+#                                                   page=quartiles: of `report`, for a short table
 BEGIN {
     power = ":lightsamplestrategy=power"
     split("mse8 relmse 8x8 mse8,power relmse,power 8x8,power", measure, " ")
-    n_measures = page == "sentence" || page == "runners" ? 1 : page ? 3 : 6
+    n_measures = page == "quartiles" ? 3 : page == "sentence" || page == "runners" ? 1 : page ? 3 : 6
     FORM = "%-16s %-12s %4d %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %8.3f %7.1f %% %7.1f %%\n"
 }
 /\t/ { split($0, field, "\t"); set[field[1]] = field[4]; next }
@@ -83,6 +84,11 @@ function line(label, m, x, n,    i, worse, better, sum) {
             "%.2f, in %.0f %% over 1.15\n", quantile(x, n, 0.5), quantile(x, n, 0.25), 100 * worse / n
         return
     }
+    if (page == "quartiles") {
+        printf "| %s | %.2f | %.2f | %.2f | %.2f | %.3g |\n", measure[m], quantile(x, n, 0.25), quantile(x, n, 0.5), \
+            quantile(x, n, 0.75), quantile(x, n, 0.9), x[n]
+        return
+    }
     form = page ? "| %s | %s | %d | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.3g | %.0f %% | %.0f %% |\n" : FORM
     printf form, label, measure[m], n, exp(sum / n), quantile(x, n, 0.1), quantile(x, n, 0.25), quantile(x, n, 0.5),
         quantile(x, n, 0.75), quantile(x, n, 0.9), x[n], 100 * worse / n, 100 * better / n
@@ -101,6 +107,11 @@ function group(label, what, value, most,    m, i, n, x, own) {
 }
 function head(title) {
     if (page == "sentence") return
+    if (page == "quartiles") {
+        print "| noise | 25 % of scenes | 50 % | 75 % | 90 % | worst |"
+        print "|---|---:|---:|---:|---:|---:|"
+        return
+    }
     if (page) {
         print "| scenes | error | n | mean | 10 % | 25 % | 50 % | 75 % | 90 % | worst | over 1.15 | under 0.87 |"
         print "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
@@ -127,9 +138,9 @@ END {
     }
     if (page != "runners") {
         head("error x CPU time of asbdpt over the better of pt and bdpt")
-        if (page != "sentence") group("tune", "set", "tune", n_measures)
+        if (page != "sentence" && page != "quartiles") group("tune", "set", "tune", n_measures)
         group("report", "set", "report", n_measures)
-        if (page == "sentence") exit
+        if (page == "sentence" || page == "quartiles") exit
         group("both", "", "", n_measures)
         if (page) exit
     }

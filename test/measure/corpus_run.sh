@@ -3,7 +3,7 @@
 # holds the lines of scene N (test/lab/cmd_corpus.c), each after the number. What is there is not measured again.
 # Whatever happens in a scene, the others go on: a method that ends its process is a line, and the rest of them are
 # tried again. FORTY=yes: those drawn by lot of `report`, larger. JOBS: scenes at a time; LIST instead of DIR/list.txt;
-# METHODS, WIDTH, SPP, SEEDS, LIMIT.
+# METHODS, HALF, WIDTH, SPP, SEEDS, LIMIT.
 #   sh test/measure/corpus_run.sh DIR OUT [PROGRAM]
 set -u
 [ $# -ge 2 ] || { echo "usage: sh test/measure/corpus_run.sh DIR OUT [PROGRAM]" >&2; exit 2; }
@@ -17,6 +17,7 @@ else
     methods=${METHODS:-bdpt,pt,asbdpt,bdpt$power,pt$power} limit=${LIMIT:-40}
     size="--width ${WIDTH:-112} --spp ${SPP:-32} --seeds ${SEEDS:-3}"
 fi
+size="$size${HALF:+ --half $HALF}"
 mkdir -p "$out" || exit
 work=$(mktemp -d) || exit
 trap 'rm -rf "$work"' EXIT

@@ -130,7 +130,6 @@ missing() {
         case $need in
         published) [ -f "${PUBLISHED-}/cornell-box/scene.pbrt" ] || echo "PUBLISHED=DIR, the five published scenes" ;;
         corpus) [ -f "${CORPUS-}/list.txt" ] || echo "CORPUS=DIR, made by sh test/measure/corpus.sh DIR" ;;
-        others) [ -d "${OTHERS-}" ] || echo "OTHERS=DIR, scenes by others" ;;
         references) [ -d "${REFERENCES-}" ] || echo "REFERENCES=DIR, their references" ;;
         peers) [ -d "${PEERS-}" ] || echo "PEERS=DIR, made by sh test/measure/peers.sh build" ;;
         esac

@@ -41,7 +41,7 @@ refuse '^asbdpt: there is no integrator vcn; known are: pt lt bdpt asbdpt$' rend
 refuse 'no integrator asbdtp; known are: pt lt bdpt asbdpt; did you mean "asbdpt"[?]$' \
     render "$box" --integrator asbdtp
 refuse 'there is no help on integrator; did you mean "integrators"[?] try asbdpt --help$' help integrator
-refuse '[-]-filter gausian: known are .*; did you mean "gaussian"[?]$' render "$box" --filter gausian
+refuse '[-]-filter gausian: expected .*"gaussian".*; did you mean "gaussian"[?]' render "$box" --filter gausian
 refuse 'lightsamplestrategy = "powr" is unknown: give "spatial", "power" or "uniform"; did you mean "power"[?]$' \
     render "$box" -P lightsamplestrategy=powr
 # A file that is called like an option is not taken for one: what is wrong with it is no wrong usage.

@@ -3,7 +3,9 @@
 #   1. that every local link and picture leads to a file;
 #   2. that [`FILE: FUNCTION`](path) leads to a file of that name, and to the line that defines the function there;
 #   3. that tags are closed as often as they are opened, and that formulas have indices, lists and tables are there;
-#   4. that mutant `NAME` is in test/data/mutants/list.txt, and `build/test NAME` in test/unit.
+#   4. that every name in a source leads to a line that has it, that lines and the formulas that they compute lead to each
+#      other, and that a mark (doc/marks.awk) follows its line, and fails without it;
+#   5. that mutant `NAME` is in test/data/mutants/list.txt, and `build/test NAME` in test/unit.
 # Damaged pages must be found. Prints what is wrong, or one line; exit status 0 only if nothing is. Run from the top.
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
@@ -86,6 +88,63 @@ found=$(leads "$index")
 [ -z "$found" ] || wrong "index.html leads to no heading: $found"
 sed 's/#render"/#rendered"/' "$index" >"$dir/index.html"
 [ -n "$(leads "$dir/index.html")" ] || wrong "a heading that is not there is not noticed"
+
+# named DIR: the links of its sources whose line has not their name, and how many links there are.
+named() {
+    find src -name '*.[ch]' -exec awk -v html="$1" '
+        { text[FILENAME, FNR] = $0; if (FNR == 1) file[++n] = FILENAME }
+        END {
+            for (i = 1; i <= n; i++)
+                while ((getline line < (html "/" file[i] ".html")) > 0)
+                    while (match(line, /<a href="[^"]*#L[0-9]+">[A-Za-z_0-9]+</)) {
+                        split(substr(line, RSTART, RLENGTH), part, /[">#<]+/)
+                        line = substr(line, RSTART + RLENGTH)
+                        to = part[3] ~ /^L/ ? file[i] : part[3]
+                        name = part[3] ~ /^L/ ? part[4] : part[5]
+                        at = substr(part[3] ~ /^L/ ? part[3] : part[4], 2)
+                        sub(/^(\.\.\/)*/, "", to)
+                        sub(/\.html$/, "", to)
+                        links++
+                        if (" " text[to, at] " " !~ ("[^A-Za-z0-9_]" name "[^A-Za-z0-9_]"))
+                            print file[i] ": " name " is not in line " at " of " to
+                    }
+            print links + 0
+        }' {} +
+}
+found=$(named "$dir/html")
+[ "$(echo "$found" | sed '$d')" = "" ] || wrong "$(echo "$found" | sed -n 1,5p)"
+[ "$(echo "$found" | tail -n 1)" -gt 20000 ] || wrong "only $found names of the sources lead anywhere"
+grep -q '<munderover><mo>&#x220F;</mo>' "$dir/html/src/transport/mis.h.html" || wrong "mis.h has no product"
+# Formulas: pages 3 to 11b have marks, and where a line has a formula its page leads back to the line.
+LC_ALL=C awk -f doc/marks.awk doc/tour/*.md >"$dir/marks" || bad=1
+for page in 03 04 05 06 07 07b 08 09 10 11 11b; do
+    grep -q "^doc/tour/$page-" "$dir/marks" || wrong "page $page of the tour marks no line"
+done
+TAB=$(printf '\t')
+while IFS=$TAB read -r page file line id rest; do
+    page=${page%.md}.html
+    grep -q "<div class=\"f\"><a href=\"[./]*/$page#$id\">" "$dir/html/$file.html" ||
+        wrong "$file has no formula of $page"
+    grep -q "<a id=\"$id\" href=\"[./]*/$file.html#L$line\">" "$dir/html/$page" ||
+        wrong "$page does not lead to $file"
+    grep -q "id=\"L$line\"" "$dir/html/$file.html" || wrong "$file has no line $line"
+done <"$dir/marks"
+mkdir -p "$dir/moved/doc/tour" "$dir/moved/src/transport"
+cp doc/marks.awk doc/tour/07b-constant-time.md "$dir/moved/doc/tour"
+{ echo && cat src/transport/path.c; } >"$dir/moved/src/transport/path.c"
+marked() { (cd "$dir/moved" && awk -f doc/tour/marks.awk doc/tour/07b*.md 2>"$dir/said" | cut -f 1-3); }
+{ echo && echo && cat src/transport/mis.h; } >"$dir/moved/src/transport/mis.h"
+expected=$(awk -F '\t' -v OFS='\t' '$1 ~ /07b/ { print $1, $2, $3 + ($2 ~ /path/ ? 1 : 2) }' "$dir/marks")
+[ "$(marked)" = "$expected" ] || wrong "a mark does not follow its line"
+sed 's|    return|    give|' src/transport/mis.h >"$dir/moved/src/transport/mis.h"
+marked >/dev/null
+grep -q 'mis.h: mis_side has 0 lines with return' "$dir/said" || wrong "a line that is gone is not noticed"
+mkdir "$dir/wrong" && cp -R "$dir/html/src" "$dir/wrong"
+of=src/transport/connect.c.html
+sed 's/\(vertex.h.html#L\)[0-9]*">beta</\11">beta</' "$dir/html/$of" >"$dir/wrong/$of"
+named "$dir/wrong" | grep -q 'connect.c: beta is not in line 1 of src/transport/vertex.h' ||
+    wrong "a name that leads elsewhere is not noticed"
+
 mkdir "$dir/damaged"
 while IFS= read -r damage; do
     echo "$damage" >"$dir/damaged/damaged.html"

@@ -3,9 +3,22 @@
 # [KEY] or [KEY WHERE], that begins with a capital and a second letter or digit (but is no constant's name and no
 # usage line), begins with pbrt-v3, or ends with a year. Checked:
 #   1. KEY is an entry of doc/references.md, a line "- **[KEY]**", and WHERE has the form of a place in a source;
-#   2. every entry is used, or says "Background reading"; entries are in alphabetical order, none twice.
-# Prints what is wrong, or one line; exit status 0 only if nothing is. Run from the top.
+#   2. every entry is used, or says "Background reading"; none stands twice.
+# Entries that are not in alphabetical order are brought into it. Prints what is wrong, or one line; exit status 0 only
+# if nothing is. Run from the top.
 export LC_ALL=C
+page=doc/references.md
+
+# sorted: the page with its entries in order: each in one line behind its key, sorted, and in lines again.
+sorted() {
+    sed '/^- \*\*\[/,$d' $page
+    sed -n '/^- \*\*\[/,$p' $page | awk '
+        /^- \*\*\[/ { printf "%s%s", (NR > 1 ? "\n" : ""), tolower(substr($0, 6, index($0, "]") - 6)) }
+        { printf "\t%s", $0 }
+        END { print "" }' | sort | cut -f 2- | tr '\t' '\n'
+}
+new=$(sorted) || exit
+[ "$new" = "$(cat $page)" ] || { printf '%s\n' "$new" >$page && echo "references: $page is sorted anew"; }
 awk -f test/tree/pieces.awk $(find src test -name '*.[ch]' | sort) | awk -F '\t' '
     function wrong(text) { print text; bad = 1 }
 
@@ -46,8 +59,6 @@ awk -f test/tree/pieces.awk $(find src test -name '*.[ch]' | sort) | awk -F '\t'
             key = substr($0, 6)
             sub(/\].*/, "", key)
             if (key in entry) wrong("doc/references.md: [" key "] stands twice")
-            if (tolower(key) < tolower(last)) wrong("doc/references.md: [" key "] must stand before [" last "]")
-            last = key
             entry[key] = 1
             n_entries++
         }
@@ -62,4 +73,4 @@ awk -f test/tree/pieces.awk $(find src test -name '*.[ch]' | sort) | awk -F '\t'
         if (n_entries == 0) wrong("doc/references.md has no entries")
         if (!bad) print "references: all of " n_entries " keys resolve and are used"
         exit bad
-    }' doc/references.md -
+    }' $page -

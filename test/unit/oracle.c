@@ -118,7 +118,7 @@ static double delta_density(const struct full_path *f, int from, int i, int to, 
 static struct light_point light_point(const struct full_path *f)
 {
     const struct light_set *lights = &f->scene->lights;
-    struct light_point y0 = vertex_light_point(f->x[0]);
+    struct light_point y0 = vertex_light_point(f->scene, f->x[0]);
     y0.w = at_infinity(f, 0) ? direction(f, 1, 0) : y0.w;
     if (lights->light[y0.light].kind == LIGHT_INFINITE)
         light_pdf_sky(lights, y0.w, &y0.cell);
@@ -137,7 +137,11 @@ static double light_density(const struct full_path *f, int j)
 {
     if (j == 0) {
         const struct vertex *v = f->x[0];
-        return v->kind == VERTEX_LIGHT ? v->pdf_fwd : v->pdf_origin;
+        const struct surface on = {.light = v->light, .ng = v->ng};
+        int cell;
+        return v->kind == VERTEX_LIGHT     ? v->pdf_fwd
+               : v->kind == VERTEX_ESCAPED ? light_pdf_sky(&f->scene->lights, neg(v->wo), &cell)
+                                           : light_pdf_surface(&f->scene->lights, &f->scene->geo, &on);
     }
     if (j == 1) {
         struct light_point y0 = light_point(f);

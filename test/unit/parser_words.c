@@ -60,8 +60,8 @@ static void put_options(struct words *w, const struct scene *s)
     put(w, "\nfilter %d radius %g %g alpha %g B %g C %g tau %g\n", (int)f->kind, f->radius[0], f->radius[1], f->alpha,
         f->B, f->C, f->tau);
     put(w, "spp %d integrator %s\n", s->spp, s->integrator != NULL ? s->integrator : "none");
-    for (int i = 0; i < s->settings.n; i++)
-        put(w, "setting %s %s %s\n", s->settings.item[i].name, s->settings.item[i].value, s->settings.item[i].origin);
+    for (const struct setting *i = s->settings.item; i < s->settings.item + s->settings.n; i++)
+        put(w, "setting %s %s %s is %.17g\n", i->name, i->value, i->origin, i->number);
 }
 
 /* Where the origin of a texture's space lies. */
@@ -118,7 +118,7 @@ static void put_material(struct words *w, const struct scene *s, int i)
         const void *place = (const char *)m + f->place;
         if (f->kind == FIELD_FLOAT_TEXTURE || f->kind == FIELD_RGB_TEXTURE)
             put_texture(w, s, f->name, *(const int *)place);
-        else if (f->kind == FIELD_MATERIAL)
+        else if (f->kind == FIELD_PART)
             put(w, " %s %d", f->name, *(const int *)place);
         else if (f->kind == FIELD_SWITCH)
             put(w, " %s %d", f->name, *(const bool *)place);

@@ -272,10 +272,10 @@ static void note_draw(void *context, const struct sample *sample, const struct j
     for (int k = 0; d->delta > 0 && k < (int)d->paths; k++)
         if (d->first[k] == what)
             d->unlike = fmax(d->unlike, fabs(path->pmf / d->q[k] - 1));
-    d->region = d->region < 0 ? path->z->region : d->region;
+    d->region = d->region < 0 ? path->z->place : d->region;
     while (i < d->n && d->drawn[i] != what)
         i++;
-    if (i < d->n || i == 256 || (!d->whole && d->region != path->z->region))
+    if (i < d->n || i == 256 || (!d->whole && d->region != path->z->place))
         return;
     d->drawn[d->n++] = what;
     d->sum += path->pmf;
@@ -300,7 +300,7 @@ static struct index *spoil(const struct prepared *p, const struct tile_pass *pas
     }
     for (int k = 0; k < pool->n; k++)
         d->q[k] = (1 - d->delta) * d->q[k] / sum + d->delta / d->paths;
-    return d->method->selector->build(p, pass, iteration);
+    return d->method->build(p, pass, iteration);
 }
 
 static void check_draws(struct test *t, struct scene *scene, const char *way, struct draws d, double least)
@@ -313,8 +313,7 @@ static void check_draws(struct test *t, struct scene *scene, const char *way, st
     pass.observer = &observer;
     struct method spoiling = *b.prepared.method;
     d.method = b.prepared.method;
-    const struct selector selector = {spoil, d.method->selector->draw};
-    spoiling.selector = &selector;
+    spoiling.build = spoil;
     b.prepared.method = d.spoilt > 0 || d.delta > 0 ? &spoiling : d.method;
     b.prepared.method->render(&b.prepared, &pass);
     b.prepared.method = d.method;

@@ -74,8 +74,7 @@ static double contribution(struct chain *c, const struct mlt_path *path, enum ml
     const struct counts *counts = &c->all->counts;
     const struct vertex *light = c->light, *eye = c->work->eye, *x = &light[path->l];
     int s = strategy->s, n = strategy->t;
-    struct light_point at = vertex_light_point(&path->x[0].v);
-    at.pdf = path->x[0].v.pdf_fwd;
+    struct light_point at = vertex_light_point(scene, &path->x[0].v);
     if (which == LENS_PERTURBATION) {
         struct connection c2 = s == 0   ? connect_hit(scene, counts, &eye[n - 2], &eye[n - 1])
                                : s == 1 ? lamp_connect(scene, counts, &eye[n - 1], &at, at.pdf)

@@ -204,7 +204,7 @@ static bool first_hit(const struct scene *scene, struct arena *arena, vec3 eye, 
         return false;
     vec3 d = sub(hit.p, eye), w = normalize(d);
     double pdf = camera_project(&scene->camera, eye, w, &px, &py) * camera_spread(&scene->camera, length2(d));
-    *z = (struct vertex){.kind = VERTEX_SURFACE, .eye_end = FIRST_HIT, .light = -1, .cell = -1, .p = hit.p,
+    *z = (struct vertex){.kind = VERTEX_SURFACE, .eye_end = FIRST_HIT, .light = -1, .p = hit.p,
                          .ng = hit.ng, .prim_id = hit.prim_id, .wo = neg(w), .beta = rgb_grey(1),
                          .pdf_fwd = pdf * abs_dot(hit.ng, w)};
     material_bsdf(scene->material, hit.material, &scene->textures, &hit, arena, &z->bsdf);
@@ -220,8 +220,8 @@ static double all_weights(const struct one_more *extra, const struct sample *sam
     if (!meet(sample->pass->job->scene, z->p, image, z->prim_id, &at))
         return 0;
     struct vertex x = {.kind = VERTEX_SURFACE, .light = -1, .p = at.p, .ng = at.ng, .prim_id = at.prim_id};
-    struct vertex y = {.kind = VERTEX_SURFACE, .prev_delta = true, .light = y0->light, .cell = y0->cell, .p = y0->p,
-                       .ng = vec(0, 1, 0), .wo = normalize(sub(x.p, y0->p)), .pdf_origin = y0->pdf};
+    struct vertex y = {.kind = VERTEX_SURFACE, .prev_delta = true, .light = y0->light, .p = y0->p,
+                       .ng = vec(0, 1, 0), .wo = normalize(sub(x.p, y0->p))};
     struct vertex seen[4] = {{.kind = VERTEX_LENS, .p = eye}, *z, x, y}, sent[3] = {y, x, *z};
     sent[0].kind = VERTEX_LIGHT;
     sent[0].prev_delta = false;

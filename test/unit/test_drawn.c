@@ -42,7 +42,7 @@ static int copies(const struct index *r, const struct vertex *y, double *u)
 {
     int n = 0;
     for (int v = 0; v < r->V; v++)
-        if (candidate_vertex(&r->found[v]) == y) {
+        if (r->found[v] == y) {
             *u = r->u != NULL ? r->u[v] : 1;
             n++;
         }
@@ -54,7 +54,7 @@ static int copies(const struct index *r, const struct vertex *y, double *u)
 static double stated(const struct drawer *d, const struct index *index, const struct drawn *drawn)
 {
     double u = 1;
-    return d->b.prepared.method->selector->draw != ris_draw ? drawn->pmf
+    return d->b.prepared.method->draw != ris_draw ? drawn->pmf
         : drawn->pmf * copies(index, &drawn->light[drawn->first], &u) * u * d->b.work->pool.n / index->K;
 }
 
@@ -65,7 +65,7 @@ static struct drawn draw_one(const struct drawer *d, const struct index *index, 
     struct drawn out = {.end = 0};
     sample.choice = sampler_start(d->b.job.seed, RNG_TEST, k, 4 + (uint64_t)z->eye_end);
     sample.number = d->number;
-    d->b.prepared.method->selector->draw(&d->b.prepared, index, &sample, z, i, n, &out);
+    d->b.prepared.method->draw(&d->b.prepared, index, &sample, z, i, n, &out);
     return out;
 }
 
@@ -88,7 +88,7 @@ static const struct index *build_again(struct drawer *d, uint64_t k)
     if (k % OFTEN == 0)
         loop_fill(&d->b.prepared, &d->pass, 0);
     d->b.work->pool.n_candidates = 0;
-    return d->b.prepared.method->selector->build(&d->b.prepared, &d->pass, (long)(hash_mix(k) >> 34));
+    return d->b.prepared.method->build(&d->b.prepared, &d->pass, (long)(hash_mix(k) >> 34));
 }
 
 static size_t thing_of(const struct drawer *d, const struct drawn *drawn)
@@ -210,7 +210,7 @@ static void check_presampled(struct test *t, struct drawer *d, const char *name)
         c.collects = k < passes / 2;
         draws += c.collects ? 0 : own->presampled;
         for (int v = 0; v < r.V; v++)
-            tally_note(&c, (size_t)(candidate_vertex(&r.found[v]) - pool->vertex), 1 / (r.u[v] * own->presampled));
+            tally_note(&c, (size_t)(r.found[v] - pool->vertex), 1 / (r.u[v] * own->presampled));
     }
     tally_judge(t, &c, (double)draws, 1, name, "first stage");
     tally_free(&c);
@@ -245,7 +245,7 @@ static struct index *build_fixed(const struct prepared *p, const struct tile_pas
 {
     const struct whole *w = pass->observer->context;
     loop_fill(p, pass, 0);
-    return w->method->selector->build(p, pass, iteration);
+    return w->method->build(p, pass, iteration);
 }
 
 static void check_whole(struct test *t, struct drawer *d, const char *name)
@@ -256,8 +256,8 @@ static void check_whole(struct test *t, struct drawer *d, const char *name)
     const struct observer observer = {.context = &w, .walked = note_walked, .joined = note_whole};
     int passes = 2 * DRAWS / (SIDE * SIDE);
     w.seen = (struct seen){&w.c, &d->b.work->pool, NULL};
-    const struct selector selector = {build_fixed, NULL};
-    fixed.selector = method->selector != NULL ? &selector : NULL;
+    fixed.build = method->build != NULL ? build_fixed : NULL;
+    fixed.draw = NULL;
     d->b.prepared.method = &fixed;
     d->pass.observer = &observer;
     for (int i = 0; i < passes; i++) {
@@ -282,7 +282,7 @@ static bool has_own(const struct method *m, const char *name)
     return m->own != NULL && field_find(m->own, name) != NULL;
 }
 
-static bool draws(const struct method *m) { return m->selector != NULL && m->selector->draw != NULL; }
+static bool draws(const struct method *m) { return m->draw != NULL; }
 
 /* Without a race, which may find that nothing is to be drawn. */
 static void check_method(struct test *t, struct scene *scene, const struct method *m)
@@ -314,7 +314,7 @@ static void test_methods(struct test *t)
     if (!scene_from_file(t, "scenes/cornell-box.pbrt", SIDE, SIDE, &scene))
         return;
     for (const struct method *const *m = method_rows; *m != NULL; m++)
-        if ((*m)->selector != NULL) {
+        if ((*m)->build != NULL) {
             check_method(t, &scene, *m);
             n++;
         }
@@ -366,7 +366,7 @@ static void check_lights(struct test *t, const struct scene *scene, const struct
         const struct light *light = &lights->light[at.light];
         if (light->kind == LIGHT_INFINITE)
             tally_note(&c, (size_t)(lights->n + at.cell),
-                       alias_pmf(&lights->choice, at.cell) * table_ratio(direct, z->region, at.cell));
+                       alias_pmf(&lights->choice, at.cell) * table_ratio(direct, z->place, at.cell));
         else
             tally_note(&c, (size_t)at.light,
                        pdf * (light->kind == LIGHT_AREA ? shape_area(&scene->geo, light->prim) : 1));
@@ -380,8 +380,9 @@ static void check_rays(struct test *t, const struct scene *scene, const struct b
 {
     const struct light_set *lights = &scene->lights;
     const struct table *emission = &b->prepared.counts.tables->emission;
-    struct emission_axis axis = emission_axis_new(lights);
-    struct tally c = tally_new(WAYS, (size_t)axis.axis.n);
+    double *base;
+    struct axis axis = emission_axis_new(lights, &base);
+    struct tally c = tally_new(WAYS, (size_t)axis.n);
     for (uint64_t k = 0; k < 2 * DRAWS; k++) {
         struct sampler sampler = sampler_start(b->job.seed, RNG_TEST, k, 3);
         double u[3], square[2], pdf;
@@ -394,11 +395,11 @@ static void check_rays(struct test *t, const struct scene *scene, const struct b
         emission_sample(emission, lights, &scene->geo, u, square, &y0, &ray, &pdf, &left_by);
         int column = emission_column_of(lights, &y0, ray.o, ray.d);
         c.collects = k < DRAWS;
-        tally_note(&c, (size_t)column, axis.base[column] * table_ratio(emission, 0, column));
+        tally_note(&c, (size_t)column, base[column] * table_ratio(emission, 0, column));
     }
     tally_judge(t, &c, DRAWS, 1, name, "rays that leave lights");
     tally_free(&c);
-    emission_axis_free(&axis);
+    emission_axis_free(&axis, base);
 }
 
 static void test_lights_drawn(struct test *t)

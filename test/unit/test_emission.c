@@ -82,18 +82,19 @@ enum { SIDE = 8, WORTH = 50000 };
 /* Some bins and some lights are worth much more than others, some nothing. */
 static struct table random_table(const struct scene *s, struct rng *r, double delta)
 {
-    struct emission_axis axis = emission_axis_new(&s->lights);
+    double *base;
+    struct axis axis = emission_axis_new(&s->lights, &base);
     const struct axis one = {1, NULL, NULL};
     struct table_sums sums;
-    table_sums_init(&sums, 1, axis.axis.n);
+    table_sums_init(&sums, 1, axis.n);
     for (int i = 0; i < WORTH; i++) {
         int cell = (int)rng_below(r, (uint32_t)s->lights.n_cells), bin = (int)rng_below(r, SIDE * SIDE);
         const double u[2] = {(bin / SIDE + rng_uniform(r)) / SIDE, (bin % SIDE + rng_uniform(r)) / SIDE};
         double worth = bin % 7 * (1 + cell % 5);
-        table_sums_add(&sums, one, axis.axis, 0, emission_column(cell, u), worth * worth, 1);
+        table_sums_add(&sums, one, axis, 0, emission_column(cell, u), worth * worth, 1);
     }
-    struct table out = table_build(&sums, one, axis.axis, axis.base, delta, true, true);
-    emission_axis_free(&axis);
+    struct table out = table_build(&sums, one, axis, base, delta, true, true);
+    emission_axis_free(&axis, base);
     return out;
 }
 
@@ -112,9 +113,10 @@ static bool draw_ray(const struct scene *s, struct rng *r, const struct table *t
 static void check_emitted(struct test *t, const struct scene *s)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 31, 0);
-    struct emission_axis axis = emission_axis_new(&s->lights);
+    double *base;
+    struct axis axis = emission_axis_new(&s->lights, &base);
     struct table table = random_table(s, &r, 0.2);
-    size_t n = (size_t)axis.axis.n;
+    size_t n = (size_t)axis.n;
     double *count = mem_alloc(3 * n, sizeof *count), *wanted = count + n, *power = wanted + n, over = 0, least = 1;
     long draws = 400000L * test_effort(t), off = 0;
     for (long i = 0; i < draws; i++) {
@@ -129,7 +131,7 @@ static void check_emitted(struct test *t, const struct scene *s)
         off += fabs(emission_pdf(&table, &s->lights, &at, p, ray.d) / pdf - 1) > 1e-6;
     }
     for (size_t i = 0; i < n; i++) {
-        power[i] = (double)draws * axis.base[i];
+        power[i] = (double)draws * base[i];
         wanted[i] = power[i] * table_ratio(&table, 0, (int)i);
         least = fmin(least, table_ratio(&table, 0, (int)i));
     }
@@ -141,7 +143,7 @@ static void check_emitted(struct test *t, const struct scene *s)
     CHECK(t, fabs(over - 1) < 0.02, "the mean of power's density over the table's is %g", over);
     free(count);
     table_free(&table);
-    emission_axis_free(&axis);
+    emission_axis_free(&axis, base);
 }
 
 /* What a light sub-path carries is what is emitted over the density of its ray. */
@@ -233,20 +235,21 @@ static void test_root(struct test *t)
     struct table_sums sums;
     if (!scene_from_text(t, ONE, &s))
         return;
-    struct emission_axis axis = emission_axis_new(&s.lights);
-    table_sums_init(&sums, 1, axis.axis.n);
+    double *base;
+    struct axis axis = emission_axis_new(&s.lights, &base);
+    table_sums_init(&sums, 1, axis.n);
     for (int i = 0; i < RAYS; i++) { /* on one half 3, on the other every fourth time 8, whose root of the mean is 4 */
         const double u[2] = {(i % 64 + 0.5) / 64, (i / 64 % 8 + 0.5) / 8};
-        table_sums_add(&sums, one, axis.axis, 0, emission_column(0, u), u[0] < 0.5 ? 9 : i % 4 == 0 ? 64 : 0, 1);
+        table_sums_add(&sums, one, axis, 0, emission_column(0, u), u[0] < 0.5 ? 9 : i % 4 == 0 ? 64 : 0, 1);
     }
-    struct table e = table_build(&sums, one, axis.axis, axis.base, delta, true, true);
+    struct table e = table_build(&sums, one, axis, base, delta, true, true);
     for (int k = 0; k < 2; k++) {
         const double u[2] = {k, k};
         double ratio = table_ratio(&e, 0, emission_column(0, u)), expected = delta + (1 - delta) * (3 + k) / 3.5;
         CHECK(t, fabs(ratio / expected - 1) < 2e-3, "ratio %g, not %g", ratio, expected);
     }
     table_free(&e);
-    emission_axis_free(&axis);
+    emission_axis_free(&axis, base);
     scene_free(&s);
 }
 

@@ -350,15 +350,16 @@ static void test_place(struct test *t)
 
 static void test_tone(struct test *t)
 {
-    static const float IN[] = {0, 0.18f, 1, -1, NAN, INFINITY, 1e30f};
-    float out[7];
+    enum { N = 7, UNTOUCHED = 12345 };
+    static const float IN[N] = {0, 0.18f, 1, -1, NAN, INFINITY, 1e30f};
+    float out[2 * N];
     struct tone plain = {0, TONE_NONE}, brighter = {2, TONE_NONE}, filmic = {0, TONE_FILMIC}, both = {-1, TONE_FILMIC};
     CHECK(t, tone_is_plain(&plain) && !tone_is_plain(&brighter) && !tone_is_plain(&filmic), "what is plain");
     tone_map(&plain, IN, 4, out);
     CHECK(t, memcmp(IN, out, 4 * sizeof *IN) == 0, "plain light stays the same");
     tone_map(&brighter, IN, 4, out);
     CHECK(t, out[1] == 4 * IN[1] && out[2] == 4 && out[3] == -4, "two stops are a factor of 4");
-    tone_map(&filmic, IN, 7, out);
+    tone_map(&filmic, IN, N, out);
     CHECK(t, fabs((double)out[2] - 2.54 / 3.16) < 1e-6 && fabs((double)out[1] - 0.0867240 / 0.3249320) < 1e-6,
           "the curve at 1 and 0.18: %g, %g", out[2], out[1]);
     CHECK(t, out[0] == 0 && out[3] == 0 && out[4] == 0, "no light, negative light and NaN are black");
@@ -367,6 +368,13 @@ static void test_tone(struct test *t)
     tone_map(&both, &one, 1, out);
     tone_map(&filmic, &half, 1, out + 1);
     CHECK(t, out[0] == out[1], "the stops come before the curve");
+    for (size_t n = 0; n <= N; n++) {
+        for (int i = 0; i < 2 * N; i++)
+            out[i] = UNTOUCHED;
+        tone_map(&brighter, IN, n, out);
+        for (size_t i = 0; i < 2 * N; i++)
+            CHECK(t, (out[i] == UNTOUCHED) == (i >= n), "of %d numbers, number %d", (int)n, (int)i);
+    }
 }
 
 void test_hdr(struct test *t)

@@ -110,7 +110,7 @@ static double met(const struct scene *scene, const struct tables *learnt, const 
         int length = path_light(&w, path, job.max_depth + 1, NULL);
         for (int k = 1; k < length; k++)
             if (vertex_connectible(&path[k])) {
-                share[path[k].region]++;
+                share[path[k].place]++;
                 n++;
             }
     }

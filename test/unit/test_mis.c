@@ -121,7 +121,8 @@ static struct tables learn_nothing(const struct scene *scene)
     struct table_sums direct, pairs, rays;
     struct rng r = rng_stream(7, RNG_TEST, 0, 0);
     const struct light_set *lights = &scene->lights;
-    struct emission_axis emission = emission_axis_new(lights);
+    double *base;
+    struct axis emission = emission_axis_new(lights, &base);
     struct axis cells = {lights->n_cells, NULL, NULL}, one = {1, NULL, NULL};
     double *e = mem_alloc((size_t)lights->n_cells, sizeof *e), even[1000];
     int at[POINTS];
@@ -133,7 +134,7 @@ static struct tables learn_nothing(const struct scene *scene)
     struct axis places = regions_axis(&l.regions);
     table_sums_init(&direct, places.n, cells.n);
     table_sums_init(&pairs, places.n, places.n);
-    table_sums_init(&rays, 1, emission.axis.n);
+    table_sums_init(&rays, 1, emission.n);
     for (int i = 0; i < POINTS; i++) {
         int cell = (int)rng_below(&r, (uint32_t)cells.n);
         table_sums_add(&direct, places, cells, at[i], cell, 1 + cell % 3 + i % 5, 1);
@@ -142,7 +143,7 @@ static struct tables learn_nothing(const struct scene *scene)
     for (int i = 0; i < RAYS; i++) {
         const double u[2] = {rng_uniform(&r), rng_uniform(&r)};
         int column = emission_column((int)rng_below(&r, (uint32_t)cells.n), u);
-        table_sums_add(&rays, one, emission.axis, 0, column, exp(8 * (u[0] - u[1])) + i % 3, 1);
+        table_sums_add(&rays, one, emission, 0, column, exp(8 * (u[0] - u[1])) + i % 3, 1);
     }
     for (int i = 0; i < cells.n; i++)
         e[i] = alias_pmf(&lights->choice, i);
@@ -150,8 +151,8 @@ static struct tables learn_nothing(const struct scene *scene)
         even[i] = 1.0 / places.n;
     l.direct = table_build(&direct, places, cells, e, 0.1, false, true);
     l.pairs = table_build(&pairs, places, places, even, 0.1, false, false);
-    l.emission = table_build(&rays, one, emission.axis, emission.base, 0.1, true, true);
-    emission_axis_free(&emission);
+    l.emission = table_build(&rays, one, emission, base, 0.1, true, true);
+    emission_axis_free(&emission, base);
     free(e);
     return l;
 }
@@ -231,8 +232,8 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
     if (!light_point(c->scene, c->counts, &eye[t - 1], sampler, 0, 1, &y))
         return;
     if (lights->light[y.light].kind == LIGHT_INFINITE)
-        CHECK(c->t, fabs(light_pdf_sky(lights, y.wo, &cell) / y.pdf_fwd - 1) < 1e-9 && cell == y.cell,
-              "%s: a direction of cell %d, drawn with %g, is of cell %d", c->name, y.cell, y.pdf_fwd, cell);
+        CHECK(c->t, fabs(light_pdf_sky(lights, y.wo, &cell) / y.pdf_fwd - 1) < 1e-9 && cell == y.place,
+              "%s: a direction of cell %d, drawn with %g, is of cell %d", c->name, y.place, y.pdf_fwd, cell);
     compare(c, connect_vertices(c->scene, c->counts, &y, &eye[t - 1]), &y, 1, eye, t);
 }
 

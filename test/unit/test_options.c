@@ -15,7 +15,7 @@ struct target {
     uint64_t seed;
     double number, window[4], lengths[2];
     double time;
-    const char *text, *image;
+    const char *text, *image, *word;
     struct texts texts, list, rest;
     struct settings pairs;
 };
@@ -25,6 +25,8 @@ static const struct option SHARED[] = {
     {"--seed", "N", OPTION_SEED, offsetof(struct target, seed), .fallback = "7", .help = "a seed"},
     {.name = NULL},
 };
+
+static const char *const WORDS[] = {"one", "two", "three", NULL};
 
 static const struct option TABLE[] = {
     {"IMAGE", NULL, OPTION_TEXT, offsetof(struct target, image), .help = "a picture"},
@@ -38,6 +40,7 @@ static const struct option TABLE[] = {
     {"--lengths", "L0:L1", OPTION_LENGTHS, offsetof(struct target, lengths), 0, 1e9, .help = "lengths"},
     {"--size", "WIDTH[xHEIGHT]", OPTION_WIDTH, offsetof(struct target, size), 1, 65536, .help = "a size"},
     {"--width", "WIDTH[xHEIGHT]", OPTION_WIDTH, offsetof(struct target, width), 1, 65536, .help = "a width"},
+    {"--word", "NAME", OPTION_WORD, offsetof(struct target, word), .help = "a word", .words = WORDS},
     {"--text", "TEXT", OPTION_TEXT, offsetof(struct target, text), .alias = "-t", .help = "a text"},
     {"--texts", "TEXT", OPTION_TEXTS, offsetof(struct target, texts), .help = "texts"},
     {"-P", "NAME=VALUE", OPTION_PAIRS, offsetof(struct target, pairs), .help = "pairs"},
@@ -78,16 +81,16 @@ static void check_accepted(struct test *t)
     options_free(TABLE, &o);
     memset(&o, 0, sizeof o);
     ok = read_line(TABLE, "--on --window=0,0.5,0.25,1 --width 3x4 --texts 1 --texts=2=3 -Pa=b -P c= --list x - y -t=- "
-                   "-i 2 --number=2 --time .5m", words, &o, &err);
+                   "-i 2 --number=2 --time .5m --word=two", words, &o, &err);
     if (!CHECK(t, ok, "%s", err.text))
         return;
     CHECK(t, o.on && o.window[1] == 0.5 && o.window[3] == 1 && o.width[1] == 4, "window with commas, height");
     CHECK(t, o.texts.n == 2 && strcmp(o.texts.item[1], "2=3") == 0, "only the first = belongs to the option");
     CHECK(t, o.pairs.n == 2 && strcmp(o.pairs.item[0].name, "a") == 0 && strcmp(o.pairs.item[0].value, "b") == 0 &&
-          strcmp(settings_text(&o.pairs, "c", "?"), "") == 0, "pairs");
+          strcmp(settings_find(&o.pairs, "c")->value, "") == 0, "pairs");
     CHECK(t, o.list.n == 3 && strcmp(o.list.item[1], "-") == 0, "a list ends at the next option; - is none");
     CHECK(t, strcmp(o.text, "-") == 0 && o.integer == 2 && o.number == 2, "a value behind =; other bounds");
-    CHECK(t, o.time == 30, "half a minute is %g s", o.time);
+    CHECK(t, strcmp(o.word, "two") == 0 && o.time == 30, "half a minute is %g s", o.time);
     options_free(TABLE, &o);
 }
 
@@ -131,6 +134,7 @@ static void check_refused(struct test *t)
         {"--seed 18446744073709551616", "expected a whole number from 0 to 18446744073709551615"},
         {"--seed -1", "expected a whole number"},
         {"-P a", "expected name=value"},
+        {"--word thre", "--word thre: expected \"one\", \"two\" or \"three\"; did you mean \"three\"?"},
         {"--text", "--text needs a value"},
         {"--list", "--list needs a value"},
         {"--on=1", "--on takes no value"},
@@ -187,6 +191,7 @@ static size_t target_size(const struct option *o, char *value, size_t size)
     case OPTION_LENGTHS: strcpy(value, "3:7"); return 2 * sizeof(double);
     case OPTION_WINDOW: strcpy(value, "0.5 1 0 1"); return 4 * sizeof(double);
     case OPTION_SEED: strcpy(value, "5"); return sizeof(uint64_t);
+    case OPTION_WORD: strcpy(value, o->words[0]); return sizeof(const char *);
     case OPTION_TEXT: strcpy(value, "x"); return sizeof(const char *);
     case OPTION_TEXTS:
     case OPTION_LIST:

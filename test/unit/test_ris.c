@@ -22,7 +22,6 @@ static struct vertex as_eye_vertex(const struct vertex *x, const struct vertex *
     v.prev_delta = false;
     v.back = vertex_cosine(z, v.wo) / length2(d);
     v.pdf_fwd = pdf * abs_dot(x->ng, v.wo) / length2(d);
-    v.pdf_origin = x->kind == VERTEX_LIGHT ? x->pdf_fwd : 0;
     v.beta = rgb_grey(1);
     return v;
 }
@@ -43,7 +42,7 @@ static double sum_weights(struct index *r, const struct vertex *light, int s, st
             c = ris_joint(r, &j);
             eye[t] = as_eye_vertex(&light[s - 1], z, j.pdf_z);
         } else if (s == 1) {
-            struct light_point at = vertex_light_point(light);
+            struct light_point at = vertex_light_point(r->scene, light);
             struct lit l;
             at.pdf = at.pdf_cell = light->pdf_fwd;
             if (!connect_light(r->scene, z, &at, at.pdf, &l))
@@ -90,10 +89,10 @@ static void check_draws(struct test *t, struct index *r, const char *method, str
     sample.choice = sampler_start(test_seed(t), RNG_TEST, (uint64_t)sample.x, (uint64_t)sample.y);
     sample.filter_weight = 1;
     for (int v = 0; v < r->V; v++) {
-        const struct vertex *y = candidate_vertex(&r->found[v]);
+        const struct vertex *y = r->found[v];
         struct joint j;
         r->one = r->all = ris_worth(r, y, z);
-        if (r->found[v].drawn.end + 2 > sample.pass->job->max_depth + 2 || !connect_join(y, z, &j))
+        if (drawn_vertex(y, 1).end + 2 > sample.pass->job->max_depth + 2 || !connect_join(y, z, &j))
             continue;
         struct connection k = ris_joint(r, &j);
         expected += rgb_is_black(k.value) ? 0 : rgb_luminance(k.value) * k.weight * (r->u != NULL ? r->u[v] : 1) / r->K;

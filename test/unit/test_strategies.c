@@ -19,7 +19,7 @@
 #include "agree.h"
 #include "helpers.h"
 #include "oracle.h"
-#include "transport/observer.h"
+#include "transport/sample.h"
 #include "suites.h"
 
 enum { DEPTH = 3 };

@@ -80,6 +80,31 @@ static void check_parts(struct test *t, const char *name, const struct trace *tr
     }
 }
 
+static double product(rgb a, rgb b, rgb c, rgb d) { return rgb_luminance(rgb_mul(rgb_mul(a, b), rgb_mul(c, d))); }
+
+/* What values and weights of a sample's connections are made of makes them; how many there are. */
+static int check_weights(struct test *t, const char *name, const struct trace *trace)
+{
+    int n = 0;
+    for (int i = 0; i < trace->n_connections; i++) {
+        const struct trace_connection *k = &trace->connection[i];
+        const struct trace_weight *of = &k->of;
+        CHECK(t, (of->n > 0) == (k->s > 0 && k->t > 1 && !rgb_is_black(k->c.value)), "%s: (%d,%d)", name, k->s, k->t);
+        if (!(of->n > 0))
+            continue;
+        double weight = mis_weight(of->n, of->light_side, of->eye_side);
+        CHECK(t, fabs(weight - k->c.weight) <= 1e-12, "%s: weight %g told, %g", name, weight, k->c.weight);
+        if (k->s < 2)
+            continue;
+        double G = of->cos_y * of->cos_z / (of->distance * of->distance), value = rgb_luminance(k->c.value);
+        double made = G * product(trace->light[k->light].vertex[k->s - 1].beta, of->f_y, of->f_z,
+                                  trace->eye.vertex[k->t - 1].beta);
+        CHECK(t, fabs(made - value) <= 1e-12 * value, "%s: C* of %g told, %g", name, made, value);
+        n++;
+    }
+    return n;
+}
+
 /* The eye end of the longest pair: t. */
 static int longest_pair(const struct trace *trace)
 {
@@ -107,7 +132,8 @@ static void check_film(struct test *t, const struct scene *scene, int way)
     struct render_job options = options_of(scene, way);
     struct film rendered, told;
     struct error err;
-    int added = 0, longest = 0;
+    int added = 0, longest = 0, weighed = 0;
+    const bool own = strcmp(WAYS[way].integrator, "asbdpt") == 0 || strcmp(name, "bdpt") == 0;
     bool too_early = false;
     double most[SIZE * SIZE] = {0};
     long brightest[SIZE * SIZE] = {0};
@@ -122,6 +148,7 @@ static void check_film(struct test *t, const struct scene *scene, int way)
         trace_sample(&job, &prepared, &trace);
         check_parts(t, name, &trace);
         check_light_points(t, name, &trace);
+        weighed += own ? check_weights(t, name, &trace) : 1;
         added += trace.n_connections;
         longest = longest_pair(&trace) > longest ? longest_pair(&trace) : longest;
         if (2 * i == ALL)
@@ -135,6 +162,7 @@ static void check_film(struct test *t, const struct scene *scene, int way)
         trace_free(&trace);
     }
     method_release(&prepared);
+    CHECK(t, weighed > ALL / 2, "%s: only %d weights", name, weighed);
     CHECK(t, added > ALL, "%s: only %d connections told", name, added);
     CHECK(t, WAYS[way].longest < 0 || longest == WAYS[way].longest, "%s: no pair is longer than t = %d", name, longest);
     CHECK(t, films_equal(&rendered, &told) && !too_early, "%s: the film is not what was told, or half of it", name);

@@ -210,7 +210,7 @@ static struct one_more_path made(const struct counts *counts, const struct quest
 {
     struct vertex *passed = arena_alloc(q->arena, (size_t)q->k * sizeof *passed);
     for (int i = 0; i < q->k; i++)
-        passed[i] = (struct vertex){.kind = VERTEX_SURFACE, .light = -1, .cell = -1, .p = c->at[i]};
+        passed[i] = (struct vertex){.kind = VERTEX_SURFACE, .light = -1, .p = c->at[i]};
     return (struct one_more_path){contribution(counts, q, c, pdf), *q->y, passed, q->k};
 }
 
@@ -271,9 +271,8 @@ static void weigh_hit(const struct caustics *all, const struct sample *sample, c
         z--;
     int k = (int)(end - z) - 1;
     end = end->lamp != NULL ? end->lamp : end;
-    struct light_point y = vertex_light_point(end);
+    struct light_point y = vertex_light_point(sample->pass->job->scene, end);
     y.w = neg(end->wo);
-    y.pdf = end->pdf_origin;
     struct arrival at = {z->wo, z == first ? z->pdf_fwd : 0};
     if (z->kind == VERTEX_SURFACE && z->eye_end == FIRST_HIT && in_psi(all, sample, z, 1, k, &y, at, &m))
         *weight = share(m.hit, m);
@@ -284,12 +283,11 @@ static void weigh_lens(const struct caustics *all, const struct sample *sample, 
 {
     const struct camera *camera = &sample->pass->job->scene->camera;
     const struct vertex *light = j->light, *z = &light[j->s - 1];
-    struct light_point y = vertex_light_point(&light[0]);
+    struct light_point y = vertex_light_point(sample->pass->job->scene, &light[0]);
     struct makers m;
     double px, py;
     vec3 d = sub(z->p, lens), w = normalize(d);
     double pdf = camera_project(camera, lens, w, &px, &py) * camera_spread(camera, length2(d));
-    y.pdf = light[0].pdf_fwd;
     for (int i = 2; i < j->s; i++)
         if (!light[i].prev_delta)
             return;

@@ -10,7 +10,7 @@
 #ifndef CAUSTICS_DERIVED_H
 #define CAUSTICS_DERIVED_H
 
-#include "transport/observer.h"
+#include "transport/sample.h"
 
 /* light_distance: how far light from infinity has come at p, in scene units; w is the unit direction towards it. It
  * comes from the plane across w that touches the scene's sphere, where light sub-paths of such a light begin, too. 0 if

@@ -44,28 +44,7 @@ struct connection connect_lit(const struct scene *scene, const struct counts *co
 bool connect_join(const struct vertex *y, const struct vertex *z, struct joint *out);
 struct connection connect_joint(const struct scene *scene, const struct counts *counts, const struct joint *j);
 
-/* connect_direct: draw a light point for z, number i of n, and connect it; y->light is -1 if there is none.
- * connect_lens: draw a lens point for y and connect it.
- *   raster  out: [2] where it arrives
- * light_vertex: the y_0 of a point, without beta. */
-static inline struct connection connect_direct(const struct scene *scene, const struct counts *counts,
-                                               const struct vertex *z, struct sampler *sampler, int i, int n,
-                                               struct vertex *y)
-{
-    y->light = -1;
-    return light_point(scene, counts, z, sampler, i, n, y) ? connect_vertices(scene, counts, y, z)
-                                                           : (struct connection){.light = -1};
-}
-
-static inline struct connection connect_lens(const struct scene *scene, const struct counts *counts,
-                                             const struct vertex *y, struct sampler *sampler, double raster[2])
-{
-    struct vertex z;
-    raster[0] = raster[1] = 0;
-    return lens_point(scene, y, sampler, &z, raster) ? connect_vertices(scene, counts, y, &z)
-                                                     : (struct connection){.light = -1};
-}
-
+/* light_vertex: the y_0 of a point, without beta. */
 static inline struct vertex light_vertex(const struct scene *scene, const struct counts *counts,
                                          const struct light_point *at)
 {

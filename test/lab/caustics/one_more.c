@@ -110,7 +110,7 @@ static void join(const struct prepared *p, const struct index *index, struct sam
     int C = p->numbers.draws[z->eye_end];
     for (int i = 0; i < C && t <= sample->pass->job->max_depth && vertex_connectible(z); i++) {
         struct drawn drawn;
-        if (p->method->selector->draw(p, index, sample, z, i, C, &drawn))
+        if (p->method->draw(p, index, sample, z, i, C, &drawn))
             sample_pairs(sample, &drawn, z, t, 1 / (C * sample->pass->work->pool.n * drawn.pmf));
     }
 }
@@ -121,7 +121,7 @@ static void render_pixel(const struct prepared *p, const struct one_more *more, 
     struct vertex *eye = pass->work->eye;
     struct pool *pool = &pass->work->pool;
     struct tile_pixels pixels = pass->tile->pixels;
-    bool shared = p->method->selector != NULL;
+    bool shared = p->method->build != NULL;
     int each = p->numbers.path_pixels, k = 0;
     arena_reset(&pass->work->arena);
     if (!shared) {
@@ -147,12 +147,12 @@ static void render_pixel(const struct prepared *p, const struct one_more *more, 
 
 void one_more_render(const struct prepared *p, const struct one_more *more, const struct tile_pass *pass)
 {
-    bool shared = p->method->selector != NULL && p->numbers.path_pixels > 0;
+    bool shared = p->method->build != NULL && p->numbers.path_pixels > 0;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         const struct index *index = NULL;
         if (shared) {
             fill_pool(p, pass, pass->tile->pixels, iteration);
-            index = p->method->selector->build(p, pass, iteration);
+            index = p->method->build(p, pass, iteration);
         }
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
             render_pixel(p, more, pass, index, i, x, y, iteration);

@@ -7,7 +7,7 @@ static bool depart_towards(const struct walk *w, struct vertex *v, vec3 wi, stru
     const struct light_set *lights = &w->scene->lights;
     struct departure from = {.ray = {v->p, wi, ray_margin(v->p), INFINITY, v->prim_id, 0}};
     if (v->kind == VERTEX_LIGHT) {
-        struct light_point at = vertex_light_point(v);
+        struct light_point at = vertex_light_point(w->scene, v);
         bool area = lights->light[v->light].kind == LIGHT_AREA;
         v->beta = light_Le(lights, &at, wi);
         from.pdf = light_pdf_emission(lights, &at, wi);

@@ -61,19 +61,11 @@ static void begin_path(struct mlt_path *path, int k)
 static void light_end(const struct chain *c, const struct vertex *z, const double *u, struct vertex *out)
 {
     const struct scene *scene = c->job->scene;
-    const struct light_set *lights = &scene->lights;
     struct light_point at = {.light = 0};
-    if (z == NULL) {
-        lamp_point(lights, &scene->geo, u, &at);
-    } else if (z->lamp == NULL && z->kind == VERTEX_ESCAPED) {
-        at.light = lights->sky;
-        at.w = neg(z->wo);
-        at.pdf = light_pdf_sky(lights, at.w, &at.cell);
-    } else {
-        z = z->lamp != NULL ? z->lamp : z;
-        at = vertex_light_point(z);
-        at.pdf = z->pdf_origin;
-    }
+    if (z == NULL)
+        lamp_point(&scene->lights, &scene->geo, u, &at);
+    else
+        at = vertex_light_point(scene, z->lamp != NULL ? z->lamp : z);
     *out = light_vertex(scene, &c->all->counts, &at);
 }
 
@@ -163,8 +155,7 @@ static bool remake_lens(struct primary *p, const struct mlt_path *path, const st
     }
     if (z->kind != VERTEX_SURFACE || follow_light(&w, path->x, s, light) < s)
         return false;
-    struct light_point at = vertex_light_point(&path->x[0].v);
-    at.pdf = path->x[0].v.pdf_fwd;
+    struct light_point at = vertex_light_point(scene, &path->x[0].v);
     *out = s == 1 ? lamp_connect(scene, counts, z, &at, at.pdf) : connect_vertices(scene, counts, &light[s - 1], z);
     return true;
 }

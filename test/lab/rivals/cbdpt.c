@@ -54,9 +54,7 @@ static const struct field PARAMETERS[] = {
     PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
-static const struct selector SELECTOR = {build, draw};
-
 const struct method method_cbdpt = {
     .name = "cbdpt", .help = "combinatorial BDPT [Pajot 2011]: all pairs with M of a tile's light sub-paths",
     .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .selector = &SELECTOR, .render = loop_render};
+    .build = build, .draw = draw, .render = selection_render};

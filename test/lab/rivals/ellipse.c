@@ -156,7 +156,7 @@ static const struct vertex *arrive(const struct sample *sample, const struct ver
         return NULL;
     rgb f = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE).f;
     struct vertex *v = arena_alloc(arena, sizeof *v);
-    *v = (struct vertex){.kind = VERTEX_SURFACE, .light = -1, .cell = -1, .p = at.p, .ng = at.ng,
+    *v = (struct vertex){.kind = VERTEX_SURFACE, .light = -1, .p = at.p, .ng = at.ng,
                          .prim_id = at.prim_id, .wo = neg(w), .pdf_fwd = 1,
                          .beta = rgb_scale(rgb_mul(z->beta, f),
                                            scatter_cosine(z, w, RADIANCE) * abs_dot(at.ng, w) / (d2 * pdf))};

@@ -32,8 +32,7 @@ static bool draw(const struct prepared *p, const struct index *index, struct sam
         return false;
     /* below V, since what is drawn is a multiple of 2^-32; stratified over the pool */
     int v = (int)((i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n * V);
-    *out = pool->candidate[v < V ? v : V - 1].drawn;
-    out->pmf = 1.0 / V;
+    *out = drawn_vertex(pool->candidate[v < V ? v : V - 1], 1.0 / V);
     return true;
 }
 
@@ -56,9 +55,7 @@ static const struct field PARAMETERS[] = {
     PARAMETER_GUIDE(false), PARAMETER_EMISSION(1), PARAMETER_TILES(DEFAULT_TILE_SIZE, 1),
     {.name = NULL}};
 
-static const struct selector SELECTOR = {build, draw};
-
 const struct method method_lvc = {
     .name = "lvc", .help = "light vertex cache [Davidovic 2014]: light vertices drawn uniformly from a tile's",
     .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true,
-    .prepare = prepare, .selector = &SELECTOR, .render = loop_render};
+    .prepare = prepare, .build = build, .draw = draw, .render = selection_render};

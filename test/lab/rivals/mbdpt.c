@@ -174,10 +174,8 @@ static const struct field OWN[] = {
     {"matrix", FIELD_WORD, offsetof(struct mbdpt, by_pixel), 0, 0, 0, "whose sub-paths are in one matrix", MATRICES},
     {.name = NULL}};
 
-static const struct selector SELECTOR = {build, NULL};
-
 const struct method method_mbdpt = {
     .name = "mbdpt", .help = "matrix BDPT [Chaitanya 2018]: pairs of sorted sub-paths, stratified",
     .parameters = PARAMETERS, .own = OWN, .own_size = sizeof(struct mbdpt), .numbers = NUMBERS_OF_BDPT,
     .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare,
-    .selector = &SELECTOR, .render = render};
+    .build = build, .render = render};

@@ -40,4 +40,5 @@ const struct method method_pcbdpt = {
     .name = "pcbdpt", .check = surfaces_alone,
     .help = "probabilistic connections [Popov 2015]: light vertices drawn by records nearby",
     .parameters = PARAMETERS, .own = OWN, .own_size = sizeof(struct ris), .numbers = NUMBERS_OF_BDPT,
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .selector = &RIS_SELECTOR, .render = ris_render};
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .build = ris_build, .draw = ris_draw,
+    .render = ris_render};

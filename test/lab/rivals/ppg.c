@@ -215,7 +215,7 @@ static double ratio(rgb a, rgb b)
 
 /* Lessons of two kinds: a record, whose x and w are contribution and odds; or light x from a direction. Of that w has u
  * and 1, so that it is not 0, and the column has v. */
-enum { RECORD = -1, V_STEPS = 1 << 30 };
+enum { RECORD, LIGHT, V_STEPS = 1 << 30 };
 
 /* The step from vertex z, and what the sample found behind it. */
 static void record(struct lessons *out, const struct sdtree *tree, const struct vertex *z, const struct step *step,
@@ -230,13 +230,13 @@ static void record(struct lessons *out, const struct sdtree *tree, const struct 
     uint64_t leaf = (uint64_t)sdtree_find(tree, p, NULL);
     double light = ratio(found, step->from.beta) / step->from.pdf;
     warp_sphere_inverse(step->from.ray.d, &u, &v);
-    lessons_add(out, (struct lesson){leaf, RECORD, ratio(found, z->beta), step->odds});
+    lessons_add(out, (struct lesson){RECORD, leaf, 0, ratio(found, z->beta), step->odds});
     if (!step->from.delta && light > 0)
-        lessons_add(out, (struct lesson){leaf, (int)(v * V_STEPS), light, 1 + u});
+        lessons_add(out, (struct lesson){LIGHT, leaf, (int)(v * V_STEPS), light, 1 + u});
 }
 
 /* Sample i of a pass of n samples a pixel, which have the numbers -n, -n - 1 ... for all pixels in turn. */
-static void trace(struct learning *l, const struct counts *counts, struct workspace *work, long i, struct lessons *out)
+static void trace(struct learning *l, struct workspace *work, long i, struct lessons *out)
 {
     const struct trainer *trainer = (const void *)l;
     const struct sdtree *tree = &((const struct ppg *)trainer->prepared->own)->tree;
@@ -246,7 +246,6 @@ static void trace(struct learning *l, const struct counts *counts, struct worksp
     long width = rect_width(rect), pixels = width * rect_height(rect), at = i % pixels;
     struct sample sample;
     struct step *step;
-    (void)counts;
     int n = trace_pixel(trainer->prepared, &pass, rect.x0 + (int)(at % width), rect.y0 + (int)(at / width),
                         -(trainer->end + i) / pixels, 1, &sample, &step);
     trainer->found[i] = rgb_is_finite(sample.value) ? sample.value : rgb_black();
@@ -262,7 +261,7 @@ static void take(struct learning *l, const struct lesson *lesson)
 {
     struct ppg *own = ((struct trainer *)(void *)l)->prepared->own;
     struct sd_leaf *leaf = &own->tree.node[lesson->row].leaf;
-    if (lesson->column == RECORD)
+    if (lesson->kind == RECORD)
         sd_add_record(leaf, lesson->x, lesson->w);
     else
         sd_add_light(leaf, lesson->w - 1, (double)lesson->column / V_STEPS, lesson->x);
@@ -341,8 +340,7 @@ static void combine(struct ppg *own, const struct finding *f, int n, const struc
 static void prepare(const struct render_job *job, struct prepared *p)
 {
     struct ppg *own = p->own;
-    const struct pass pass = {trace, take, NO_TABLES};
-    struct trainer t = {.learning = {.job = job, .work = workspaces_new(job->n_threads, job->max_depth)},
+    struct trainer t = {.learning = {.job = job, .work = workspaces_new(job->n_threads, job->max_depth), .take = take},
                         .prepared = p};
     struct finding finding[MOST_PASSES];
     long pixels = (long)rect_pixels(job->film_rect);
@@ -356,7 +354,7 @@ static void prepare(const struct render_job *job, struct prepared *p)
         t.end = n * pixels;
         t.found = mem_alloc((size_t)t.end, sizeof *t.found);
         t.learning.budget = 2 * (double)t.end;
-        lessons_learn(&t.learning, &pass, 0, t.end);
+        lessons_learn(&t.learning, trace, &NO_TABLES, 0, t.end);
         going = job_cancelled(job) == CANCEL_NOT;
         if (going) {
             sdtree_build(&own->tree, own->cell * sqrt((double)n));

@@ -52,7 +52,7 @@ bool record_sees(const struct record *c, const struct scene *scene, const struct
     return scene_visible(scene, c->z.p, c->z.prim_id, v->p, v->prim_id);
 }
 
-void records_fill(struct records *r, struct arena *arena, const struct scene *scene, const struct candidate *found,
+void records_fill(struct records *r, struct arena *arena, const struct scene *scene, const struct vertex *const *found,
                   int n, const double *u)
 {
     for (int i = 0; i < r->n; i++) {
@@ -60,8 +60,8 @@ void records_fill(struct records *r, struct arena *arena, const struct scene *sc
         double *h = arena_alloc(arena, (size_t)n * sizeof *h), *before = arena_alloc(arena, (size_t)n * sizeof *before);
         c->sum = 0;
         for (int v = 0; v < n; v++) {
-            const struct vertex *y = candidate_vertex(&found[v]);
-            h[v] = found[v].L * (u != NULL ? u[v] : 1) * record_worth(c, scene, y, y->wo);
+            const struct vertex *y = found[v];
+            h[v] = rgb_luminance(y->beta) * (u != NULL ? u[v] : 1) * record_worth(c, scene, y, y->wo);
             if (!(h[v] > 0 && h[v] < INFINITY && record_sees(c, scene, y)))
                 h[v] = 0;
             before[v] = c->sum;

@@ -36,7 +36,7 @@ struct records records_place(const struct prepared *p, const struct tile_pass *p
                              long iteration, double share);
 
 /* records_fill: h of all records for these n light vertices; u: [n] factors of L_v, or NULL. */
-void records_fill(struct records *r, struct arena *arena, const struct scene *scene, const struct candidate *found,
+void records_fill(struct records *r, struct arena *arena, const struct scene *scene, const struct vertex *const *found,
                   int n, const double *u);
 
 /* record_worth: h of one light vertex, which light reaches from wo, as if it and the record saw each other, over L_v;

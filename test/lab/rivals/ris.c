@@ -103,9 +103,8 @@ static double kept(const struct vertex *v, vec3 wo, vec3 wi)
 /* Luminance on arrival at x_1 of what x_0 sends in direction w. */
 static double emitted(const struct scene *scene, const struct vertex *x0, vec3 w)
 {
-    struct light_point at = vertex_light_point(x0);
-    double pdf = (x0->kind == VERTEX_LIGHT ? x0->pdf_fwd : x0->pdf_origin) *
-                 light_pdf_emission(&scene->lights, &at, w);
+    struct light_point at = vertex_light_point(scene, x0);
+    double pdf = at.pdf * light_pdf_emission(&scene->lights, &at, w);
     return pdf > 0 ? rgb_luminance(light_Le(&scene->lights, &at, w)) * vertex_cosine(x0, w) / pdf : 0;
 }
 
@@ -132,7 +131,7 @@ static void count(struct sums *a, double ratio, double plain, double N)
 static void count_direct(const struct index *r, struct sums *a, double ratio, const struct vertex *z, enum eye_end end,
                          int cell)
 {
-    double n = n_direct(r->counts, z->region, end, cell);
+    double n = n_direct(r->counts, z->place, end, cell);
     count(a, ratio, n, n);
 }
 
@@ -148,7 +147,7 @@ static void sum_light_side(const struct index *r, const struct path_end *end, st
         }
         bool direct = v[-1].kind == VERTEX_LIGHT;
         if (!passed && !v->prev_delta)
-            direct ? count_direct(r, a, ratio, v, LATER_HIT, v[-1].cell)
+            direct ? count_direct(r, a, ratio, v, LATER_HIT, v[-1].place)
                    : count(a, ratio, r->counts->pair[LATER_HIT], r->light_n[v - r->pool->vertex]);
         passed = v->prev_delta;
         pdf_other = pdf_rev * v->back;
@@ -170,7 +169,7 @@ static void sum_eye_side(struct index *r, int s, const struct path_end *end, dou
             return;
         }
         if (!passed && !v->prev_delta && light)
-            count_direct(r, a, ratio, before, before->eye_end, v->cell);
+            count_direct(r, a, ratio, before, before->eye_end, vertex_light_point(r->scene, v).cell);
         else if (!passed && !v->prev_delta) {
             const struct vertex *lens = before;
             while (lens->kind != VERTEX_LENS)
@@ -214,10 +213,10 @@ struct connection ris_hit(struct index *r, const struct vertex *prev, const stru
     if (t == 2 || rgb_is_black(c.value))
         return c;
     const struct vertex *end = z->lamp != NULL ? z->lamp : z;
-    struct light_point at = vertex_light_point(end);
+    struct light_point at = vertex_light_point(r->scene, end);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &at,
                                    end->kind == VERTEX_ESCAPED ? prev->p : end->p, end->wo);
-    const struct path_end z_end = {end, prev, end->pdf_origin, pdf_emit};
+    const struct path_end z_end = {end, prev, at.pdf, pdf_emit};
     c.weight = weigh(r, 0, r->counts->hit[prev->eye_end], NULL, &z_end);
     return c;
 }
@@ -233,7 +232,7 @@ struct connection ris_lit(struct index *r, const struct lit *l)
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &l->at, z->p, neg(l->w));
     double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
     const struct path_end y_end = {&y, NULL, l->pdf_z * l->at_light, 0}, z_end = {z, z - 1, pdf_z, l->pdf_rev_z};
-    c.weight = weigh(r, 1, n_direct(r->counts, z->region, z->eye_end, l->at.cell), &y_end, &z_end);
+    c.weight = weigh(r, 1, n_direct(r->counts, z->place, z->eye_end, l->at.cell), &y_end, &z_end);
     return c;
 }
 
@@ -263,11 +262,11 @@ static void gather(struct index *r, const struct prepared *p, const struct tile_
     pool_find_candidates(pool);
     r->found = pool->candidate;
     r->V = pool->n_candidates;
-    while (r->K < pool->n && r->V > 0 && candidate_vertex(&r->found[r->V - 1]) >= pool_path(pool, r->K))
+    while (r->K < pool->n && r->V > 0 && r->found[r->V - 1] >= pool_path(pool, r->K))
         r->V--;
     r->g = 0;
     for (int v = 0; v < r->V; v++)
-        r->g += r->found[v].L / r->K;
+        r->g += rgb_luminance(r->found[v]->beta) / r->K;
     if (r->own->presampled > 0)
         ris2_presample(r, pass, arena, iteration);
     r->records = records_place(p, pass, arena, iteration, r->own->records);
@@ -293,8 +292,8 @@ bool ris_draw(const struct prepared *p, const struct index *r, struct sample *sa
         return false;
     struct mixture m = records_mixture(&r->records, r->scene, z, r->own->normals, false, r->V);
     int v = mixture_draw(&m, (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n, &which);
-    *out = r->found[v].drawn;
-    out->pmf = mixture_pmf(&m, v) * r->K / r->pool->n / (r->u != NULL ? r->u[v] : 1); /* of all that the pool has */
+    double u = r->u != NULL ? r->u[v] : 1;
+    *out = drawn_vertex(r->found[v], mixture_pmf(&m, v) * r->K / r->pool->n / u); /* of all that the pool has */
     return true;
 }
 
@@ -365,22 +364,23 @@ void ris_join(struct index *r, struct sample *sample, const struct vertex *z, in
         return;
     struct mixture m = records_mixture(&r->records, r->scene, z, 0, true, r->V);
     int v = mixture_draw(&m, sampler_number(&sample->choice, DRAW_LIGHT_END), &which);
-    const struct candidate *c = &r->found[v];
-    int s = c->drawn.end;
+    const struct vertex *y = r->found[v];
+    const struct drawn drawn = drawn_vertex(y, 1);
+    int s = drawn.end;
     double u = r->u != NULL ? r->u[v] : 1, each = 1.0 / (m.m + 1);
-    double L = r->light_L[candidate_vertex(c) - r->pool->vertex];
+    double L = r->light_L[y - r->pool->vertex];
     double N[RECORDS_NEAR + 1], P = each * (which < m.m ? m.record[which]->h[v] / m.record[which]->sum : 1.0 / r->V);
     r->all = N[m.m] = worth_alone(r, each, L);
     for (int i = 0; i < m.m; i++)
-        r->all += N[i] = worth(r, each, L, m.record[i]->h[v] * L / (c->L * u), m.record[i]->expected);
+        r->all += N[i] = worth(r, each, L, m.record[i]->h[v] * L / (rgb_luminance(y->beta) * u), m.record[i]->expected);
     r->one = N[which];
     struct joint j;
     struct connection made = {.weight = 0};
     if (!(P > 0) || s + t > sample->pass->job->max_depth + 2)
         return;
-    if (connect_join(candidate_vertex(c), z, &j))
+    if (connect_join(y, z, &j))
         made = ris_joint(r, &j);
-    sample_add(sample, (struct joined){.s = s, .t = t, .light = c->drawn.light, .z = z, .c = &made, .pmf = P,
+    sample_add(sample, (struct joined){.s = s, .t = t, .light = drawn.light, .z = z, .c = &made, .pmf = P,
                                        .scale = u / (P * r->K)});
 }
 
@@ -444,7 +444,7 @@ void ris_render(const struct prepared *p, const struct tile_pass *pass)
     if (((const struct ris *)p->own)->nabata)
         render_weighed(p, pass);
     else
-        loop_render(p, pass);
+        selection_render(p, pass);
 }
 
 /* --- the row ----------------------------------------------------------------------------------------- */
@@ -456,11 +456,9 @@ static const struct field OWN[] = {
     RIS_WEIGHTS_FIELD, RIS_SUBPATHS_FIELD(50), RIS_RECORDS_FIELD,
     {.name = NULL}};
 
-const struct selector RIS_SELECTOR = {ris_build, ris_draw};
-
 const struct method method_ris = {
     .name = "ris", .check = surfaces_alone,
     .help = "resampling [Nabata 2020a]: light vertices drawn by a record nearby, with weights to suit",
     .parameters = RIS_PARAMETERS, .own = OWN, .own_size = sizeof(struct ris), .numbers = NUMBERS_OF_BDPT,
     .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true, .prepare = ris_prepare,
-    .selector = &RIS_SELECTOR, .render = ris_render};
+    .build = ris_build, .draw = ris_draw, .render = ris_render};

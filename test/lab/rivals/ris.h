@@ -20,7 +20,7 @@ struct index {
     const struct ris *own;
     const struct pool *pool;
     int K, V;                      /* sub-paths that are drawn from: M, or all of a small pool; their vertices */
-    const struct candidate *found; /* [V] what is drawn from */
+    const struct vertex *const *found; /* [V] what is drawn from */
     double *u;                     /* [V] the first stage's factors; NULL with one stage */
     double g;                      /* sum of L over these, over K */
     struct records records;
@@ -39,7 +39,6 @@ struct index {
  * ris_render: the `render`, by the weights of ris.c or by counts; then by ris_build and ris_draw. */
 void ris_prepare(const struct render_job *job, struct prepared *p);
 void ris_render(const struct prepared *p, const struct tile_pass *pass);
-extern const struct selector RIS_SELECTOR;
 struct index *ris_build(const struct prepared *p, const struct tile_pass *pass, long iteration);
 bool ris_draw(const struct prepared *p, const struct index *r, struct sample *sample, const struct vertex *z,
               int i, int n, struct drawn *out);

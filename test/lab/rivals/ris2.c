@@ -16,25 +16,25 @@
 
 void ris2_presample(struct index *r, const struct tile_pass *pass, struct arena *arena, long iteration)
 {
-    const struct candidate *all = r->found;
+    const struct vertex *const *all = r->found;
     int M2 = r->own->presampled, n = r->V, x, y;
     pixels_get(pass->tile->pixels, 0, &x, &y);
     struct sampler sampler = sample_stream(pass, RNG_SHUFFLE, x, y, (uint64_t)iteration);
-    struct candidate *kept = arena_alloc(arena, (size_t)M2 * sizeof *kept);
+    const struct vertex **kept = arena_alloc(arena, (size_t)M2 * sizeof *kept);
     double *before = arena_alloc(arena, (size_t)n * sizeof *before), S = 0;
     r->u = arena_alloc(arena, (size_t)M2 * sizeof *r->u);
     for (int v = 0; v < n; v++) {
         before[v] = S;
-        S += all[v].L;
+        S += rgb_luminance(all[v]->beta);
     }
     r->V = 0;
     r->found = kept;
     for (int i = 0; S > 0 && S < INFINITY && i < M2; i++) {
         double at = (i + sampler_number(&sampler, DRAW_ORDER)) / M2;
-        const struct candidate *v = &all[cumulative_find(before, n, at * S)];
-        r->u[r->V] = S / (M2 * v->L);
-        if (v->L > 0)
-            kept[r->V++] = *v;
+        const struct vertex *v = all[cumulative_find(before, n, at * S)];
+        r->u[r->V] = S / (M2 * rgb_luminance(v->beta));
+        if (rgb_luminance(v->beta) > 0)
+            kept[r->V++] = v;
     }
 }
 
@@ -50,4 +50,4 @@ const struct method method_ris2 = {
     .help = "two-stage resampling [Nabata 2020b]: by power first, then by a record nearby",
     .parameters = RIS_PARAMETERS, .own = OWN, .own_size = sizeof(struct ris), .numbers = NUMBERS_OF_BDPT,
     .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true, .prepare = ris_prepare,
-    .selector = &RIS_SELECTOR, .render = ris_render};
+    .build = ris_build, .draw = ris_draw, .render = ris_render};

@@ -104,10 +104,10 @@ static void note_hit(struct trainer *r, const struct vertex *eye, int t)
     const struct scene *scene = r->job->scene;
     const struct vertex *z = &eye[t - 2], *x = eye[t - 1].lamp != NULL ? eye[t - 1].lamp : &eye[t - 1];
     struct connection c = connect_hit(scene, r->counts, z, x);
-    struct light_point y0 = vertex_light_point(x);
     if (t == 2 || rgb_is_black(c.value))
         return;
-    double ratio = x->pdf_origin / x->pdf_fwd, direct = n_direct(r->counts, z->region, z->eye_end, x->cell);
+    struct light_point y0 = vertex_light_point(scene, x);
+    double ratio = y0.pdf / x->pdf_fwd, direct = n_direct(r->counts, z->place, z->eye_end, y0.cell);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &y0,
                                    x->kind == VERTEX_ESCAPED ? z->p : x->p, x->wo);
     struct found f = {1, x->prev_delta ? 0 : ratio * direct, ratio, pdf_emit * x->back, vertex_pdf_rev(z, x, RADIANCE),
@@ -126,7 +126,7 @@ static void note_lit(struct trainer *r, const struct vertex *z, struct sampler *
         return;
     bool hit = !light_is_delta(&scene->lights.light[at.light]);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &at, z->p, neg(l.w));
-    struct found f = {n_direct(r->counts, z->region, z->eye_end, at.cell), hit ? l.pdf_z * l.at_light / at.pdf : 0, 1,
+    struct found f = {n_direct(r->counts, z->place, z->eye_end, at.cell), hit ? l.pdf_z * l.at_light / at.pdf : 0, 1,
                       pdf_emit * vertex_cosine(z, l.w) * l.spread, l.pdf_rev_z, false};
     note(r, connect_lit(scene, r->counts, &l).value, f, z);
 }
@@ -243,7 +243,7 @@ struct group {
 };
 
 struct index {
-    struct candidate *candidate; /* [n] by subspace */
+    const struct vertex **candidate; /* [n] by subspace */
     double *before;              /* [n] sum of L over those before in the subspace */
     struct group *group;         /* [subspaces] */
     double **row;                /* [subspaces][subspaces + 1] cumulative sums of Gamma(e,.); NULL: not made yet */
@@ -273,9 +273,9 @@ static void classify(const struct prepared *p, struct vertex *path, int n, struc
         }
         if (v->kind != VERTEX_SURFACE)
             continue;
-        v->region = tree_find(own->tree[mode == RADIANCE], place_of(v));
+        v->place = tree_find(own->tree[mode == RADIANCE], place_of(v));
         v->mis_c = n_before(counts, x, v, mode);
-        v->region = tree_find(own->tree[mode == IMPORTANCE], place_of(v));
+        v->place = tree_find(own->tree[mode == IMPORTANCE], place_of(v));
     }
 }
 
@@ -294,14 +294,14 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     v->row = memset(arena_alloc(&pool->arena, n * sizeof *v->row), 0, n * sizeof *v->row);
     v->group = memset(arena_alloc(&pool->arena, n * sizeof *v->group), 0, n * sizeof *v->group);
     for (int i = 0; i < pool->n_candidates; i++)
-        v->group[candidate_vertex(&pool->candidate[i])->region].n++;
+        v->group[pool->candidate[i]->place].n++;
     for (size_t l = 0, first = 0; l < n; first += (size_t)v->group[l].n, v->group[l++].n = 0)
         v->group[l].first = (int)first;
     for (int i = 0; i < pool->n_candidates; i++) {
-        struct group *g = &v->group[candidate_vertex(&pool->candidate[i])->region];
+        struct group *g = &v->group[pool->candidate[i]->place];
         v->candidate[g->first + g->n] = pool->candidate[i];
         v->before[g->first + g->n++] = g->L;
-        g->L += pool->candidate[i].L;
+        g->L += rgb_luminance(pool->candidate[i]->beta);
     }
     return v;
 }
@@ -323,7 +323,7 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
                  int i, int n, struct drawn *out)
 {
     const struct spcbpt *own = p->own;
-    const double *row = row_of(own, v, &sample->pass->work->pool.arena, z->region);
+    const double *row = row_of(own, v, &sample->pass->work->pool.arena, z->place);
     double total = row[own->subspaces];
     if (!(total > 0))
         return false;
@@ -331,9 +331,8 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
     int l = cumulative_find(row, own->subspaces, target);
     const struct group *g = &v->group[l];
     double share = row[l + 1] - row[l], within = (target - row[l]) / share * g->L;
-    const struct candidate *c = &v->candidate[g->first + cumulative_find(&v->before[g->first], g->n, within)];
-    *out = c->drawn;
-    out->pmf = share / total * c->L / g->L;
+    const struct vertex *y = v->candidate[g->first + cumulative_find(&v->before[g->first], g->n, within)];
+    *out = drawn_vertex(y, share / total * rgb_luminance(y->beta) / g->L);
     return out->pmf > 0;
 }
 
@@ -346,17 +345,17 @@ static void splat(const struct prepared *p, struct sample *sample, struct vertex
             o->walked(o->context, sample, IMPORTANCE, light, n);
     for (int s = 2; s <= n && s <= sample->pass->job->max_depth + 1; s++) {
         struct vertex *y = &light[s - 1];
-        int region = y->region;
-        y->region = tree_find(own->tree[0], place_of(y));
+        int region = y->place;
+        y->place = tree_find(own->tree[0], place_of(y));
         double raster[2];
         struct connection c = connect_lens(sample->pass->job->scene, &p->counts, y, &sample->sampler, raster);
-        y->region = region;
+        y->place = region;
         sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .px = raster[0], .py = raster[1],
                                              .pmf = 1, .scale = scale / p->counts.lens});
     }
 }
 
-/* As loop_render, with classified eye sub-paths. */
+/* As selection_render, with classified eye sub-paths. */
 static void render(const struct prepared *p, const struct tile_pass *pass)
 {
     struct pool *pool = &pass->work->pool;
@@ -365,17 +364,20 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         loop_fill(p, pass, iteration);
         const struct index *index = build(p, pass, iteration);
-        int draws[EYE_ENDS];
-        loop_draws(p, pass, iteration, draws);
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);
             int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
             classify(p, eye, n, &pass->work->arena, RADIANCE);
             for (int t = 2; t <= n; t++) {
+                const struct vertex *z = &eye[t - 1];
+                int C = t <= pass->job->max_depth && vertex_connectible(z) ? p->numbers.draws[z->eye_end] : 0;
+                struct drawn light;
                 sample_hit(&sample, eye, t);
-                sample_direct(&sample, &eye[t - 1], t);
-                loop_join(p, index, &sample, &eye[t - 1], t, draws);
+                sample_direct(&sample, z, t);
+                for (int j = 0; j < C; j++)
+                    if (draw(p, index, &sample, z, j, C, &light))
+                        sample_pairs(&sample, &light, z, t, 1 / ((double)C * pool->n) / light.pmf);
             }
             if (i % each == 0)
                 splat(p, &sample, &pool->vertex[pool->start[i / each]], pool->length[i / each],
@@ -412,11 +414,9 @@ static const struct field OWN[] = {
     {"steps", FIELD_INTEGER, AT(steps), 2, 0, 1000, "steps that minimise the variance", NULL},
     {.name = NULL}};
 
-static const struct selector SELECTOR = {build, draw};
-
 const struct method method_spcbpt = {
     .name = "spcbpt", .check = surfaces_alone,
     .help = "subspaces [Su 2022]: light vertices drawn by trees and a matrix for the least variance",
     .parameters = PARAMETERS, .own = OWN, .own_size = sizeof(struct spcbpt), .numbers = NUMBERS_OF_PT,
-    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .selector = &SELECTOR,
+    .rr_threshold = DEFAULT_RR_THRESHOLD, .prepare = prepare, .release = release, .build = build, .draw = draw,
     .render = render};

@@ -22,9 +22,9 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
     struct arena *arena = &pass->work->arena;
     const struct index *index = NULL;
     int n = 0;
-    if (p->method->selector != NULL) {
+    if (p->method->build != NULL) {
         loop_fill(p, pass, iteration);
-        index = p->method->selector->build(p, pass, iteration);
+        index = p->method->build(p, pass, iteration);
     }
     arena_reset(arena);
     struct pixel *all = arena_alloc(arena, (size_t)pixels_count(pass->tile->pixels) * sizeof *all);

@@ -17,12 +17,12 @@ struct pixel {
     int n;
 };
 
-/* All strategies of all n pixels. `index` is what the method's selector has made of the pool, if it has one. */
+/* All strategies of all n pixels. `index` is what the method's `build` has made of the pool, if it has one. */
 typedef void connect_all_fn(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
                             struct pixel *pixel, int n);
 
 /* together_begin: a sample of the tile's pixel of this number that is not connected, in the workspace's arena.
- * together_render: a tile pass by such a method. If it has a selector, its pixels share light sub-paths. */
+ * together_render: a tile pass by such a method. If it has a `build`, its pixels share light sub-paths. */
 struct pixel together_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y,
                             long iteration);
 void together_render(const struct prepared *p, const struct tile_pass *pass, connect_all_fn *connect_all);
@@ -57,10 +57,10 @@ struct connection reuse_hit(const struct sample *sample, const struct vertex *pr
                             rgb beta);
 
 /* reuse_hit_density: where s = 1 draws what s = 0 hits at z: density there over that of the walk. */
-static inline double reuse_hit_density(const struct vertex *z)
+static inline double reuse_hit_density(const struct scene *scene, const struct vertex *z)
 {
     z = z->lamp != NULL ? z->lamp : z;
-    return z->pdf_origin / z->pdf_fwd;
+    return z->light < 0 ? 0 : vertex_light_point(scene, z).pdf / z->pdf_fwd;
 }
 
 /* reuse_sees: does z see the light's point? */

@@ -33,7 +33,7 @@ struct vcm {
 
 /* Light vertices by the cells of a grid, 2 r wide, in a table of buckets by hash. */
 struct index {
-    const struct candidate *found;
+    const struct vertex *const *found;
     int *first, *next; /* [buckets], [found]: chains of candidates; -1: none */
     size_t buckets;
     double r, eta;
@@ -71,11 +71,11 @@ static double side(const struct index *m, const struct vertex *v, double pdf_rev
     return (v->mis_c - own + pdf_rev * v->mis) / own;
 }
 
-static void merge(const struct index *m, struct sample *sample, const struct candidate *c, const struct vertex *z,
+static void merge(const struct index *m, struct sample *sample, const struct vertex *y, const struct vertex *z,
                   int t)
 {
-    const struct vertex *y = candidate_vertex(c);
-    int s = c->drawn.end;
+    const struct drawn drawn = drawn_vertex(y, 1);
+    int s = drawn.end;
     double area = abs_dot(y->wo, z->ng);
     struct bsdf_value f = bsdf_eval(&z->bsdf, z->wo, y->wo, RADIANCE);
     if (s + t - 1 > sample->pass->job->max_depth + 2 || rgb_is_black(f.f) || !(area > 0))
@@ -83,7 +83,7 @@ static void merge(const struct index *m, struct sample *sample, const struct can
     double scale = scatter_cosine(z, y->wo, RADIANCE) / (area * m->eta);
     struct connection joined = {.value = rgb_scale(rgb_mul(rgb_mul(y->beta, z->beta), f.f), scale), .light = -1};
     joined.weight = 1 / (1 + side(m, y, f.pdf) + side(m, z, f.pdf_rev));
-    sample_add(sample, (struct joined){.s = s, .t = t, .light = c->drawn.light, .z = z, .c = &joined, .pmf = 1,
+    sample_add(sample, (struct joined){.s = s, .t = t, .light = drawn.light, .z = z, .c = &joined, .pmf = 1,
                                        .scale = 1});
 }
 
@@ -138,7 +138,7 @@ static void fill_grid(struct index *m, struct pool *pool)
     for (size_t b = 0; b < m->buckets; b++)
         m->first[b] = -1;
     for (int i = 0; i < pool->n_candidates; i++) {
-        size_t b = bucket_of(m, cell_of(m, candidate_vertex(&m->found[i])->p));
+        size_t b = bucket_of(m, cell_of(m, m->found[i]->p));
         m->next[i] = m->first[b];
         m->first[b] = i;
     }
@@ -151,11 +151,11 @@ static void merge_all(const struct index *m, struct sample *sample, const struct
         vec3 step = {corner & 1 ? m->r : -m->r, corner & 2 ? m->r : -m->r, corner & 4 ? m->r : -m->r};
         vec3 cell = cell_of(m, add(z->p, step));
         for (int i = m->first[bucket_of(m, cell)]; i >= 0; i = m->next[i]) {
-            const struct candidate *c = &m->found[i];
-            vec3 p = candidate_vertex(c)->p, own = cell_of(m, p);
+            const struct vertex *y = m->found[i];
+            vec3 p = y->p, own = cell_of(m, p);
             bool here = own.x == cell.x && own.y == cell.y && own.z == cell.z;
             if (here && length2(sub(p, z->p)) < sqr(m->r))
-                merge(m, sample, c, z, t);
+                merge(m, sample, y, z, t);
         }
     }
 }
@@ -206,10 +206,8 @@ static const struct field OWN[] = {
 
 static const struct field PARAMETERS[] = {PARAMETER_GUIDE(false), {.name = NULL}};
 
-static const struct selector SELECTOR = {build, NULL};
-
 const struct method method_vcm = {
     .name = "vcm", .check = surfaces_alone, .parameters = PARAMETERS,
     .help = "vertex connection and merging [Georgiev 2012c]: bdpt, and vertices that meet; biased",
     .own = OWN, .own_size = sizeof(struct vcm), .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .prepare = reuse_prepare, .selector = &SELECTOR, .render = render};
+    .prepare = reuse_prepare, .build = build, .render = render};

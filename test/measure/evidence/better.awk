@@ -1,11 +1,6 @@
 # better.awk: functions on sets of ratios of squared errors, of which a set has one for each scene, by three measures:
 # geometric means, their intervals, losses, the worst. What reads the ratios is runs.awk.
 
-# unseen_scenes: into out, the scenes that nothing was chosen on: every second of a file of scenes, from the first.
-function unseen_scenes(file, out,    line, rows, part) {
-    while ((getline line < file) > 0) if (line !~ /^#/ && ++rows % 2) { split(line, part, " "); out[part[1]] }
-    close(file)
-}
 # loses: is a ratio one of a loss? Ratios within 0.5 % of 1 are ties.
 function loses(v) { return v > 1.005 }
 # take: into a set a ratio v, with a name if the worst is asked for; 0: not known, counted. What is below 0.0005
@@ -72,15 +67,9 @@ function commas(text,    first) {
     return substr(text, 1, first) "," substr(text, first + 1)
 }
 function digits(v) { return v < 0.0995 ? sprintf("%.3f", v) : two(v) }
-# means_of, worst_of: of a set, by each measure, in words; the worst with its range as each seed is left out.
+# means_of: of a set, by each measure, in words.
 function means_of(set) { return three(two(mean_of(set, 1)), two(mean_of(set, 2)), two(mean_of(set, 3))) }
-function worst_of(set) { return three(worst_cell(set, 1), worst_cell(set, 2), worst_cell(set, 3)) }
 function three(a, b, c) { return a " (mse8), " b " (relmse) and " c " (8x8)" }
-function worst_cell(set, m,    part) {
-    if (!number[set, m]) return "-"
-    split(worst_name[set, m], part, SUBSEP)
-    return two(most[set, m]) (part[2] != "" ? " [" spread(part[1], part[2], m) "]" : "")
-}
 # row: of a set, cells of a table: the means by each measure, and in how many scenes asbdpt has more error.
 function row(set,    m, text, losses, of_each, same) {
     same = number[set, 1] == number[set, 2] && number[set, 2] == number[set, 3]
@@ -90,26 +79,4 @@ function row(set,    m, text, losses, of_each, same) {
         of_each = of_each (m > 1 ? ", " : "") above[set, m] " of " number[set, m]
     }
     return text (same ? losses " of " number[set, 1] : of_each)
-}
-# answers: of a set the sections row and worst, their names after `before`.
-function answers(set, before) { printf "== %srow\n%s\n== %sworst\n%s\n", before, row(set), before, worst_of(set) }
-# coverage: in how many of 1,000 sets drawn from a set's own ratios the interval holds their mean, in per cent; those
-# where the mean is above it are added to too_high. Random numbers are x = 16807 x mod (2^31 - 1), from one seed.
-function coverage(set, m,    n, i, draw, v, sum, squares_of, error, truth, held) {
-    n = number[set, m]; truth = logs[set, m] / n; random = 20231
-    too_high = 0
-    for (draw = 1; draw <= 1000; draw++) {
-        sum = squares_of = 0
-        for (i = 1; i <= n; i++) {
-            random = random * 16807 % 2147483647
-            v = each[set, m, int(random / 2147483647 * n) + 1]
-            sum += v; squares_of += v * v
-        }
-        v = (squares_of - sum * sum / n) / (n - 1) / n
-        error = student(n - 1) * (v > 0 ? sqrt(v) : 0)
-        held += sum / n - error <= truth && truth <= sum / n + error
-        too_high += sum / n + error < truth
-    }
-    too_high /= 10
-    return held / 10
 }

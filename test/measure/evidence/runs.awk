@@ -3,13 +3,9 @@
 # group of runs is NAME.HALF, of the file and of the column half ("both" is choice and services; "all" without one) or
 # part. With -v missing=FILE its section unknown is read, lines "SCENE METHOD MEASURE": squared errors that no number
 # of runs tells, since the noise of their reference is unknown or larger. The default is called asbdpt or subspaces.
-# With -v kinds=FILE the scenes of every second line of it are those that nothing was chosen on. -v rivals=: other
-# rivals than these four.
 BEGIN {
     FS = ","
     split("mse8 relmse relmse8x8", square, " "); split("mse8 relmse 8x8", measure, " ")
-    names = split(rivals != "" ? rivals : "lvc cbdpt mbdpt spcbpt", rival, " ")
-    if (kinds != "") unseen_scenes(kinds, unseen)
     if (missing != "") read_unknown()
 }
 function read_unknown(    line, on, part) {
@@ -102,21 +98,14 @@ function marked(g, s,    l, i, who, text) { # which methods have a mark
     }
     return text ~ /bdpt.*pt.*asbdpt/ ? "all" : text
 }
-# lead: takes the ratios to rival r, of all scenes or of those that nothing was chosen on, without one; the set's name.
-function lead(g, r, k, all, but,    i, s, v, set) {
-    set = g " " r (all ? "" : " unseen") (but != "" ? " but " but : "")
-    for (i = 1; i <= scenes[g]; i++) {
-        s = scene[g, i]
-        if (s == but || (!all && !(s in unseen))) continue
-        v = r == "best" ? over_best(g, s, k) : ratio(g, "subspaces", r, s, k)
-        if (v > 0) take(set, k, v)
-    }
-    return set
-}
-function over_best(g, s, k,    i, v, most) {
-    for (i = 1; i <= names; i++)
-        if (mark[g, rival[i], s] == "" && (v = ratio(g, "subspaces", rival[i], s, k)) > most) most = v
-    return most
-}
 # take_scene: into a set of ratios, the default over the better in a scene of a group, by each measure.
 function take_scene(set, g, s,    k) { for (k = 1; k <= 3; k++) take(set, k, over_better(g, s, k), g SUBSEP s) }
+# worst_of: of a set, by each measure, in words; with its range as each seed is left out.
+function worst_of(set) { return three(worst_cell(set, 1), worst_cell(set, 2), worst_cell(set, 3)) }
+function worst_cell(set, m,    part) {
+    if (!number[set, m]) return "-"
+    split(worst_name[set, m], part, SUBSEP)
+    return two(most[set, m]) (part[2] != "" ? " [" spread(part[1], part[2], m) "]" : "")
+}
+# answers: of a set the sections row and worst, their names after `before`.
+function answers(set, before) { printf "== %srow\n%s\n== %sworst\n%s\n", before, row(set), before, worst_of(set) }

@@ -1,4 +1,4 @@
-/* pool.c: `select = pool`: the smallest unbiased repair of the dissertation's estimator.
+/* select_pool.c: `select = pool`: the smallest unbiased repair of the dissertation's estimator.
  *
  * The tile traces K light sub-paths in an iteration, as many as BDPT. They have importances I_k and probabilities
  *     q_k = (1 - delta) I_k / sum I + delta / K.                                               [Hesterberg 1995]
@@ -71,10 +71,8 @@ static const struct field PARAMETERS[] = {
     PARAMETERS_SHARED(false, 1, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
-static const struct selector SELECTOR = {build, draw};
-
 const struct method method_pool = {
     .name = "asbdpt", .select = "pool",
     .help = "one alias table over the light sub-paths of a tile, weighted: unbiased", .parameters = PARAMETERS,
     .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .learns_use = true,
-    .selector = &SELECTOR, .render = loop_render};
+    .build = build, .draw = draw, .render = selection_render};
