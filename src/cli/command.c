@@ -37,12 +37,6 @@ int usage_error(const struct command *command, const char *format, ...)
 
 int job_failed(const struct error *err) { return err->text[0] != '\0' ? fail(err) : EXIT_JOB; }
 
-int load_job(struct render_job *job, struct scene *scene, struct prepared *out)
-{
-    struct error err;
-    return job_load(job, scene, out, &err) ? EXIT_OK : job_failed(&err);
-}
-
 /* --- help --------------------------------------------------------------------------------------------- */
 
 static void print_command(const struct command *c)

@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "library/options.h"
-#include "render/job.h"
 
 enum { EXIT_OK = 0, EXIT_JOB = 1, EXIT_USAGE = 2 }; /* success, failure of the job, wrong usage */
 
@@ -42,9 +41,7 @@ extern const struct program program;
 int fail(const struct error *err);
 int usage_error(const struct command *command, const char *format, ...);
 
-/* load_job: job_load (render/job.h). Returns EXIT_OK, or another status after saying why. job_failed: say why it has
- * failed, unless that has been said; returns the exit status. */
-int load_job(struct render_job *job, struct scene *scene, struct prepared *out);
+/* job_failed: say why a scene cannot be loaded, unless that has been said; returns the exit status. */
 int job_failed(const struct error *err);
 
 /* command_line: what the program does with its arguments, argv[0] being its own name. Returns the exit status, which is

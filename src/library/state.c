@@ -122,16 +122,34 @@ static enum cancel cancel(void *context)
     return answer <= ASBDPT_CONTINUE ? CANCEL_NOT : answer == ASBDPT_END_BLOCK ? CANCEL_BLOCK : CANCEL_NOW;
 }
 
+/* Where so many samples more end: with a cycle of the filter, and with a block where the method says how long these are,
+ * which shows when it is prepared. False with a message. */
+static bool find_end(struct asbdpt *r, long samples, long *end, struct error *err)
+{
+    enum { LONG = 1 << 16 };
+    struct film *f = &r->film;
+    bool begun = f->iterations > 0 || f->passes > 0;
+    if (r->prepared.tables == NULL)
+        job_prepare(&r->job, &r->prepared);
+    f->learnt_short |= r->prepared.hasty && !begun;
+    if (r->prepared.hasty && !f->learnt_short)
+        return error_set(err, "learning was cancelled, but the samples of the checkpoint go by all of it: open both again");
+    long block = r->prepared.size.block, unit = block > 0 && block < LONG ? block : filter_cycle(&r->scene.filter);
+    *end = (r->part.first + f->iterations + samples + unit - 1) / unit * unit;
+    return true;
+}
+
 bool state_render(struct asbdpt *r, long samples, struct error *err)
 {
     struct render_job *job = &r->job;
     const struct film *f = &r->film;
-    const long before = r->part.first + f->iterations, end = samples > 0 ? before + samples : r->part.end;
+    long end = r->part.end;
     double had = film_samples(f), cpu = os_cpu_seconds(), wall = os_wall_seconds();
-    bool ok = true, more = true;
+    bool more = true;
     job->progress = r->progress != NULL ? progress : NULL;
     job->cancel = r->cancel != NULL ? cancel : NULL;
     job->context = r;
+    bool ok = samples == 0 || find_end(r, samples, &end, err);
     while (ok && more) {
         bool within = f->passes > 0 && r->by_parts; /* a block that is incomplete ends where it was to end */
         job->first = r->part.first + f->iterations;

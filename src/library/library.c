@@ -1,16 +1,14 @@
-/* asbdpt.c: see asbdpt.h. */
-#include "library/asbdpt.h"
-
+/* library.c: see asbdpt.h. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number.h"
 #include "base/version.h"
+#include "image/image.h"
 #include "library/job_options.h"
 #include "library/state.h"
-#include "base/number.h"
-#include "image/image.h"
 #include "render/halves.h"
 
 const char *asbdpt_version(void) { return VERSION; }
