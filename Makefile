@@ -10,6 +10,7 @@ SCENES  = $(addprefix scenes/,$(addsuffix .pbrt,cornell-box cornell-box-modified
 
 PREFIX  = /usr/local
 MANDIR  = $(PREFIX)/share/man/man1
+LIBDIR  = $(PREFIX)/lib
 
 # No fast-math; contraction off, so that one compiler gives one result. Nobody reads errno after sqrt.
 # Link-time optimisation saves 6 % of the instructions; `make LTO=` leaves it out. CFLAGS is the user's and comes last.
@@ -71,6 +72,23 @@ $(TESTS): | $(BUILD)/suites.h
 $(BUILD)/test: AT_LINK = $(NO_LTO)
 $(BUILD)/fuzz: AT_LINK = -fsanitize=fuzzer
 
+# ---- the library ----
+# Its objects are compiled once more, for a shared one must be movable. Who links sees the functions of asbdpt.h, and
+# with the archive the others, too, whose names are the program's own.
+INSIDE = $(patsubst src/%.c,$(BUILD)/lib/%.o,$(filter-out src/cli/%,$(wildcard src/*/*.c)))
+$(BUILD)/lib/%.o: src/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(SAY)$(CC) $(FLAGS) $(NO_LTO) -fPIC $(DEPEND) $(CFLAGS) -c -o $@ $<
+$(BUILD)/libasbdpt.a: $(INSIDE)
+	@rm -f $@
+	$(SAY)$(AR) rcs $@ $(INSIDE)
+$(BUILD)/libasbdpt.so: $(INSIDE)
+	$(SAY)$(CC) $(FLAGS) $(NO_LTO) -shared $(CFLAGS) -o $@ $(INSIDE) $(LDFLAGS) $(LIBS)
+
+lib: $(BUILD)/libasbdpt.a $(BUILD)/libasbdpt.so ## build the library, build/libasbdpt.a and .so; its header is src/library/asbdpt.h
+amalgamation: ## the program and the library as one file of C and one header: out/asbdpt.c, out/asbdpt.h
+	sh doc/embed/amalgamate.sh out
+
 # These change when the compiler, its flags or the list of files do. Then all is compiled, or linked, again; as it is if
 # a header changes and the compiler does not write which files include it.
 HEADERS = $(shell cat $(wildcard src/*/*.h test/*/*.h test/*/*/*.h) | cksum)
@@ -83,22 +101,33 @@ $(BUILD)/suites.h: test/unit/suites.awk $(wildcard test/unit/*.c)
 	@mkdir -p $(@D)
 	@awk -f $^ >$@.new && { cmp -s $@.new $@ || cp $@.new $@; }
 
--include $(wildcard $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d $(BUILD)/obj/*/*/*/*.d)
+-include $(wildcard $(BUILD)/lib/*/*.d $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d $(BUILD)/obj/*/*/*/*.d)
 
 # ---- what it is for ----
 # Paths come to the shell as variables, for they may hold blanks and quotes. Whatever the umask, everybody may read.
 install uninstall: export TO_BIN = $(DESTDIR)$(PREFIX)/bin
 install uninstall: export TO_MAN = $(DESTDIR)$(MANDIR)
+install uninstall: export TO_LIB = $(DESTDIR)$(LIBDIR)
+install uninstall: export TO_INCLUDE = $(DESTDIR)$(PREFIX)/include
+install: export AT = $(PREFIX)
+install: export AT_LIB = $(LIBDIR)
 
-install: all ## install both programs and their man pages below PREFIX (/usr/local), itself below DESTDIR
+install: all lib ## install programs, man pages, library and header below PREFIX (/usr/local), itself below DESTDIR
 	umask 022 && mkdir -p "$$TO_BIN" "$$TO_MAN" && for name in asbdpt asbdpt-lab; do \
 	    install -m 755 $$name "$$TO_BIN/$$name" && \
 	    { printf '.TH %s 1\n.SH NAME\n%s \\- bidirectional path tracing\n.SH DESCRIPTION\n.nf\n' $$name $$name && \
 	    ./$$name help all | sed 's/\\/\\e/g; s/-/\\-/g; s/^/\\\&/'; } >"$$TO_MAN/$$name.1" && \
 	    chmod 644 "$$TO_MAN/$$name.1" || exit; done
+	umask 022 && mkdir -p "$$TO_LIB/pkgconfig" "$$TO_INCLUDE" && install -m 644 src/library/asbdpt.h "$$TO_INCLUDE" && \
+	    install -m 644 $(BUILD)/libasbdpt.a "$$TO_LIB" && install -m 755 $(BUILD)/libasbdpt.so "$$TO_LIB" && \
+	    version=$$(sed -n 's/^#define VERSION "asbdpt \(.*\)"$$/\1/p' src/base/version.h) && \
+	    printf '%s\n' "Name: asbdpt" "Description: bidirectional path tracing" "Version: $$version" \
+	    "Cflags: -I\"$$AT/include\"" "Libs: -L\"$$AT_LIB\" -lasbdpt" "Libs.private: -lm -lpthread" \
+	    >"$$TO_LIB/pkgconfig/asbdpt.pc"
 
 uninstall: ## remove what install put there
 	rm -f "$$TO_BIN/asbdpt" "$$TO_MAN/asbdpt.1" "$$TO_BIN/asbdpt-lab" "$$TO_MAN/asbdpt-lab.1"
+	rm -f "$$TO_INCLUDE/asbdpt.h" "$$TO_LIB/libasbdpt.a" "$$TO_LIB/libasbdpt.so" "$$TO_LIB/pkgconfig/asbdpt.pc"
 
 demo: ## build both programs with all cores, and render the corridor by bdpt and asbdpt in the same time: out/demo.png (50 s of CPU)
 	@$(MAKE) -j$$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) asbdpt asbdpt-lab
@@ -241,5 +270,5 @@ help: ## list the targets
 clean: ## remove everything that was built
 	rm -rf build build-* out asbdpt asbdpt-lab
 
-.PHONY: FORCE all check install uninstall demo gallery experiments web release bench ref test check-long check-ref portability hashes faults mutants scripts \
+.PHONY: FORCE all lib amalgamation check install uninstall demo gallery experiments web release bench ref test check-long check-ref portability hashes faults mutants scripts \
 	layers standard references links evidence measured doc figures san tsan stats tidy help clean

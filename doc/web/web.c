@@ -2,8 +2,8 @@
  *
  *   web_words    where the page puts words: the words of a command line, each ended by a zero byte
  *   web_command  run them as asbdpt would
- *   web_begin    load and learn for a render with the options of `asbdpt render`
- *   web_step     render one block of iterations more, and show the page the picture: a worker that is to be paused must
+ *   web_begin    load a scene for a render with the options of `asbdpt render`
+ *   web_step     learn, or render one block of iterations more, and show the page the picture: a worker that is to be paused must
  *                return between them, since it hears nothing while it computes
  *
  * The page gives web_show and web_learns. All files are the page's: scenes, references, and what is written.
@@ -16,12 +16,12 @@
 #include "base/number.h"
 #include "base/os.h"
 #include "cli/command.h"
-#include "cli/job_options.h"
-#include "lab/commands.h"
 #include "image/image.h"
+#include "lab/commands.h"
 #include "lab/compare.h"
 #include "lab/sheet.h"
-#include "render/render.h"
+#include "library/job_options.h"
+#include "library/state.h"
 
 char *web_words(int size);
 int web_command(int n);
@@ -72,14 +72,7 @@ int web_command(int n)
 /* --- a render that is watched ------------------------------------------------------------------------ */
 
 static struct watch {
-    struct render_job job;
-    struct prepared prepared;
-    struct scene scene;
-    struct tiling tiling;
-    struct tile tile;
-    struct workspace *work;
-    struct film film;
-    double seconds;
+    struct asbdpt of; /* first: options lead into it */
     float *reference; /* NULL: none; of a k-th of the picture's width and height */
     int k;
     float *pixels;
@@ -91,7 +84,7 @@ static struct watch {
 static struct difference compare(const struct watch *w)
 {
     struct difference none = {.rmse8 = NAN, .mean_ratio = NAN};
-    int width = w->scene.width, height = w->scene.height;
+    int width = w->of.scene.width, height = w->of.scene.height;
     if (w->reference == NULL)
         return none;
     float *small = sheet_shrink(w->pixels, width, height, w->k);
@@ -103,13 +96,13 @@ static struct difference compare(const struct watch *w)
 /* The pixels of a square without a sample get the mean of those with one, if there are any. */
 static void fill_square(struct watch *w, int x0, int y0, int size)
 {
-    int width = w->scene.width, known = 0;
-    int x1 = int_within(x0 + size, 0, width), y1 = int_within(y0 + size, 0, w->scene.height);
+    int width = w->of.scene.width, known = 0;
+    int x1 = int_within(x0 + size, 0, width), y1 = int_within(y0 + size, 0, w->of.scene.height);
     float mean[3] = {0, 0, 0};
     for (int pass = 0; pass < 2; pass++)
         for (int y = y0; y < y1; y++)
             for (int x = x0; x < x1; x++) {
-                bool in = w->film.block.in[y * width + x];
+                bool in = w->of.film.block.in[y * width + x];
                 float *pixel = &w->pixels[3 * (y * width + x)];
                 known += pass == 0 && in;
                 for (int c = 0; c < 3; c++)
@@ -124,16 +117,16 @@ static void fill_square(struct watch *w, int x0, int y0, int size)
 static void fill(struct watch *w)
 {
     for (int size = 256; size > 1; size /= 2)
-        for (int y = 0; y < w->scene.height; y += size)
-            for (int x = 0; x < w->scene.width; x += size)
+        for (int y = 0; y < w->of.scene.height; y += size)
+            for (int x = 0; x < w->of.scene.width; x += size)
                 fill_square(w, x, y, size);
 }
 
 static void show(struct watch *w)
 {
-    int width = w->scene.width, height = w->scene.height;
-    film_develop(&w->film, w->scene.film_scale, w->pixels);
-    if (w->film.iterations == 0)
+    int width = w->of.scene.width, height = w->of.scene.height;
+    asbdpt_read(&w->of, w->pixels);
+    if (w->of.film.iterations == 0)
         fill(w);
     for (int i = 0; i < width * height; i++) {
         for (int c = 0; c < 3; c++)
@@ -141,18 +134,21 @@ static void show(struct watch *w)
         w->rgba[4 * i + 3] = 255;
     }
     struct difference d = compare(w);
-    web_show(w->rgba, w->pixels, width, height, (int)w->film.iterations, w->seconds, d.rmse8, d.mean_ratio);
+    web_show(w->rgba, w->pixels, width, height, (int)w->of.film.iterations, w->of.wall, d.rmse8, d.mean_ratio);
     w->shown = os_wall_seconds();
 }
 
-static void learns(void *context, double learnt, double done)
+/* While it learns, the page hears how far; in the first block it sees what there is. */
+static void progress(void *context, double learnt, double done)
 {
     struct watch *w = context;
-    (void)done;
-    if (os_wall_seconds() - w->shown > 0.1) {
-        w->shown = os_wall_seconds();
+    if (os_wall_seconds() - w->shown < 0.1)
+        return;
+    w->shown = os_wall_seconds();
+    if (done == 0)
         web_learns(learnt);
-    }
+    else if (w->of.film.iterations == 0)
+        show(w);
 }
 
 static bool read_reference(struct watch *w, const char *path, struct error *err)
@@ -163,69 +159,33 @@ static bool read_reference(struct watch *w, const char *path, struct error *err)
     w->reference = image_read_linear(path, &width, &height, NULL, err);
     if (w->reference == NULL)
         return false;
-    w->k = w->scene.width / width;
-    return (w->k > 0 && w->k * width == w->scene.width && w->k * height == w->scene.height) ||
+    w->k = w->of.scene.width / width;
+    return (w->k > 0 && w->k * width == w->of.scene.width && w->k * height == w->of.scene.height) ||
            error_set(err, "%s: the picture is no whole number of times as large", path);
 }
 
 static bool begin(struct watch *w, const char *reference, struct error *err)
 {
-    double start = os_wall_seconds();
-    size_t n = (size_t)w->scene.width * (size_t)w->scene.height;
-    struct pixel_rect rect = w->job.film_rect;
-    struct pass_size *size = &w->prepared.size;
-    w->job.n_threads = 1;
-    w->job.progress = learns;
-    w->job.context = w;
+    size_t n = (size_t)w->of.scene.width * (size_t)w->of.scene.height;
     if (!read_reference(w, reference, err))
         return false;
-    job_prepare(&w->job, &w->prepared);
-    if (size->block == 0)
-        size->block = 1;
-    w->tiling = tiling_of(rect, size);
-    w->work = workspaces_new(1, w->job.max_depth);
-    film_init(&w->film, rect, w->scene.width, w->scene.height);
     w->pixels = mem_alloc(3 * n, sizeof *w->pixels);
     w->rgba = mem_alloc(4 * n, sizeof *w->rgba);
-    w->seconds = os_wall_seconds() - start;
+    w->of.job.n_threads = 1;
     return true;
-}
-
-/* More splats than a tile holds. */
-static void take_splats(void *film, struct tile *tile)
-{
-    film_take_splats(film, tile);
-    tile->n_splats = 0;
 }
 
 int web_step(void)
 {
     struct watch *w = &watched;
-    double start = os_wall_seconds();
-    struct tile_pass pass = {.job = &w->job, .tile = &w->tile, .work = w->work, .first = w->film.iterations};
-    long left = w->job.end - pass.first, block = w->prepared.size.block;
-    pass.end = pass.first + (left < block ? left : block);
-    w->film.block.iterations = pass.end - pass.first;
-    for (int64_t i = 0; i < tiling_count(&w->tiling); i++) {
-        tile_start(&w->tile, tiling_pixels(&w->tiling, i), w->job.film_rect, &w->scene.filter);
-        w->tile.full = take_splats;
-        w->tile.context = &w->film;
-        w->prepared.method->render(&w->prepared, &pass);
-        film_merge_tile(&w->film, &w->tile);
-        w->seconds += os_wall_seconds() - start;
-        start = os_wall_seconds();
-        if (w->film.iterations == 0 && start - w->shown > 0.1) {
-            show(w);
-            start = os_wall_seconds();
-        }
-    }
-    film_end_block(&w->film);
+    if (asbdpt_render(&w->of, 1, progress, NULL, w) != 0)
+        say_line("asbdpt: %s", asbdpt_message(&w->of));
     show(w);
-    return w->film.iterations < w->job.end;
+    return w->of.film.iterations < w->of.part.end;
 }
 
 static const struct option OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, offsetof(struct render_job, scene_path), 1, .help = "a scene file"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, offsetof(struct asbdpt, job.scene_path), 1, .help = "a scene file"},
     {.others = RUN_OPTIONS},
 };
 
@@ -236,8 +196,8 @@ int web_begin(int n)
     char **argv = arguments(n);
     struct watch *w = &watched;
     struct error err;
-    bool ok = options_read(OPTIONS, n - 1, argv + 1, &w->job, &err);
-    int status = !ok ? usage_error(NULL, "%s", err.text) : load_job(&w->job, &w->scene, &w->prepared);
+    bool ok = options_read(OPTIONS, n - 1, argv + 1, &w->of, &err);
+    int status = !ok ? usage_error(NULL, "%s", err.text) : state_open(&w->of, &err) ? EXIT_OK : job_failed(&err);
     if (status == EXIT_OK && !begin(w, argv[0], &err))
         status = fail(&err);
     free(argv);

@@ -66,6 +66,7 @@ static struct temporary *find(const char *path)
 
 void temporary_add(const char *path)
 {
+    os_take_process();
     struct temporary *t = find(NULL);
     if (t == NULL) {
         t = mem_alloc(1, sizeof *t);
@@ -73,6 +74,12 @@ void temporary_add(const char *path)
         first = t;
     }
     t->path = path;
+    os_leave_process();
 }
 
-void temporary_forget(const char *path) { find(path)->path = NULL; }
+void temporary_forget(const char *path)
+{
+    os_take_process();
+    find(path)->path = NULL;
+    os_leave_process();
+}

@@ -21,7 +21,7 @@ void interrupt_defer(const char *notice);
 int interrupt_caught(void);
 
 /* temporary_add: a file, which need not be there yet, to be removed if the program ends; `path` must stay valid until
- * temporary_forget(path). One thread at a time. */
+ * temporary_forget(path). Thread-safe. */
 void temporary_add(const char *path);
 void temporary_forget(const char *path);
 

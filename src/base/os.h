@@ -30,6 +30,10 @@ void os_lock_leave(struct os_lock *lock);
 void os_lock_wait(struct os_lock *lock);     /* leave it until somebody wakes us, and take it again */
 void os_lock_wake_all(struct os_lock *lock); /* everybody who waits */
 
+/* The one lock of the process, for what belongs to no render (interrupt.c); held for moments. */
+void os_take_process(void);
+void os_leave_process(void);
+
 /* ---- time and memory ---- */
 
 double os_wall_seconds(void); /* a steady clock; only differences mean something */

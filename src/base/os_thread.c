@@ -36,6 +36,8 @@ void os_lock_take(struct os_lock *lock) { (void)lock; }
 void os_lock_leave(struct os_lock *lock) { (void)lock; }
 void os_lock_wait(struct os_lock *lock) { (void)lock; }
 void os_lock_wake_all(struct os_lock *lock) { (void)lock; }
+void os_take_process(void) {}
+void os_leave_process(void) {}
 
 #else
 
@@ -104,6 +106,10 @@ void os_lock_free(struct os_lock *lock)
     pthread_mutex_destroy(&lock->mutex);
     free(lock);
 }
+
+static pthread_mutex_t process = PTHREAD_MUTEX_INITIALIZER;
+void os_take_process(void) { pthread_mutex_lock(&process); }
+void os_leave_process(void) { pthread_mutex_unlock(&process); }
 
 void os_lock_take(struct os_lock *lock) { pthread_mutex_lock(&lock->mutex); }
 void os_lock_leave(struct os_lock *lock) { pthread_mutex_unlock(&lock->mutex); }

@@ -15,17 +15,13 @@
 
 #define AT(member) offsetof(struct render_run, member)
 const struct option RENDER_OPTIONS[] = {
-    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(job.scene_path), 1, .help = "a scene file; - reads standard input"},
+    {"SCENE.pbrt", NULL, OPTION_TEXT, AT(of.job.scene_path), 1, .help = "a scene file; - reads standard input"},
     {"-o", "FILE", OPTION_TEXTS, AT(output), .alias = "--outfile", .written = true,
      .help = IMAGE_HELP " (default: the scene's Film name)", .list = image_list_written},
     TONE_ROWS,
     UNCLAMPED_ROW,
     {"--time", "TIME", OPTION_TIME, AT(keep.time), 1e-9, 1e9,
      .help = "render for at most TIME, in seconds or as 90s, 5m, 1h, and write the image so far (default: no limit)"},
-    {"--noise", "X", OPTION_NUMBER, AT(job.noise[NOISE_RELATIVE]), 1e-9, 1e9,
-     .help = "stop when the noise is below X relative to the local brightness, e.g. 0.05; checked every 64 samples"},
-    {"--noise8", "X", OPTION_NUMBER, AT(job.noise[NOISE_8_BIT]), 1e-9, 1e9,
-     .help = "stop when the noise is below X of the 255 levels of 8-bit images; with --noise, when both hold"},
     {"--preview", "TIME", OPTION_TIME, AT(keep.preview), 1e-9, 1e9,
      .help = "write the image so far to the first -o file after 1, 2, 4 ... seconds, then every TIME"},
     {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .written = true,
@@ -33,8 +29,6 @@ const struct option RENDER_OPTIONS[] = {
     {"--interval", "TIME", OPTION_TIME, AT(keep.interval), 0, 1e9, .fallback = "60",
      .help = "time between checkpoints in seconds"},
     {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .help = "continue the render that a checkpoint holds"},
-    {"--samples", "FIRST:END", OPTION_RANGE, AT(job.samples), 0, 1 << 30,
-     .help = "render only the samples FIRST to END-1 of each pixel, for merge: -o NAME.part"},
     {"--stats", "FILE", OPTION_TEXT, AT(stats_path), .written = true,
      .help = "write parameters, times and memory as JSON"},
     {"--aov", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab render has this option"},
@@ -42,7 +36,7 @@ const struct option RENDER_OPTIONS[] = {
     {"--seen", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab render has this option"},
     {"--lights", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab render has this option"},
     {"--alpha", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab render has this option"},
-    {.others = RUN_OPTIONS},
+    {.others = LIMIT_OPTIONS},
 };
 
 /* The scene's Film filename, with .png in place of an extension this program does not write; never standard output. */
@@ -72,9 +66,9 @@ static void abandon(struct render_run *r)
 /* What needs no scene to be opened. */
 static bool open_named(struct render_run *r, struct error *err)
 {
-    if (r->job.samples[1] > 0 && r->output.n == 0)
+    if (r->of.job.samples[1] > 0 && r->output.n == 0)
         return error_usage(err, "--samples needs -o NAME.part");
-    return keep_check(&r->keep, &r->job, err) &&
+    return keep_check(&r->keep, &r->of.job, err) &&
            (r->output.n == 0 || outputs_open(&r->output, &r->tone, true, &r->pictures, err)) &&
            (r->stats_path == NULL || file_create(r->stats_path, &r->stats, err));
 }
@@ -82,7 +76,7 @@ static bool open_named(struct render_run *r, struct error *err)
 static bool open_default_output(struct render_run *r, struct error *err)
 {
     struct texts names = {0};
-    char *name = default_output(&r->scene);
+    char *name = default_output(&r->of.scene);
     texts_add(&names, name);
     bool ok = outputs_open(&names, &r->tone, false, &r->pictures, err);
     free(names.item);
@@ -97,57 +91,43 @@ static bool names_differ(struct render_run *r, struct error *err)
     options_written(RENDER_OPTIONS, r, &names);
     if (r->output.n == 0)
         texts_add(&names, r->pictures.item[0].file.path);
-    bool ok = texts_differ(&names, err) && job_spares(&r->scene, &names, err);
+    bool ok = texts_differ(&names, err) && job_spares(&r->of.scene, &names, err);
     free(names.item);
     return ok;
-}
-
-static bool make_film(struct render_run *r, struct error *err)
-{
-    const struct scene *scene = &r->scene;
-    struct error why;
-    if (!budget_has(&scene->memory, film_bytes(r->job.film_rect), &why))
-        return error_set(err, "%s: its film of %dx%d pixels: %s; --res makes it smaller", r->job.scene_path,
-                         scene->width, scene->height, why.text);
-    film_init(&r->film, r->job.film_rect, scene->width, scene->height);
-    return true;
 }
 
 /* What the scene names, once it is loaded. */
 static bool open_others(struct render_run *r, struct error *err)
 {
     return (r->pictures.n > 0 || open_default_output(r, err)) &&
-           (r->keep.preview == 0 || outputs_previews(&r->pictures, err)) && names_differ(r, err) && make_film(r, err);
+           (r->keep.preview == 0 || outputs_previews(&r->pictures, err)) && names_differ(r, err);
 }
 
 int render_open(struct render_run *r)
 {
     struct error err;
-    double start = os_wall_seconds();
     if (!open_named(r, &err))
         return render_close(r, false, &err);
-    int status = load_job(&r->job, &r->scene, &r->prepared);
-    if (status != EXIT_OK) {
+    if (!state_open(&r->of, &err)) {
         abandon(r);
-        return status;
+        return job_failed(&err);
     }
-    r->load = os_wall_seconds() - start;
     return open_others(r, &err) ? EXIT_OK : render_close(r, false, &err);
 }
 
 /* The last line. Who has not chosen a method may not know which the scene has. */
 static void report(const struct render_run *r)
 {
-    const struct film *film = &r->film;
-    long n = r->scene.n_warnings;
-    bool other = r->job.integrator_name == NULL && strcmp(r->job.integrator->name, "asbdpt") != 0;
+    const struct film *film = &r->of.film;
+    long n = r->of.scene.n_warnings;
+    bool other = r->of.job.integrator_name == NULL && strcmp(r->of.job.integrator->name, "asbdpt") != 0;
     char warnings[48] = "";
     if (n > 0)
         snprintf(warnings, sizeof warnings, "; %ld warning%s about the scene", n, n > 1 ? "s" : "");
-    if (!r->job.quiet)
-        say_line("%s: %dx%d, %ld spp, %s%s; %.2f s, %.2f s of CPU: %.2f us per sample path%s", r->job.scene_path,
-                 rect_width(film->rect), rect_height(film->rect), film->iterations, r->job.integrator->name,
-                 other ? " (for asbdpt: --integrator asbdpt)" : "", r->wall, r->cpu, stats_us_per_path(r), warnings);
+    if (!r->of.job.quiet)
+        say_line("%s: %dx%d, %ld spp, %s%s; %.2f s, %.2f s of CPU: %.2f us per sample path%s", r->of.job.scene_path,
+                 rect_width(film->rect), rect_height(film->rect), film->iterations, r->of.job.integrator->name,
+                 other ? " (for asbdpt: --integrator asbdpt)" : "", r->of.wall, r->of.cpu, stats_us_per_path(&r->of), warnings);
 }
 
 /* What the camera sees in front of all else, as far as a few rays tell. */
@@ -203,36 +183,45 @@ static void warn_of_black(const struct scene *scene, const struct film *film, co
 
 static bool write_pictures(struct render_run *r, bool ok, struct error *err)
 {
-    const struct film *film = &r->film;
+    const struct film *film = &r->of.film;
     float *pixels = mem_alloc(rect_pixels(film->rect) * 3, sizeof *pixels);
     film_warn(film, outputs_develop(&r->pictures, pixels));
-    warn_of_black(&r->scene, film, r->job.integrator->name, pixels);
-    ok = outputs_write(&r->pictures, rect_width(film->rect), rect_height(film->rect), pixels, r->job.quiet,
+    warn_of_black(&r->of.scene, film, r->of.job.integrator->name, pixels);
+    ok = outputs_write(&r->pictures, rect_width(film->rect), rect_height(film->rect), pixels, r->of.job.quiet,
                        ok ? err : NULL) && ok;
     free(pixels);
     return ok;
 }
 
+static void write_stats(struct render_run *r)
+{
+    struct texts files = {0};
+    struct growing text = {0};
+    for (int i = 0; i < r->pictures.n; i++)
+        texts_add(&files, r->pictures.item[i].file.path);
+    stats_add(&text, &r->of, &files, r->keep.checkpoint);
+    fputs(text.text, r->stats.stream);
+    free(text.text);
+    free(files.item);
+}
+
 /* From a film with nothing or something in it to all files. */
 bool render_work(struct render_run *r, struct error *err)
 {
-    if (!keep_begin(&r->keep, &r->job, &r->film, &r->pictures, err))
-        return false;
-    r->pictures.place = r->keep.part.place;
-    r->pictures.part = &r->keep.part;
-    r->pictures.film = &r->film;
+    r->pictures.place = r->of.part.place;
+    r->pictures.part = &r->of.part;
+    r->pictures.film = &r->of.film;
     r->pictures.unclamped = r->unclamped;
-    r->samples = film_samples(&r->film);
-    r->cpu = os_cpu_seconds();
-    bool ok = render_scene(&r->job, &r->prepared, &r->film, err);
-    r->cpu = os_cpu_seconds() - r->cpu;
-    r->wall = os_wall_seconds() - r->keep.begun;
-    r->samples = film_samples(&r->film) - r->samples;
-    bool kept = keep_end(&r->keep, ok, err);
+    if (!keep_begin(&r->keep, &r->of, &r->pictures, err))
+        return false;
+    r->of.progress = keep_progress;
+    r->of.cancel = keep_cancel;
+    r->of.context = &r->keep;
+    bool ok = state_render(&r->of, 0, err), kept = keep_end(&r->keep, ok, err);
     if (!ok)
         return false;
     if (r->stats.stream != NULL)
-        stats_write(r->stats.stream, r);
+        write_stats(r);
     ok = write_pictures(r, kept, err);
     report(r);
     return ok;
@@ -243,10 +232,7 @@ int render_close(struct render_run *r, bool ok, struct error *err)
     if (ok && r->stats.stream != NULL)
         ok = file_commit(&r->stats, err);
     abandon(r);
-    part_free(&r->keep.part);
-    film_free(&r->film);
-    method_release(&r->prepared);
-    scene_free(&r->scene);
+    state_free(&r->of);
     return !ok ? fail(err) : interrupt_caught() != 0 ? 128 + interrupt_caught() : EXIT_OK;
 }
 

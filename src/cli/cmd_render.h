@@ -5,25 +5,20 @@
 
 #include <stdio.h>
 
-#include "cli/job_options.h"
+#include "library/job_options.h"
 #include "cli/keep.h"
 #include "cli/outputs.h"
 
 /* A render on its way from options to files. */
 struct render_run {
-    struct render_job job;  /* the options that all have which load a scene, and what becomes of them */
+    struct asbdpt of;       /* the options that all renders have, and what becomes of them */
     struct texts output;
     struct tone_options tone;
     bool unclamped;
     const char *stats_path; /* or NULL */
     struct keep keep;       /* options that stop, save and resume, and what becomes of them */
-    /* From here on zeros until the scene is loaded. */
-    struct scene scene;
-    struct prepared prepared;
-    struct film film;
     struct outputs pictures;
     struct file_output stats; /* its stream NULL: none; it is complete when all others are */
-    double load, wall, cpu, samples; /* seconds; samples per pixel in this time */
 };
 
 extern const struct option RENDER_OPTIONS[]; /* of a struct that begins with render_run */
@@ -36,10 +31,5 @@ extern const struct option RENDER_OPTIONS[]; /* of a struct that begins with ren
 int render_open(struct render_run *r);
 bool render_work(struct render_run *r, struct error *err);
 int render_close(struct render_run *r, bool ok, struct error *err);
-
-/* stats.c. stats_write: --stats, one object of JSON, when the render is over and its files are about to be written.
- * stats_us_per_path: microseconds of CPU per sample of a pixel; 0 if there was none. */
-void stats_write(FILE *f, const struct render_run *r);
-double stats_us_per_path(const struct render_run *r);
 
 #endif

@@ -35,6 +35,8 @@ int usage_error(const struct command *command, const char *format, ...)
     return EXIT_USAGE;
 }
 
+int job_failed(const struct error *err) { return err->text[0] != '\0' ? fail(err) : EXIT_JOB; }
+
 /* --- help --------------------------------------------------------------------------------------------- */
 
 static void print_command(const struct command *c)

@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
-#include "cli/options.h"
+#include "library/options.h"
 
 enum { EXIT_OK = 0, EXIT_JOB = 1, EXIT_USAGE = 2 }; /* success, failure of the job, wrong usage */
 
@@ -40,6 +40,9 @@ extern const struct program program;
  *   command  whose help the message points to; NULL: everybody's */
 int fail(const struct error *err);
 int usage_error(const struct command *command, const char *format, ...);
+
+/* job_failed: say why a scene cannot be loaded, unless that has been said; returns the exit status. */
+int job_failed(const struct error *err);
 
 /* command_line: what the program does with its arguments, argv[0] being its own name. Returns the exit status, which is
  * EXIT_JOB with a message where something that was printed could not be written. */

@@ -16,14 +16,9 @@ static bool resumes_its_own(const struct keep *o)
     return o->checkpoint != NULL && o->resume != NULL && strcmp(o->checkpoint, o->resume) == 0;
 }
 
-bool keep_asks_noise(const struct render_job *job)
-{
-    return job->noise[NOISE_RELATIVE] > 0 || job->noise[NOISE_8_BIT] > 0;
-}
-
 bool keep_check(const struct keep *o, const struct render_job *job, struct error *err)
 {
-    if (job->samples[1] > 0 && keep_asks_noise(job))
+    if (job->samples[1] > 0 && job_asks_noise(job))
         return error_usage(err, "--noise is that of the whole image; --samples takes a part of it");
     if (o->checkpoint == NULL)
         return true;
@@ -37,47 +32,9 @@ bool keep_check(const struct keep *o, const struct render_job *job, struct error
 }
 
 /* If a checkpoint that is to be resumed and written does not exist yet, the render begins. */
-static bool resume(struct keep *k, struct error *err)
+static bool resume(const struct keep *k, struct error *err)
 {
-    struct part found;
-    if (k->resume == NULL || (resumes_its_own(k) && !file_exists(k->resume)))
-        return true;
-    FILE *file = part_open(k->resume, &found, err);
-    if (file == NULL)
-        return false;
-    if (k->film->half != NULL && !found.halves && found.done + found.passes > 0) {
-        fclose(file);
-        part_free(&found);
-        return error_set(err, "%s: it was made without --noise and cannot be continued with it", k->resume);
-    }
-    struct part asked = k->part; /* the same picture, of however many samples */
-    asked.planned = found.planned;
-    bool ok = part_same(&found, k->resume, &asked, err);
-    if (ok && (found.first != k->part.first || found.end > k->part.end))
-        ok = error_set(err, "%s: it is for the samples %ld:%ld, not %ld:%ld", k->resume, found.first, found.end,
-                       k->part.first, k->part.end);
-    if (ok)
-        ok = part_add(file, k->resume, &found, k->film, err);
-    else
-        fclose(file);
-    part_free(&found);
-    return ok;
-}
-
-/* If learning was cut short, its samples are for this image alone: the checkpoint holds none, and a resumed render
- * begins again. */
-static bool save_film(struct keep *k, struct error *err)
-{
-    const struct film *f = k->film;
-    struct film none = {.rect = f->rect};
-    struct file_output file;
-    if (!file_create(k->checkpoint, &file, err))
-        return false;
-    if (f->learnt_short)
-        film_init(&none, f->rect, f->full_width, f->full_height);
-    part_write(&file, &k->part, f->learnt_short ? &none : f);
-    film_free(&none);
-    return file_commit(&file, err);
+    return k->resume == NULL || (resumes_its_own(k) && !file_exists(k->resume)) || state_load(k->of, k->resume, err);
 }
 
 /* The share of the work that is done if the noise ends it: the square of the noise falls as 1 / samples. */
@@ -85,16 +42,16 @@ static double share_by_noise(const struct keep *k)
 {
     double share = HUGE_VAL;
     for (int i = 0; i < N_NOISE_SCALES; i++)
-        if (k->job->noise[i] > 0)
-            share = fmin(share, sqr(k->job->noise[i] / k->film->noise[i].value));
+        if (k->of->job.noise[i] > 0)
+            share = fmin(share, sqr(k->of->job.noise[i] / k->of->film.noise[i].value));
     return share;
 }
 
 static void show(struct keep *k, double done)
 {
-    bool relative = k->job->noise[NOISE_RELATIVE] > 0;
-    double noise = k->film->noise[relative ? NOISE_RELATIVE : NOISE_8_BIT].value;
-    if (k->film->half != NULL && noise < INFINITY) {
+    bool relative = k->of->job.noise[NOISE_RELATIVE] > 0;
+    double noise = k->of->film.noise[relative ? NOISE_RELATIVE : NOISE_8_BIT].value;
+    if (k->of->film.half != NULL && noise < INFINITY) {
         snprintf(k->bar.note, sizeof k->bar.note, relative ? ", noise %.3g" : ", noise %.3g of 255", noise);
         done = fmax(done, fmin(share_by_noise(k), 1));
     }
@@ -112,7 +69,7 @@ static void warn_once(bool *fails, bool ok, const struct error *err)
 static void save(struct keep *k)
 {
     struct error err;
-    bool ok = save_film(k, &err);
+    bool ok = state_save(k->of, k->checkpoint, &err);
     warn_once(&k->save_fails, ok, &err);
     k->saved = os_wall_seconds();
 }
@@ -138,43 +95,33 @@ static bool late(const struct keep *k, double more)
 }
 
 /* A block under way has half a second to end. */
-static enum cancel cancel(void *context)
+int keep_cancel(void *context)
 {
-    return interrupt_caught() != 0 || late(context, 0.5) ? CANCEL_NOW : late(context, 0) ? CANCEL_BLOCK : CANCEL_NOT;
+    return interrupt_caught() != 0 || late(context, 0.5) ? ASBDPT_STOP
+           : late(context, 0) ? ASBDPT_END_BLOCK : ASBDPT_CONTINUE;
 }
 
-static void progress(void *context, double learnt, double done)
+void keep_progress(void *context, double learnt, double done)
 {
     struct keep *k = context;
     (void)learnt;
-    if (cancel(k) == CANCEL_NOW) /* the bar is gone */
+    if (keep_cancel(k) == ASBDPT_STOP) /* the bar is gone */
         return;
     show(k, done);
     if (k->checkpoint != NULL && os_wall_seconds() - k->saved >= k->interval)
         save(k);
-    if (k->preview > 0 && film_samples(k->film) > 0 && os_wall_seconds() - k->begun >= k->preview_due)
+    if (k->preview > 0 && film_samples(&k->of->film) > 0 && os_wall_seconds() - k->begun >= k->preview_due)
         preview(k);
 }
 
-bool keep_begin(struct keep *k, struct render_job *job, struct film *film, const struct outputs *pictures,
-                struct error *err)
+bool keep_begin(struct keep *k, struct asbdpt *of, const struct outputs *pictures, struct error *err)
 {
-    if (keep_asks_noise(job))
-        film_keep_halves(film);
-    k->job = job;
-    k->film = film;
+    k->of = of;
     k->pictures = pictures;
     k->preview_due = fmin(1, k->preview);
-    k->part = part_describe(job);
-    if (!resume(k, err)) {
-        part_free(&k->part);
+    if (!resume(k, err))
         return false;
-    }
-    job->first += film->iterations;
-    job->progress = progress;
-    job->cancel = cancel;
-    job->context = k;
-    progress_start(&k->bar, job->quiet);
+    progress_start(&k->bar, of->job.quiet);
     k->begun = k->saved = k->bar.start;
     interrupt_defer(STOPPING + !k->bar.bar);
     return true;
@@ -182,7 +129,7 @@ bool keep_begin(struct keep *k, struct render_job *job, struct film *film, const
 
 static void say_noise(const struct keep *k)
 {
-    const struct film *f = k->film;
+    const struct film *f = &k->of->film;
     const struct noise_estimate *relative = &f->noise[NOISE_RELATIVE], *levels = &f->noise[NOISE_8_BIT];
     long every = 2L * f->run;
     if (relative->value < INFINITY)
@@ -195,9 +142,9 @@ static void say_noise(const struct keep *k)
 
 bool keep_end(struct keep *k, bool ok, struct error *err)
 {
-    const struct film *f = k->film;
+    const struct film *f = &k->of->film;
     int signal = interrupt_caught();
-    long wanted = k->part.end - k->part.first;
+    long wanted = k->of->part.end - k->of->part.first;
     char more[64] = "";
     progress_end(&k->bar);
     if (f->passes > 0)
@@ -211,5 +158,5 @@ bool keep_end(struct keep *k, bool ok, struct error *err)
                  late(k, 1) ? ", when the samples that had begun were complete" : "", f->iterations, wanted, more);
     if (ok && k->bar.shown && f->half != NULL)
         say_noise(k);
-    return ok && (k->checkpoint == NULL || save_film(k, err));
+    return ok && (k->checkpoint == NULL || state_save(k->of, k->checkpoint, err));
 }

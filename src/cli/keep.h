@@ -11,6 +11,7 @@
 
 #include "base/progress.h"
 #include "cli/outputs.h"
+#include "library/state.h"
 
 struct keep {
     /* Options. */
@@ -20,9 +21,7 @@ struct keep {
     const char *resume;      /* file or NULL */
     double preview;          /* most seconds between previews; 0: none */
     /* What becomes of them. */
-    const struct render_job *job;
-    struct part part; /* what is being rendered */
-    struct film *film;
+    struct asbdpt *of;       /* the render; borrowed */
     struct progress bar;
     double begun, saved; /* when the render was, and the last checkpoint: seconds of os_wall_seconds */
     double preview_due;  /* seconds since `begun` */
@@ -30,19 +29,17 @@ struct keep {
     const struct outputs *pictures; /* for previews; borrowed */
 };
 
-/* keep_asks_noise: is there a limit of noise? keep_check: can the options be as they are, and the checkpoint's file be
- * written? False with a message. */
-bool keep_asks_noise(const struct render_job *job);
+/* keep_check: can the options be as they are, and the checkpoint's file be written? False with a message. */
 bool keep_check(const struct keep *k, const struct render_job *job, struct error *err);
 
-/* keep_begin: continue what --resume names. False with a message; after success keep_end must follow.
- *   job     in-out: its samples, and what hears of its progress and cancels it, which is given `k`
- *   film    initialised, empty
+/* keep_begin: continue what --resume names, and begin to watch. False with a message; after success keep_end must
+ * follow. keep_progress, keep_cancel: for asbdpt_render, whose context is `k`.
  *   pictures  their film and part set before the render
  * keep_end: remove the progress bar, say on stderr if and why the render has stopped early, save the last checkpoint if
- * `ok`. False with a message where it cannot be written; err may be NULL. The caller releases k->part. */
-bool keep_begin(struct keep *k, struct render_job *job, struct film *film, const struct outputs *pictures,
-                struct error *err);
+ * `ok`. False with a message where it cannot be written; err may be NULL. */
+bool keep_begin(struct keep *k, struct asbdpt *of, const struct outputs *pictures, struct error *err);
+void keep_progress(void *context, double learnt, double done);
+int keep_cancel(void *context);
 bool keep_end(struct keep *k, bool ok, struct error *err);
 
 #endif

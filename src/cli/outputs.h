@@ -8,7 +8,7 @@
 #include <stdbool.h>
 
 #include "base/file.h"
-#include "cli/options.h"
+#include "library/options.h"
 #include "image/image.h"
 #include "image/tone.h"
 #include "render/part.h"

@@ -149,7 +149,7 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
     }
 }
 
-void asbdpt_render(const struct prepared *p, const struct tile_pass *pass)
+void selection_render(const struct prepared *p, const struct tile_pass *pass)
 {
     for (long iteration = pass->first; iteration < pass->end; iteration++)
         render_iteration(p, pass, iteration);
@@ -171,4 +171,4 @@ const struct method method_subspaces = {
     .name = "asbdpt", .select = "subspaces", .help = "light vertices by what they are worth where the eye vertex is",
     .parameters = PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD,
     .vertices = true, .learns_use = true, .learns_pairs = true, .build = build, .draw = draw,
-    .render = asbdpt_render};
+    .render = selection_render};

@@ -19,8 +19,8 @@
 
 #include "integrators/method.h"
 
-/* asbdpt_render: the `render` of such methods. It stands in asbdpt.c, beside the choice of the default. */
-void asbdpt_render(const struct prepared *p, const struct tile_pass *pass);
+/* selection_render: the `render` of such methods. It stands in asbdpt.c, beside the choice of the default. */
+void selection_render(const struct prepared *p, const struct tile_pass *pass);
 
 /* Its steps.
  *

@@ -133,7 +133,7 @@ struct method {
     void (*prepare)(const struct render_job *job, struct prepared *p);
     void (*release)(struct prepared *p); /* release what `prepare` has added to p->own. May be NULL */
 
-    /* A tile pass: a loop of the method's own, or asbdpt_render (loop.h). */
+    /* A tile pass: a loop of the method's own, or selection_render (loop.h). */
     void (*render)(const struct prepared *p, const struct tile_pass *pass);
 };
 

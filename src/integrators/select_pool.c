@@ -22,7 +22,7 @@ enum metric { METRIC_CONSTANT, METRIC_THROUGHPUT, METRIC_USE };
 static const char *const METRICS[] = {"constant", "throughput", "importance", NULL};
 
 /* What each pixel of the tile has drawn. */
-struct index {
+struct pool_index {
     struct drawn drawn[MAX_TILE_SIZE * MAX_TILE_SIZE];
 };
 
@@ -36,7 +36,7 @@ static double importance_of(const struct prepared *p, const struct vertex *path,
 static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
-    struct index *index = arena_alloc(&pool->arena, sizeof *index);
+    struct pool_index *index = arena_alloc(&pool->arena, sizeof *index);
     double *q = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *q), sum = 0;
     int *order = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *order);
     for (int k = 0; k < pool->n; k++) {
@@ -54,14 +54,14 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
         int k = alias_sample_bin(&pool->alias, order[i % pool->n], u, &pmf, NULL);
         index->drawn[i] = (struct drawn){pool_path(pool, k), 1, pool->length[k], pmf};
     }
-    return index;
+    return (struct index *)index;
 }
 
 static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
                  int i, int n, struct drawn *out)
 {
     (void)p, (void)z, (void)i, (void)n;
-    *out = index->drawn[sample->number];
+    *out = ((const struct pool_index *)index)->drawn[sample->number];
     return true;
 }
 
@@ -75,4 +75,4 @@ const struct method method_pool = {
     .name = "asbdpt", .select = "pool",
     .help = "one alias table over the light sub-paths of a tile, weighted: unbiased", .parameters = PARAMETERS,
     .numbers = NUMBERS_OF_BDPT, .rr_threshold = DEFAULT_RR_THRESHOLD, .learns_use = true,
-    .build = build, .draw = draw, .render = asbdpt_render};
+    .build = build, .draw = draw, .render = selection_render};

@@ -68,4 +68,4 @@ static const struct field PARAMETERS[] = {
 const struct method method_vertices = {
     .name = "asbdpt", .select = "vertices", .help = "one alias table over the light vertices of a tile",
     .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true,
-    .learns_use = true, .prepare = prepare, .build = build, .draw = draw, .render = asbdpt_render};
+    .learns_use = true, .prepare = prepare, .build = build, .draw = draw, .render = selection_render};

@@ -125,18 +125,24 @@ static void run(struct parser *p)
 
 /* --- files -------------------------------------------------------------------------------------------- */
 
-/* Read a file, whose tokens come next. Its name lives as long as the parser, for all places in it. Returns false with a
- * message in *err if it cannot be read. */
-static bool enter_file(struct parser *p, const char *path, struct error *err)
+/* The tokens of a text come next, which is given away; NULL: there is none. Its name lives as long as the parser, for
+ * all places in it. Returns whether there is one. */
+static bool enter(struct parser *p, const char *path, char *text, size_t size)
 {
-    size_t size;
-    char *text = scene_files_read(&p->named, path, &size, err);
     if (text == NULL)
         return false;
     struct source_file *source = arena_alloc(&p->arena, sizeof *source);
     *source = (struct source_file){arena_text(&p->arena, path), text, text + size, p->lexer.file == NULL};
     lexer_enter(&p->lexer, source);
     return true;
+}
+
+/* The same of a file. False with a message in *err if it cannot be read. */
+static bool enter_file(struct parser *p, const char *path, struct error *err)
+{
+    size_t size;
+    char *text = scene_files_read(&p->named, path, &size, err);
+    return enter(p, path, text, size);
 }
 
 /* Relative names start in the directory of the main file, wherever the Include stands. */
@@ -222,7 +228,10 @@ bool parse_scene(const char *path, const struct parse_options *options, struct s
     p->integrator = options->integrator;
     out->memory = budget_new(options->max_memory, "; --max-memory raises the limit");
     start(p, path, out, sink, err != NULL ? err : &first);
-    if (enter_file(p, path, p->messages.err))
+    size_t size = options->length;
+    char *text = options->text != NULL ? scene_files_copy(&p->named, path, options->text, size, p->messages.err)
+                                       : scene_files_read(&p->named, path, &size, p->messages.err);
+    if (enter(p, path, text, size))
         run(p);
     else
         messages_report(&p->messages);

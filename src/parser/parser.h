@@ -15,6 +15,8 @@
 struct parse_options {
     const char *integrator; /* before the scene's own it says whether media are seen */
     double max_memory;      /* see budget_new */
+    const char *text;       /* [length] of the main file, which is not read then; or NULL */
+    size_t length;
 };
 
 /* parse_scene: read a file and everything it includes.

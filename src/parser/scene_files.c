@@ -70,11 +70,27 @@ bool scene_files_count(struct scene_files *f, uint64_t content, double bytes, st
     return budget_take(f->memory, bytes, err);
 }
 
-char *scene_files_read(struct scene_files *f, const char *path, size_t *size, struct error *err)
+static char *counted(struct scene_files *f, char *text, size_t size, struct error *err)
 {
-    char *text = text_read(path, size, err);
-    if (text == NULL || scene_files_count(f, hash_content(text, *size), (double)*size, err))
+    if (text == NULL || scene_files_count(f, hash_content(text, size), (double)size, err))
         return text;
     free(text);
     return NULL;
+}
+
+char *scene_files_read(struct scene_files *f, const char *path, size_t *size, struct error *err)
+{
+    char *text = text_read(path, size, err);
+    return counted(f, text, *size, err);
+}
+
+char *scene_files_copy(struct scene_files *f, const char *path, const char *given, size_t size, struct error *err)
+{
+    if (size >= INT32_MAX) {
+        error_set(err, "%s: cannot read the text: it is larger than 2 GiB", path);
+        return NULL;
+    }
+    char *text = mem_alloc(size + 1, 1);
+    memcpy(text, given, size);
+    return counted(f, text, size, err);
 }

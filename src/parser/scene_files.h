@@ -31,10 +31,11 @@ char *text_read(const char *path, size_t *size, struct error *err);
  * name. */
 char *scene_files_path(struct scene_files *f, const char *name, struct error *err);
 
-/* scene_files_read: text_read, counted. scene_files_count: a file of that hash_content has been read, and so many bytes
+/* scene_files_read: text_read, counted. scene_files_copy: the same of a text in memory. scene_files_count: a file of that hash_content has been read, and so many bytes
  * have been taken. Whatever is read counts as if it stayed: where a file is read again and again, that ends. NULL, or
  * false, with a message where that is too much. */
 char *scene_files_read(struct scene_files *f, const char *path, size_t *size, struct error *err);
+char *scene_files_copy(struct scene_files *f, const char *path, const char *given, size_t size, struct error *err);
 bool scene_files_count(struct scene_files *f, uint64_t content, double bytes, struct error *err);
 
 #endif

@@ -235,7 +235,10 @@ static void hear(void *context, bool is_error, const char *text)
 {
     struct loading *l = context;
     l->scene->n_warnings += !is_error;
-    say_line("asbdpt: %s%s", is_error || l->job->strict ? "" : "warning: ", text);
+    if (l->job->sink.hear != NULL)
+        l->job->sink.hear(l->job->sink.context, is_error, text);
+    else
+        say_line("asbdpt: %s%s", is_error || l->job->strict ? "" : "warning: ", text);
 }
 
 /* A warning about the scene as a whole. */
@@ -297,7 +300,7 @@ bool job_open(struct render_job *job, struct scene *scene, struct error *err)
 {
     struct loading l = {job, scene};
     const struct message_sink sink = {hear, &l};
-    const struct parse_options options = {job->integrator_name, 1e9 * job->max_memory};
+    const struct parse_options options = {job->integrator_name, 1e9 * job->max_memory, job->scene_text, job->scene_length};
     err->text[0] = '\0';
     if (!parse_scene(job->scene_path, &options, scene, &sink, NULL))
         return false;

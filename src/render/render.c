@@ -49,6 +49,7 @@ struct run {
     struct prepared *method;
     struct film *film;
     struct tiling tiling;
+    int block;        /* iterations of a block */
     int64_t begun;    /* tile passes of the first block that the film holds already */
     int64_t n_passes; /* of all blocks, with these */
     bool good; /* the noise is below the limit */
@@ -85,7 +86,7 @@ static int64_t tiles_per_block(const struct run *r) { return tiling_count(&r->ti
 static void block_range(const struct run *r, int64_t b, long *first, long *end)
 {
     const struct render_job *o = r->job;
-    int64_t block = r->method->size.block, begin = (o->first / block + b) * block;
+    int64_t block = r->block, begin = (o->first / block + b) * block;
     *first = begin > o->first ? (long)begin : o->first;
     *end = begin + block < o->end ? (long)(begin + block) : o->end;
 }
@@ -157,7 +158,7 @@ static bool merge_pass(void *context, int64_t number, int slot)
 static void run_all(struct run *r)
 {
     const struct render_job *o = r->job;
-    int64_t block = r->method->size.block;
+    int64_t block = r->block;
     int64_t first_block = o->first / block, end_block = (o->end + block - 1) / block;
     int n_slots = (o->observers != NULL ? OBSERVED_SLOTS : SLOTS_PER_THREAD) * o->n_threads;
     r->n_passes = tiles_per_block(r) * (end_block - first_block);
@@ -195,26 +196,28 @@ static bool check_range(const struct run *r, struct error *err)
 /* Tiles, and blocks where their length is free. */
 static bool cut(struct run *r, struct error *err)
 {
-    struct pass_size *size = &r->method->size;
-    if (size->block == 0)
-        size->block = r->job->block > 0 ? r->job->block : choose_block(r->job, size->tile);
+    const struct pass_size *size = &r->method->size;
+    long first, end;
+    r->block = size->block > 0 ? size->block : r->job->block > 0 ? r->job->block : choose_block(r->job, size->tile);
     r->tiling = tiling_of(r->job->film_rect, size);
-    r->film->run = halves_run(size->block);
+    r->film->run = halves_run(r->block);
     r->begun = r->film->passes;
-    return r->begun < tiles_per_block(r) ||
-           error_set(err, "the film has more tile passes in it than a block of samples has");
+    block_range(r, 0, &first, &end);
+    return r->begun == 0 || (r->begun < tiles_per_block(r) && r->film->block.iterations == end - first) ||
+           error_set(err, "the film has tile passes in it of another block of samples");
 }
 
 bool render_scene(struct render_job *job, struct prepared *p, struct film *film, struct error *err)
 {
     struct run r = {.job = job, .method = p, .film = film};
-    bool begun = film->iterations > 0 || film->passes > 0;
-    job_prepare(job, p);
-    film->learnt_short = p->hasty && !begun;
+    bool begun = film->iterations > 0 || film->passes > 0, prepared = p->tables != NULL;
+    if (!prepared)
+        job_prepare(job, p);
+    film->learnt_short |= p->hasty && !begun;
     if (!check_range(&r, err) || !cut(&r, err))
         return false;
     /* Learning that was cut short has learnt other things than what the film's samples go by: no more are added. */
-    bool in_haste = p->hasty && begun;
+    bool in_haste = p->hasty && begun && !prepared;
     if (job->scene->lights.n == 0 && job->observers == NULL) { /* all samples are black */
         film->block.iterations = job->end - job->first;
         film_end_block(film);

@@ -29,7 +29,7 @@ struct observers {
 
 /* render_scene: render into a film.
  *   job   settled, its scene prepared
- *   p     its method; what that learns is in it afterwards
+ *   p     its method, which learns now unless it has learnt already; what it learns is in it afterwards
  *   film  initialised by film_init for job->film_rect, possibly holding earlier iterations already, and
  *         film->passes tile passes of the block that begins at job->first
  * Returns false with a message when the film and the job do not fit together. */

@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "base/settings.h"
+#include "parser/messages.h" /* struct message_sink */
 #include "scene/film.h"
 
 struct method;
@@ -26,6 +27,8 @@ enum cancel { CANCEL_NOT, CANCEL_BLOCK, CANCEL_NOW };
 struct render_job {
     /* What is asked. 0, NULL or false: as the scene says, or else as is usual. Texts are borrowed. */
     const char *scene_path, *integrator_name, *filter;
+    const char *scene_text; /* [scene_length], in the place of the file; or NULL */
+    size_t scene_length;
     struct settings overrides; /* parameters of the integrator, of -P; of whoever asks */
     int spp;
     int res[2];          /* width and height of the film; height 0: the same shape */
@@ -54,6 +57,7 @@ struct render_job {
     enum light_strategy strategy;
 
     /* Who hears of it. All may be NULL, and share the context. */
+    struct message_sink sink; /* of warnings and errors of the scene, in the place of stderr */
     const struct observers *observers; /* who looks on at every path */
     /* Called after each chunk of learning and after each tile pass with the shares of both that are done, in [0,1]; one
      * call at a time, while nothing else touches the film. */
@@ -67,6 +71,12 @@ struct render_job {
 static inline enum cancel job_cancelled(const struct render_job *job)
 {
     return job->cancel != NULL ? job->cancel(job->context) : CANCEL_NOT;
+}
+
+/* job_asks_noise: is there a limit of noise? */
+static inline bool job_asks_noise(const struct render_job *job)
+{
+    return job->noise[NOISE_RELATIVE] > 0 || job->noise[NOISE_8_BIT] > 0;
 }
 
 static inline void job_progress(const struct render_job *job, double learnt, double done)

@@ -90,7 +90,7 @@ static bool open_light(struct channels *l, int i, struct error *err)
     static const char *const KINDS[] = {
         [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot", [LIGHT_DISTANT] = "distant",
         [LIGHT_INFINITE] = "infinite"};
-    const struct light_group *g = &l->run->scene.lights.group[i];
+    const struct light_group *g = &l->run->of.scene.lights.group[i];
     size_t size = strlen(l->options->lights) + 64;
     char *name = mem_alloc(size, 1);
     snprintf(name, size, "%s/light%02d_%s.pfm", l->options->lights, i, g->name != NULL ? g->name : KINDS[g->kind]);
@@ -101,7 +101,7 @@ static bool open_light(struct channels *l, int i, struct error *err)
 
 static bool open_lights(struct channels *l, struct error *err)
 {
-    int n = l->run->scene.lights.n_groups;
+    int n = l->run->of.scene.lights.n_groups;
     bool ok = true;
     if (n > LIGHT_MAX_GROUPS)
         return error_usage(err, "--lights: %d images, one for each light, and %d are the most here; lights with the "
@@ -122,7 +122,7 @@ static bool names_differ(const struct channels *l, struct error *err)
     for (int i = 0; i < l->n; i++)
         if (l->item[i].light >= 0 || l->item[i].aov < N_AOVS)
             texts_add(&names, l->item[i].file.path);
-    bool ok = texts_differ(&names, err) && job_spares(&l->run->scene, &names, err);
+    bool ok = texts_differ(&names, err) && job_spares(&l->run->of.scene, &names, err);
     free(names.item);
     return ok;
 }
@@ -151,14 +151,14 @@ static bool begin_planes(struct channels *l, struct error *err)
     struct render_run *r = l->run;
     const struct channel_options *o = l->options;
     struct error why;
-    planes_init(&l->planes, &r->scene, &r->film, o->lights != NULL, o->alpha, l->wanted[AOV_VARIANCE],
-                r->job.n_threads);
-    if (!budget_has(&r->scene.memory, (1 + l->planes.n) * film_bytes(r->film.rect), &why))
+    planes_init(&l->planes, &r->of.scene, &r->of.film, o->lights != NULL, o->alpha, l->wanted[AOV_VARIANCE],
+                r->of.job.n_threads);
+    if (!budget_has(&r->of.scene.memory, (1 + l->planes.n) * film_bytes(r->of.film.rect), &why))
         return error_set(err, "%s: its film and %d more of %dx%d pixels: %s; --res makes them smaller",
-                         r->job.scene_path, l->planes.n, r->scene.width, r->scene.height, why.text);
+                         r->of.job.scene_path, l->planes.n, r->of.scene.width, r->of.scene.height, why.text);
     l->observers = planes_observers(&l->planes);
-    if (l->planes.n > 0 && (r->scene.lights.n > 0 || o->alpha)) /* else all samples are black */
-        r->job.observers = &l->observers;
+    if (l->planes.n > 0 && (r->of.scene.lights.n > 0 || o->alpha)) /* else all samples are black */
+        r->of.job.observers = &l->observers;
     return true;
 }
 
@@ -194,14 +194,14 @@ static void progress(void *context, double learnt, double done)
 static bool make_first_hit(const struct channels *l, float *const picture[N_AOVS])
 {
     struct keep *k = &l->run->keep;
-    struct render_job o = l->run->job;
-    o.end = l->run->film.iterations > 0 ? l->run->film.iterations : 1;
+    struct render_job o = l->run->of.job;
+    o.end = l->run->of.film.iterations > 0 ? l->run->of.film.iterations : 1;
     o.progress = progress;
     o.cancel = cancel;
     o.context = k;
-    progress_start(&k->bar, l->run->job.quiet);
+    progress_start(&k->bar, l->run->of.job.quiet);
     strcpy(k->bar.note, " of --aov");
-    bool ok = aov_render(&l->run->scene, &o, l->options->seen, picture);
+    bool ok = aov_render(&l->run->of.scene, &o, l->options->seen, picture);
     progress_end(&k->bar);
     return ok;
 }
@@ -243,9 +243,9 @@ static int channels_of(const struct channels *l, const float *alpha, float *cons
 static bool write_one(const struct channels *l, struct channel_file *f, float *const picture[N_AOVS], struct error *err)
 {
     const struct render_run *r = l->run;
-    const struct film *film = f->light >= 0 ? &l->planes.film[f->light] : &r->film;
-    float *pixels = f->aov < N_AOVS ? NULL : image_of(film, r->scene.film_scale), *alpha = NULL;
-    struct raster raster = {r->keep.part.place, rect_width(film->rect), rect_height(film->rect), pixels, NULL, 0};
+    const struct film *film = f->light >= 0 ? &l->planes.film[f->light] : &r->of.film;
+    float *pixels = f->aov < N_AOVS ? NULL : image_of(film, r->of.scene.film_scale), *alpha = NULL;
+    struct raster raster = {r->of.part.place, rect_width(film->rect), rect_height(film->rect), pixels, NULL, 0};
     struct channel channel[1 + 3 * N_AOVS];
     if (f->aov < N_AOVS)
         raster.pixels = picture[f->aov];
@@ -272,7 +272,7 @@ static bool write_all(struct channels *l, float *const picture[N_AOVS], bool ok,
             continue;
         char *name = mem_copy_text(f->file.path);
         bool done = write_one(l, f, picture, ok ? err : NULL);
-        if (done && !l->run->job.quiet)
+        if (done && !l->run->of.job.quiet)
             say_line("wrote %s", name);
         ok = ok && done;
         free(name);
@@ -283,7 +283,7 @@ static bool write_all(struct channels *l, float *const picture[N_AOVS], bool ok,
 /* The images of --aov that are wanted, to be given to free(); NULL where they were not made. False with a message. */
 static bool make_aovs(const struct channels *l, float *picture[N_AOVS], struct error *err)
 {
-    const struct film *film = &l->run->film;
+    const struct film *film = &l->run->of.film;
     bool first_hit = false;
     if (l->wanted[AOV_VARIANCE] && film->iterations < 2)
         return error_set(err, "--aov: not written, for one sample per pixel has no variance");
@@ -292,7 +292,7 @@ static bool make_aovs(const struct channels *l, float *picture[N_AOVS], struct e
         first_hit |= i < N_FIRST_HIT && l->wanted[i];
     }
     if (l->wanted[AOV_VARIANCE])
-        planes_variance(&l->planes, l->run->scene.film_scale, picture[AOV_VARIANCE]);
+        planes_variance(&l->planes, l->run->of.scene.film_scale, picture[AOV_VARIANCE]);
     bool looked = first_hit && make_first_hit(l, picture);
     if (first_hit && !looked)
         say_line("asbdpt: --aov: not written, for there are pixels that have not been looked at");

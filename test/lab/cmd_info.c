@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/os.h"
-#include "cli/job_options.h"
+#include "library/job_options.h"
 #include "image/image.h"
 #include "integrators/prepare.h"
 #include "lab/methods.h"

@@ -34,7 +34,7 @@ static const struct option OPTIONS[] = {
 static const char *of_samples(const struct more_options *o)
 {
     return channels_variance(&o->channel) ? "--aov variance" : o->channel.lights != NULL ? "--lights"
-           : o->channel.alpha ? "--alpha" : keep_asks_noise(&o->run.job) ? "--noise" : NULL;
+           : o->channel.alpha ? "--alpha" : job_asks_noise(&o->run.of.job) ? "--noise" : NULL;
 }
 
 /* Can the method show that? */
@@ -68,7 +68,7 @@ static int run(void *options)
     int status = render_open(r);
     if (status != EXIT_OK)
         return status;
-    bool ok = can_show(o, r->job.integrator, &err) && channels_open(&channels, &o->channel, r, &err);
+    bool ok = can_show(o, r->of.job.integrator, &err) && channels_open(&channels, &o->channel, r, &err);
     if (ok) {
         ok = render_work(r, &err);
         ok = channels_write(&channels, ok, &err);

@@ -2,7 +2,7 @@
  * one render, and all of them on one sheet. */
 #include <stdio.h>
 
-#include "cli/job_options.h"
+#include "library/job_options.h"
 #include "lab/bar.h"
 #include "lab/files.h"
 #include "lab/commands.h"

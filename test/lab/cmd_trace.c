@@ -2,7 +2,7 @@
 #include <stdio.h>
 
 #include "lab/commands.h"
-#include "cli/job_options.h"
+#include "library/job_options.h"
 #include "lab/trace_report.h"
 
 struct trace_options {

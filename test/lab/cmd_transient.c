@@ -5,7 +5,7 @@
 
 #include "base/mem.h"
 #include "base/number.h"
-#include "cli/job_options.h"
+#include "library/job_options.h"
 #include "image/image.h"
 #include "lab/bar.h"
 #include "lab/compare.h"

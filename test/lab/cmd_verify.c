@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "cli/job_options.h"
+#include "library/job_options.h"
 #include "lab/commands.h"
 #include "lab/conform.h"
 #include "lab/methods.h"

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "lab/commands.h"
-#include "cli/job_options.h"
+#include "library/job_options.h"
 #include "cli/outputs.h"
 #include "lab/worth.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "chains/chain.h"
-#include "cli/job_options.h"
+#include "library/job_options.h"
 #include "render/job.h"
 
 /* Set the parameters after the colons. False with a message if something there is no NAME=VALUE. */

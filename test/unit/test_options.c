@@ -1,4 +1,4 @@
-/* test_options.c: the reader of options (cli/options.h): every kind of option, its bounds, and what is refused and
+/* test_options.c: the reader of options (library/options.h): every kind of option, its bounds, and what is refused and
  * why. Every row of a subcommand's table is read into its struct. */
 #include <stdint.h>
 #include <stdio.h>

@@ -57,4 +57,4 @@ static const struct field PARAMETERS[] = {
 const struct method method_cbdpt = {
     .name = "cbdpt", .help = "combinatorial BDPT [Pajot 2011]: all pairs with M of a tile's light sub-paths",
     .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD,
-    .build = build, .draw = draw, .render = asbdpt_render};
+    .build = build, .draw = draw, .render = selection_render};

@@ -58,4 +58,4 @@ static const struct field PARAMETERS[] = {
 const struct method method_lvc = {
     .name = "lvc", .help = "light vertex cache [Davidovic 2014]: light vertices drawn uniformly from a tile's",
     .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true,
-    .prepare = prepare, .build = build, .draw = draw, .render = asbdpt_render};
+    .prepare = prepare, .build = build, .draw = draw, .render = selection_render};

@@ -444,7 +444,7 @@ void ris_render(const struct prepared *p, const struct tile_pass *pass)
     if (((const struct ris *)p->own)->nabata)
         render_weighed(p, pass);
     else
-        asbdpt_render(p, pass);
+        selection_render(p, pass);
 }
 
 /* --- the row ----------------------------------------------------------------------------------------- */

@@ -355,7 +355,7 @@ static void splat(const struct prepared *p, struct sample *sample, struct vertex
     }
 }
 
-/* As asbdpt_render, with classified eye sub-paths. */
+/* As selection_render, with classified eye sub-paths. */
 static void render(const struct prepared *p, const struct tile_pass *pass)
 {
     struct pool *pool = &pass->work->pool;

@@ -67,7 +67,9 @@ const struct option *options_next(const struct option *option);
  *   table   not empty
  *   argv    [argc]; argv[0] is the subcommand's name
  *   target  the subcommand's struct, all zeros
- * Returns false with a message on wrong usage. Either way options_free releases what the target's lists hold. */
+ * Returns false with a message on wrong usage. Either way options_free releases what the target's lists hold.
+ * options_add: read arguments over what is there already; nothing needs to be given. */
+bool options_add(const struct option *table, int argc, char **argv, void *target, struct error *err);
 bool options_read(const struct option *table, int argc, char **argv, void *target, struct error *err);
 void options_free(const struct option *table, void *target);
 

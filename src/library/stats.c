@@ -1,51 +1,51 @@
-/* stats.c: what a render was of and how it went, for programs: one object of JSON [RFC 8259]; see cmd_render.h. */
+/* stats.c: what a render was of and how it went, for programs: one object of JSON; see state.h. */
 #include <inttypes.h>
 #include <math.h>
 
 #include "base/os.h"
 #include "base/version.h"
-#include "cli/cmd_render.h"
+#include "library/state.h"
 
-double stats_us_per_path(const struct render_run *r)
+double stats_us_per_path(const struct asbdpt *r)
 {
     double paths = r->samples * (double)rect_pixels(r->film.rect);
     return paths > 0 ? 1e6 * r->cpu / paths : 0;
 }
 
 /* In quotes; a byte that is no part of UTF-8 becomes U+FFFD. NULL: null. */
-static void quote(FILE *f, const char *text)
+static void quote(struct growing *f, const char *text)
 {
-    fputs(text != NULL ? "\"" : "null", f);
+    growing_add(f, "%s", text != NULL ? "\"" : "null");
     for (int n; text != NULL && *text != '\0'; text += n > 0 ? n : 1) {
         unsigned char c = (unsigned char)*text;
         n = printable_length(text);
         if (c == '"' || c == '\\')
-            fprintf(f, "\\%c", c);
+            growing_add(f, "\\%c", c);
         else if (n > 0)
-            fwrite(text, 1, (size_t)n, f);
+            growing_add(f, "%.*s", n, text);
         else
-            fprintf(f, "\\u%04x", c < 0x80 ? c : 0xfffdu);
+            growing_add(f, "\\u%04x", c < 0x80 ? c : 0xfffdu);
     }
-    fputs(text != NULL ? "\"" : "", f);
+    growing_add(f, "%s", text != NULL ? "\"" : "");
 }
 
-static void put_text(FILE *f, const char *name, const char *text)
+static void put_text(struct growing *f, const char *name, const char *text)
 {
-    fprintf(f, ",\n\"%s\": ", name);
+    growing_add(f, ",\n\"%s\": ", name);
     quote(f, text);
 }
 
 /* With 17 digits, so that it is read back as it was. */
-static void put_number(FILE *f, const char *name, double value)
+static void put_number(struct growing *f, const char *name, double value)
 {
     if (isfinite(value))
-        fprintf(f, ",\n\"%s\": %.17g", name, value);
+        growing_add(f, ",\n\"%s\": %.17g", name, value);
     else
         put_text(f, name, NULL);
 }
 
 /* The values in force, from the scene, -P or the defaults, as they have been read. */
-static void put_table(FILE *f, const struct field *p, const void *from)
+static void put_table(struct growing *f, const struct field *p, const void *from)
 {
     for (; p != NULL && p->name != NULL; p++) {
         const void *value = (const char *)from + p->place;
@@ -56,35 +56,36 @@ static void put_table(FILE *f, const struct field *p, const void *from)
     }
 }
 
-static void put_parameters(FILE *f, const struct render_job *job, const struct prepared *p)
+static void put_parameters(struct growing *f, const struct render_job *job, const struct prepared *p)
 {
     const struct method *m = job->integrator;
-    fprintf(f, ",\n\"parameters\": {\n\"maxdepth\": %d", job->max_depth);
+    growing_add(f, ",\n\"parameters\": {\n\"maxdepth\": %d", job->max_depth);
     put_number(f, "rrthreshold", job->rr_threshold);
     put_text(f, "lightsamplestrategy", LIGHT_STRATEGIES[job->strategy]);
     if (m->select != NULL)
         put_text(f, "select", m->select);
     put_table(f, m->parameters, &p->parameters);
     put_table(f, m->own, p->own);
-    fputs("}", f);
+    growing_add(f, "%s", "}");
 }
 
-void stats_write(FILE *f, const struct render_run *r)
+void stats_add(struct growing *f, const struct asbdpt *r, const struct texts *files, const char *checkpoint)
 {
     const struct film *film = &r->film;
     struct method_number chosen[METHOD_NUMBERS];
     method_numbers(&r->prepared, chosen);
-    fprintf(f, "{\n\"version\": \"%s\"", VERSION);
+    growing_add(f, "{\n\"version\": \"%s\"", VERSION);
     put_text(f, "scene", r->job.scene_path);
-    for (int i = 0; i < r->pictures.n; i++) {
-        fputs(i > 0 ? ", " : ",\n\"files\": [", f);
-        quote(f, r->pictures.item[i].file.path);
+    growing_add(f, "%s", ",\n\"files\": [");
+    for (int i = 0; i < files->n; i++) {
+        growing_add(f, "%s", i > 0 ? ", " : "");
+        quote(f, files->item[i]);
     }
-    fputs("]", f);
-    put_text(f, "checkpoint", r->keep.checkpoint);
+    growing_add(f, "%s", "]");
+    put_text(f, "checkpoint", checkpoint);
     put_text(f, "integrator", r->job.integrator->name);
     put_parameters(f, &r->job, &r->prepared);
-    fprintf(f, ",\n\"seed\": %" PRIu64 ",\n\"film\": [%d, %d],\n\"corner\": [%d, %d]", r->job.seed,
+    growing_add(f, ",\n\"seed\": %" PRIu64 ",\n\"film\": [%d, %d],\n\"corner\": [%d, %d]", r->job.seed,
             r->scene.width, r->scene.height, film->rect.x0, film->rect.y0);
     put_number(f, "width", rect_width(film->rect));
     put_number(f, "height", rect_height(film->rect));
@@ -99,8 +100,8 @@ void stats_write(FILE *f, const struct render_run *r)
     put_number(f, "threads", r->job.n_threads);
     put_number(f, "peak_memory", os_peak_memory());
     put_number(f, "nonfinite", (double)film->nonfinite);
-    fprintf(f, ",\n\"chosen\": {\n\"%s\": %.17g", chosen->name, chosen->value);
+    growing_add(f, ",\n\"chosen\": {\n\"%s\": %.17g", chosen->name, chosen->value);
     for (const struct method_number *n = chosen + 1; n->name != NULL; n++)
         put_number(f, n->name, n->value);
-    fputs("}\n}\n", f);
+    growing_add(f, "%s", "}\n}\n");
 }

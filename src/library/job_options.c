@@ -1,12 +1,21 @@
 /* job_options.c: see job_options.h. */
-#include "cli/job_options.h"
+#include "library/job_options.h"
 
 #include <string.h>
 
 #include "base/os.h"
-#include "cli/command.h"
 
 #define AT(member) offsetof(struct render_job, member)
+const struct option LIMIT_OPTIONS[] = {
+    {"--noise", "X", OPTION_NUMBER, AT(noise[NOISE_RELATIVE]), 1e-9, 1e9,
+     .help = "stop when the noise is below X relative to the local brightness, e.g. 0.05; checked every 64 samples"},
+    {"--noise8", "X", OPTION_NUMBER, AT(noise[NOISE_8_BIT]), 1e-9, 1e9,
+     .help = "stop when the noise is below X of the 255 levels of 8-bit images; with --noise, when both hold"},
+    {"--samples", "FIRST:END", OPTION_RANGE, AT(samples), 0, 1 << 30,
+     .help = "render only the samples FIRST to END-1 of each pixel, for merge: -o NAME.part"},
+    {.others = RUN_OPTIONS},
+};
+
 const struct option RUN_OPTIONS[] = {
     {"--nthreads", "N", OPTION_INTEGER, AT(n_threads), 1, 1024, .alias = "-j",
      .help = "number of threads (default: one for each processor)"},
@@ -42,12 +51,4 @@ bool job_spares(const struct scene *scene, const struct texts *outputs, struct e
                 return error_usage(err, "%s: the scene is read from this file; an output needs another name",
                                    outputs->item[i]);
     return true;
-}
-
-int job_failed(const struct error *err) { return err->text[0] != '\0' ? fail(err) : EXIT_JOB; }
-
-int load_job(struct render_job *job, struct scene *scene, struct prepared *out)
-{
-    struct error err;
-    return job_load(job, scene, out, &err) ? EXIT_OK : job_failed(&err);
 }

@@ -1,5 +1,5 @@
 /* options.c: see options.h. */
-#include "cli/options.h"
+#include "library/options.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -302,6 +302,20 @@ static bool is_complete(const struct reader *r, void *target)
     return true;
 }
 
+static bool read_all(struct reader *r, void *target)
+{
+    bool ok = true;
+    for (r->at = 1; ok && r->at < r->argc; r->at++)
+        ok = looks_like_option(r->argv[r->at]) ? read_option(r, target) : read_operand(r, target);
+    return ok;
+}
+
+bool options_add(const struct option *table, int argc, char **argv, void *target, struct error *err)
+{
+    struct reader r = {.table = table, .argc = argc, .argv = argv, .err = err};
+    return read_all(&r, target);
+}
+
 bool options_read(const struct option *table, int argc, char **argv, void *target, struct error *err)
 {
     struct reader r = {.table = table, .argc = argc, .argv = argv, .err = err};
@@ -311,9 +325,7 @@ bool options_read(const struct option *table, int argc, char **argv, void *targe
         r.attached = o->fallback;
         ok = o->fallback == NULL || read_value(&r, target_of(o, target));
     }
-    for (r.at = 1; ok && r.at < argc; r.at++)
-        ok = looks_like_option(argv[r.at]) ? read_option(&r, target) : read_operand(&r, target);
-    return ok && is_complete(&r, target);
+    return ok && read_all(&r, target) && is_complete(&r, target);
 }
 
 void options_written(const struct option *table, void *target, struct texts *names)
