@@ -27,7 +27,8 @@ LABS     = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/lab/*.c tes
            $(filter-out %/cli/program.o %/render/rows.o,$(OBJECTS))
 TARGETS  = $(patsubst %,$(BUILD)/obj/test/fuzz/%.o,targets hostile lists)
 TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/unit/*.c)) $(TARGETS)
-PROGRAMS = asbdpt asbdpt-lab $(addprefix $(BUILD)/,test fuzz inject inject-lab inject-library embree)
+BOXED    = scene/scene scene/medium render/job
+PROGRAMS = asbdpt asbdpt-lab $(addprefix $(BUILD)/,test boxes fuzz inject inject-lab inject-library embree)
 
 # The tests, too, if they were built before: what is run is never older than its sources.
 all: asbdpt asbdpt-lab $(wildcard $(BUILD)/test) ## build ./asbdpt, the renderer, and ./asbdpt-lab, the laboratory (the default)
@@ -41,6 +42,8 @@ asbdpt: $(OBJECTS)
 asbdpt-lab: $(LABS)
 $(BUILD)/test: $(TESTS) $(filter-out %/main.o,$(LABS))
 $(BUILD)/fuzz: $(BUILD)/obj/test/fuzz/libfuzzer.o $(TARGETS) $(filter-out %/main.o,$(LABS))
+# the renderer with a tree of boxes in place of the kd-tree
+$(BUILD)/boxes: $(filter-out $(BOXED:%=$(BUILD)/obj/%.o),$(OBJECTS)) $(BOXED:%=$(BUILD)/obj/boxed/%.o) $(BUILD)/obj/test/boxes/boxes.o
 # both programs, except for functions that may fail: test/fuzz/inject.c has others in their place
 $(BUILD)/inject: $(OBJECTS) $(BUILD)/obj/test/fuzz/inject.o
 $(BUILD)/embree: $(BUILD)/obj/test/measure/peers/embree.o $(filter-out %/main.o,$(LABS))
@@ -54,6 +57,10 @@ $(PROGRAMS): $(BUILD)/files
 $(BUILD)/obj/test/%.o: test/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(FLAGS) $(TESTED) -Itest -Itest/lab -Itest/unit -I$(BUILD) $(DEPEND) $(CFLAGS) -c -o $@ $<
+
+$(BUILD)/obj/boxed/%.o: src/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(SAY)$(CC) $(FLAGS) $(foreach name,build closest all occluded,-Dkd_$(name)=box_$(name)) $(DEPEND) $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
@@ -158,13 +165,13 @@ check: asbdpt-lab ## facts about sources and documents, in ten seconds
 	@sh test/run/suites.sh $(FACTS)
 
 LONG  = $(foreach name,mini cli keep build examples progress library,"sh test/run/$(name).sh $(PROGRAM)")
-SHORT = $(foreach name,lab sample corpus outputs install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") \
+SHORT = $(foreach name,lab sample corpus outputs boxes install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") \
     "LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB)" "sh test/tree/words_test.sh" \
     "sh test/run/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
-test: asbdpt asbdpt-lab $(BUILD)/test lib ## build and run the test suite (three minutes on two cores)
+test: asbdpt asbdpt-lab $(BUILD)/test $(BUILD)/boxes lib ## build and run the test suite (three minutes on two cores)
 	@sh test/run/suites.sh $(LONG) $(FACTS) $(BUILD)/test $(SHORT)
 
-scripts: asbdpt asbdpt-lab lib ## the same without the suites in C: what depends on the sh and awk of a system
+scripts: asbdpt asbdpt-lab $(BUILD)/boxes lib ## the same without the suites in C: what depends on the sh and awk of a system
 	@sh test/run/suites.sh $(LONG) $(FACTS) $(SHORT)
 
 check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
@@ -247,7 +254,7 @@ tsan: ## run the threaded tests under the thread sanitizer
 release: all ## what a release consists of, into out/release: sources, the page that renders, man pages, checksums
 	sh test/tree/release.sh out/release
 
-doc: ## all documents as static HTML in out/html; begin with index.html
+doc: ## all documents, and the sources to read, as static HTML in out/html; begin with index.html
 	sh doc/html.sh out/html
 
 figures: asbdpt asbdpt-lab ## make the figures of doc/tour again

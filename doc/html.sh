@@ -57,7 +57,7 @@ sub, sup { font-size: 0.72em; line-height: 0; }
 .source { max-width: 68rem; }
 .source pre, .source .wide { width: auto; margin: 0; padding: 0; overflow: visible; background: none; }
 .source h2 { margin: 1.6em 0 0.2em; font-size: 1.2em; }
-.source > p { margin: 0; height: 0.7em; }
+.source > p:empty { margin: 0; height: 0.7em; }
 .source pre a { color: inherit; overflow-wrap: normal; }
 .source pre i { font: italic 1.1em/1.1 Georgia, "Times New Roman", serif; }
 .source .n, .source .n:hover { display: inline-block; width: 2.6em; margin-right: 1.4em; text-align: right; color: #8889; user-select: none; }

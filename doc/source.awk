@@ -141,7 +141,7 @@ function sign_of(c) {
     return escape(c)
 }
 # Text of comments: names of files, and names with an underscore, lead to them.
-function prose(s,    out, w, place) {
+function prose(s,    out, w, place, tag) {
     while (match(s, /[A-Za-z_][A-Za-z0-9_]*(\.[ch])?/)) {
         w = substr(s, RSTART, RLENGTH)
         out = out escape(substr(s, 1, RSTART - 1))
@@ -151,9 +151,11 @@ function prose(s,    out, w, place) {
         s = substr(s, RSTART + RLENGTH)
     }
     out = out escape(s)
-    while (match(out, /`[^`]+`/)) {
-        w = substr(out, RSTART + 1, RLENGTH - 2)
-        out = substr(out, 1, RSTART - 1) "<code>" w "</code>" substr(out, RSTART + RLENGTH)
+    while (match(out, /`[^`]+`| \*[a-z]+\*/)) {
+        tag = substr(out, RSTART, 1) == " " ? "em" : "code"
+        w = substr(out, RSTART, RLENGTH)
+        gsub(/[`*]/, "", w)
+        out = substr(out, 1, RSTART - 1) "<" tag ">" w "</" tag ">" substr(out, RSTART + RLENGTH)
     }
     return out
 }
@@ -175,7 +177,10 @@ function code(s,    i, out, part) {
         i = piece(s)
         part = substr(s, 1, i)
         s = substr(s, i + 1)
-        if (KIND == "comment") out = out "<i>" prose(part) "</i>"
+        if (KIND == "comment") { # blanks before it are those of code
+            match(part, /^ */)
+            out = out substr(part, 1, RLENGTH) "<i>" prose(substr(part, RLENGTH + 1)) "</i>"
+        }
         else if (KIND == "word") out = out word_of(part, s)
         else if (KIND == "sign") out = out sign_of(part)
         else out = out escape(part)
@@ -240,19 +245,33 @@ function page(    end, lines, out) {
             lines = lines "<span class=\"l\" id=\"L" now "\"><a class=\"n\" href=\"#L" now "\">" now "</a>" code(TEXT[file, now]) "\n</span>"
         }
     }
-    return frame(file, root, "source") "<h1>" file "</h1>\n" out (lines != "" ? "<pre>" lines "</pre>" : "") "</body></html>"
+    if (lines != "") out = out "<pre>" lines "</pre>\n"
+    if (NEXT[file] != "") out = out "<p>Next: <a href=\"" root "/" NEXT[file] ".html\">" NEXT[file] "</a></p>\n"
+    return frame(file, root, "source") "<h1>" file "</h1>\n" out "</body></html>"
+}
+# In which order the README reads the files.
+function find_order(    line, i, path, last) {
+    while ((getline line < "README.md") > 0)
+        while (line ~ /^\| [0-9]/ && match(line, /`[a-z]+\/[a-z_]+`/)) {
+            for (i = 1; i <= 2; i++) {
+                path = "src/" substr(line, RSTART + 1, RLENGTH - 2) (i == 1 ? ".h" : ".c")
+                if (path in LINES) { if (last != "") NEXT[last] = path; last = path }
+            }
+            line = "| 0" substr(line, RSTART + RLENGTH)
+        }
 }
 
-# What pages say of lines: the formula, or for what a line is an example.
+# What pages say of lines: the formula, or the number of an example.
 BEGIN {
     while (marks != "" && (getline line < marks) > 0) {
         split(line, part, "\t")
         root = part[2]
         gsub(/[^\/]+/, "..", root); sub(/\/?\.\.$/, "", root)
+        example = part[1] !~ /\/[0-9]/
         sub(/\.md$/, ".html", part[1])
         gsub(/\003/, "\n", part[6])
         MARK[part[2], part[3]] = MARK[part[2], part[3]] "<div class=\"f\"><a href=\"" root "/" part[1] "#" part[4] "\">" \
-            part[5] (part[6] == "" ? ": " part[7] : "") "</a>" (part[6] == "" ? "" : math_block(part[6])) "</div>\n"
+            part[5] "</a>" (example ? formula(escape(part[6]), 0) : math_block(part[6])) "</div>\n"
     }
 }
 FNR == 1 {
@@ -265,6 +284,7 @@ FNR == 1 {
 }
 { TEXT[FILENAME, FNR] = $0; LINES[FILENAME] = FNR; collect(bare($0)) }
 END {
+    find_order()
     for (i = 1; i <= n_files; i++) {
         file = order[i]
         path = out "/" file ".html"

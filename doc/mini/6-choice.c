@@ -387,7 +387,7 @@ static void table_make(struct table *t, int size, int *scratch)
     alias_build(t->bin, t->q, size, scratch);
 }
 
-/* A table over the row's sub-paths, by what their vertices carry. (pool.c) */
+/* A table over the row's sub-paths, by what their vertices carry. (select_pool.c) */
 static void fill(struct work *w, struct table *t)
 {
     for (int k = 0; k < SIZE; k++) {

@@ -500,7 +500,7 @@ static void table_make(struct table *t, int size, int *scratch)
     t->made = true;
 }
 
-/* A table over the row's sub-paths, by what the camera can use of them. (pool.c) */
+/* A table over the row's sub-paths, by what the camera can use of them. (select_pool.c) */
 static void fill(struct work *w, struct table *t)
 {
     for (int k = 0; k < SIZE; k++) {

@@ -3,7 +3,7 @@
  * Nodes hold float planes; traversal and intersection are computed in double from exact float vertices. A point found
  * on a surface is therefore within about 1e-15 of the scene's size of it.
  *
- * Tests: test_kdtree.c (against brute force, degenerate meshes).
+ * Tests: test_kdtree.c (against brute force, degenerate meshes), test/run/boxes.sh (pictures by a tree of boxes).
  */
 #ifndef ASBDPT_KDTREE_H
 #define ASBDPT_KDTREE_H

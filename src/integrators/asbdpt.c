@@ -5,9 +5,9 @@
  * ratio(e,l) tell what a light vertex in region l is worth to an eye vertex in region e (table.h), and L_v the
  * luminance of beta_v. Then
  *     P(v|z) = ratio(e(z), l(v)) L_v / sum over the pool.
- * A draw has two steps, first the region and then the vertex, each by bisection of cumulative sums, which keeps the C
- * strata of an eye vertex apart. Alias tables in their place cost 3 to 9 % more instructions: a region draws too rarely
- * from one to pay for its building.
+ * It draws by bisection of cumulative sums, not from alias tables: first the region, then the vertex. Bisection keeps
+ * the C strata of an eye vertex apart. Alias tables cost 3 to 9 % more instructions, because a region draws from its
+ * table too rarely to pay for building it. `select = pool` and `vertices` have one alias table for a whole tile.
  *
  * The MIS weights take this into account: the strategies count as
  *     n = x / (1 + x / M),      x = 2 C ratio(e(z), l(y)) / N,      M = K / 4
@@ -120,24 +120,23 @@ static bool draw(const struct prepared *p, const struct index *v, struct sample 
 
 /* --- the loop ---------------------------------------------------------------------------------------- */
 
-/* After a race (race.h) only one of `every` iterations may have light sub-paths, or draws of later hits. What is drawn
- * then counts `every` times. In the other iterations K = 0: they are those of a path tracer. */
+/* After a race (race.h) only one of `every` iterations may have light sub-paths. What is drawn then counts `every`
+ * times. In the other iterations K = 0: they are those of a path tracer. */
 static void render_iteration(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct vertex *eye = pass->work->eye;
     loop_fill(p, pass, iteration); /* K light sub-paths, and their vertices by region */
     const int K = pass->work->pool.n;
     const struct index *index = K > 0 ? p->method->build(p, pass, iteration) : NULL;
-    int draws[EYE_ENDS];
-    loop_draws(p, pass, iteration, draws);
+    const double every = numbers_every(&p->numbers);
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
         struct sample sample;
         arena_reset(&pass->work->arena);
         int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
         for (int t = 2; t <= n; t++) {
             const struct vertex *z = &eye[t - 1];
-            const int C = t <= pass->job->max_depth && vertex_connectible(z) ? draws[z->eye_end] : 0;
-            const double every = numbers_every(&p->numbers, z->eye_end);
+            const bool joins = K > 0 && t <= pass->job->max_depth && vertex_connectible(z);
+            const int C = joins ? p->numbers.draws[z->eye_end] : 0;
             struct drawn drawn;
             sample_hit(&sample, eye, t);  /* s = 0 */
             sample_direct(&sample, z, t); /* s = 1 */

@@ -16,9 +16,9 @@ void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long it
 
 /* Of every so many iterations one is drawn. Were it always the same one, its eye sub-paths would never leave a part of
  * the pixel, for those are points of nets (sampler.h). */
-bool loop_turn(const struct prepared *p, const struct tile_pass *pass, enum eye_end end, long iteration)
+bool loop_turn(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    const int *corner = pass->tile->pixel[0], every = numbers_every(&p->numbers, end);
+    const int *corner = pass->tile->pixel[0], every = numbers_every(&p->numbers);
     if (every == 1)
         return true;
     struct sampler sampler = sample_stream(pass, RNG_TURN, corner[0], corner[1], (uint64_t)(iteration / every));
@@ -28,14 +28,14 @@ bool loop_turn(const struct prepared *p, const struct tile_pass *pass, enum eye_
 /* Light sub-paths are numbered by their turns: every so-many-th point of a net is no net. */
 static uint64_t number_of_turn(const struct prepared *p, long iteration)
 {
-    return (uint64_t)(iteration / numbers_every(&p->numbers, FIRST_HIT));
+    return (uint64_t)(iteration / numbers_every(&p->numbers));
 }
 
 void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
     pool_clear(pool);
-    if (p->numbers.path_pixels == 0 || !loop_turn(p, pass, FIRST_HIT, iteration))
+    if (p->numbers.path_pixels == 0 || !loop_turn(p, pass, iteration))
         return;
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i += p->numbers.path_pixels) {
         struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
@@ -48,17 +48,9 @@ int loop_begin(const struct prepared *p, const struct tile_pass *pass, int numbe
 {
     *sample = sample_begin(pass, &p->counts, p->numbers.light_points, x, y, iteration);
     sample->number = number;
-    if (p->method->build != NULL)
+    if (pass->work->pool.n > 0) /* else nothing is chosen */
         sample->choice = sample_stream(pass, RNG_SELECT, x, y, number_of_turn(p, iteration));
     return sample_eye_path(sample, eye, pass->job->max_depth + 2);
-}
-
-void loop_draws(const struct prepared *p, const struct tile_pass *pass, long iteration, int draws[EYE_ENDS])
-{
-    for (int end = 0; end < EYE_ENDS; end++) {
-        bool turn = pass->work->pool.n > 0 && loop_turn(p, pass, (enum eye_end)end, iteration);
-        draws[end] = turn ? p->numbers.draws[end] : 0;
-    }
 }
 
 /* The weights count one sub-path per path_pixels pixels of the film. A tile has K, which is rounded up: `scale` makes

@@ -24,18 +24,16 @@ void selection_render(const struct prepared *p, const struct tile_pass *pass);
 
 /* Its steps.
  *
- *   loop_turn   does the iteration have draws of such eye vertices? Of first hits: does it have light sub-paths?
+ *   loop_turn   does the iteration have light sub-paths?
  *   loop_fill   trace the light sub-paths of an iteration, if it has any, into the workspace's pool; K may be 0
  *   loop_begin  begin a sample of pixel (x,y), the tile's pixel of this number, and trace its eye sub-path into eye
  *               [max_depth + 2]; returns the number of vertices
- *   loop_draws  how many light vertices an eye vertex of each kind draws in the iteration, whose pool is filled
  *   loop_splat  connect to the lens the light sub-path of the pixel, if it is one of those that have one
  */
-bool loop_turn(const struct prepared *p, const struct tile_pass *pass, enum eye_end end, long iteration);
+bool loop_turn(const struct prepared *p, const struct tile_pass *pass, long iteration);
 void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration);
 int loop_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y, long iteration,
                struct sample *sample, struct vertex *eye);
-void loop_draws(const struct prepared *p, const struct tile_pass *pass, long iteration, int draws[EYE_ENDS]);
 void loop_splat(const struct prepared *p, struct sample *sample);
 
 /* pool_shuffle: write a random permutation of the sub-paths' numbers for one iteration to order [pool->n]. */

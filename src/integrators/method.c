@@ -7,11 +7,10 @@
 static const double BOUND = 0.25; /* M of counts.h for each light sub-path of a full tile */
 
 const char *const OFF_ON[] = {"off", "on", NULL};
-const char RUNNER_NUMBERS[RUNNERS][24] = {"race_all", "race_quarter", "race_quarter_first", "race_path_tracer",
-                                          "race_one_point"};
+const char RUNNER_NUMBERS[RUNNERS][24] = {"race_all", "race_quarter", "race_path_tracer", "race_one_point"};
 enum { NAME = sizeof "race_" - 1 }; /* where a runner's own name begins */
 const char *const RACES[] = {"off", "on", &RUNNER_NUMBERS[0][NAME], &RUNNER_NUMBERS[1][NAME], &RUNNER_NUMBERS[2][NAME],
-                             &RUNNER_NUMBERS[3][NAME], &RUNNER_NUMBERS[4][NAME], NULL};
+                             &RUNNER_NUMBERS[3][NAME], NULL};
 
 const struct field *method_has(const struct method *m, const char *name)
 {
@@ -38,7 +37,7 @@ bool method_read(const struct method *m, const struct scene *scene, struct prepa
 
 struct pass_size method_size(const struct prepared *p)
 {
-    bool shared = p->numbers.path_pixels > 0 && numbers_every(&p->numbers, FIRST_HIT) == 1;
+    bool shared = p->numbers.path_pixels > 0 && numbers_every(&p->numbers) == 1;
     const struct pass_size alone = {p->size.block, DEFAULT_TILE_SIZE, 1};
     return p->method->build == NULL || shared ? p->size : alone;
 }
@@ -47,11 +46,11 @@ void method_counts(const struct render_job *job, struct prepared *p)
 {
     const struct parameters *q = &p->parameters;
     double M = BOUND * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
-    int every = numbers_every(&p->numbers, FIRST_HIT);
+    int every = numbers_every(&p->numbers);
     p->counts = counts_of(p->numbers, q->credits ? DIRECT_CREDIT * every : 1, q->credits ? PAIR_CREDIT : 1,
                           (double)rect_pixels(job->film_rect), p->tables);
     for (int end = 0; end < EYE_ENDS; end++) {
         p->counts.pair[end] *= p->draw[end];
-        p->counts.bound[end] = q->bound ? p->counts.pair[end] * numbers_every(&p->numbers, (enum eye_end)end) / M : 0;
+        p->counts.bound[end] = q->bound ? p->counts.pair[end] * every / M : 0;
     }
 }

@@ -81,7 +81,7 @@ struct runner {
     struct numbers numbers;
     double variance, price; /* of a sample: relative to the square of the brightness; any unit. 0: not measured */
 };
-enum runner_number { RUNNER_ALL, RUNNER_QUARTER, RUNNER_QUARTER_FIRST, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
+enum runner_number { RUNNER_ALL, RUNNER_QUARTER, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
 
 /* runner_name: as -P race= has it. RUNNER_NUMBERS: as --stats names what the race has found. */
 static inline const char *runner_name(int runner) { return RACES[RACE_RUNNERS + runner]; }

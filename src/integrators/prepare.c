@@ -9,13 +9,12 @@
 
 enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
 
-/* What a runner needs. A path tracer of a method that learns much has few light sub-paths: it learns less, from
- * fewer. */
-static void learn_for(const struct render_job *job, struct prepared *p, int runner)
+/* What a runner needs, for light sub-paths or without them. A path tracer of a method that learns much has few: it
+ * learns less, from fewer. */
+static void learn_for(const struct render_job *job, struct prepared *p, int runner, bool light)
 {
     const struct parameters *q = &p->parameters;
     bool few = runner >= RUNNER_PATH_TRACER && p->method->learns_pairs;
-    bool light = !few || p->runner[runner].numbers.path_pixels > 0;
     const struct learn_options options = {
         .use = light && (p->method->learns_use || q->emission < 1), .pairs = !few && p->method->learns_pairs,
         .direct = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
@@ -33,6 +32,8 @@ static void learn_for(const struct render_job *job, struct prepared *p, int runn
     p->hasty = (p->hasty || learns || p->method->prepare != NULL) && job_cancelled(job) != CANCEL_NOT;
 }
 
+static bool has_light(const struct prepared *p) { return p->runner[p->winner].numbers.path_pixels > 0; }
+
 /* Where there is much to learn, a first race finds out whether it may pay. */
 static void learn_and_race(const struct render_job *job, struct prepared *p)
 {
@@ -40,14 +41,17 @@ static void learn_and_race(const struct render_job *job, struct prepared *p)
     int asked = p->numbers.path_pixels == 0 || (small && p->parameters.race == RACE_ON) ? RACE_OFF : p->parameters.race;
     race_begin(job->scene, p);
     if (asked == RACE_ON && p->method->learns_pairs) {
-        learn_for(job, p, RUNNER_PATH_TRACER);
+        learn_for(job, p, RUNNER_PATH_TRACER, true);
         bool early = race_early(job, p);
         p->hasty = job_cancelled(job) != CANCEL_NOT;
-        if (early)
+        if (early) {
+            if (!has_light(p)) /* light sub-paths of a rival have had their tables */
+                learn_for(job, p, p->winner, false);
             return;
+        }
     }
     p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
-    learn_for(job, p, p->winner);
+    learn_for(job, p, p->winner, p->winner < RUNNER_PATH_TRACER || has_light(p));
     race_begin(job->scene, p); /* `prepare` may have changed the numbers */
     if (asked == RACE_ON) {
         race(job, p);
@@ -76,8 +80,7 @@ void method_numbers(const struct prepared *p, struct method_number out[METHOD_NU
     const struct method_number numbers[] = {
         {"draws_first_hit", draws * n->draws[FIRST_HIT]}, {"draws_after", draws * n->draws[LATER_HIT]},
         {"light_points_first_hit", n->light_points}, {"pixels_per_light_path", n->path_pixels},
-        {"iterations_per_light_path", numbers_every(n, FIRST_HIT)},
-        {"iterations_per_draw_after", numbers_every(n, LATER_HIT)}, {"regions", p->tables->regions.n}};
+        {"iterations_per_light_path", numbers_every(n)}, {"regions", p->tables->regions.n}};
     int used = (int)(sizeof numbers / sizeof *numbers);
     memset(out, 0, METHOD_NUMBERS * sizeof *out); /* a NULL name ends the list */
     memcpy(out, numbers, sizeof numbers);

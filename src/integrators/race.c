@@ -7,16 +7,16 @@
 #include "base/parallel.h"
 
 enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32 };
-static const double FIREFLY = 11;
+static const double FIREFLY = 11, USELESS = 0.95;
 
-/* Prices, fitted to CPU times; only their ratios count. That of a light vertex includes its splat. */
-enum { SAMPLE = 1, EYE_VERTEX = 1, POINT = 2, DRAW = 2, LIGHT_VERTEX = 3 };
+/* Prices, fitted to CPU times; a sample costs 1, an eye vertex, too. That of a light vertex includes its splat. */
+enum { CONNECTION = 2, LIGHT_VERTEX = 3 };
 
 /* Samples of a runner. */
 struct lap {
     struct render_job job; /* with random numbers of its own */
     struct prepared by;    /* how the runner samples; shares all that it points to */
-    int every[EYE_ENDS];   /* of the runner; `by` draws in each iteration */
+    int every;             /* of the runner; `by` has light sub-paths in each iteration */
     struct tile_pixels pixels;
     /* Luminance of a pixel, and of the splats in its cell: the mean, direct light at first hits, what is made in each
      * iteration, and by iteration what the render makes in one of `every`. */
@@ -32,16 +32,16 @@ static void joined(void *context, const struct sample *sample, const struct join
     struct pixel_rect film = l->pixels.rect; /* splats around it are left out */
     double x = p->t == 1 ? floor(p->px) : sample->x, y = p->t == 1 ? floor(p->py) : sample->y;
     double value = fabs(rgb_luminance(p->added)); /* that signs of a filter differ is no noise of an image (filter.h) */
-    enum eye_end end = p->t == 1 ? FIRST_HIT : (p->s == 0 ? p->z - 1 : p->z)->eye_end; /* s = 0: z is on the light */
-    int every = p->s < 2 ? 1 : l->every[end];
+    bool first = p->t > 1 && (p->s == 0 ? p->z - 1 : p->z)->eye_end == FIRST_HIT; /* s = 0: z is on the light */
+    int every = p->s < 2 ? 1 : l->every;
     if (p->t > 1 && p->s > 0)
-        l->price += p->s > 1 ? (double)DRAW / every : POINT;
+        l->price += (double)CONNECTION / every;
     if (p->s + p->t == 2 || !fits_float(value) || !(x >= film.x0 && x < film.x1 && y >= film.y0 && y < film.y1))
         return;
     int cell = pixels_cell(l->pixels, (int)x, (int)y);
     value *= p->t == 1 ? 1 : every; /* splats are divided by the count in the weights */
     l->mean[cell] += value / every / SAMPLES;
-    l->direct[cell] += p->s < 2 && end == FIRST_HIT ? value : 0;
+    l->direct[cell] += p->s < 2 && first ? value : 0;
     *(every > 1 ? &l->rare[sample->iteration][cell] : &l->often[cell]) += value;
 }
 
@@ -49,7 +49,7 @@ static void walked(void *context, const struct sample *sample, enum transport mo
 {
     struct lap *l = context;
     (void)sample, (void)path;
-    l->price += mode == RADIANCE ? SAMPLE + n * EYE_VERTEX : (double)n * LIGHT_VERTEX / l->every[FIRST_HIT];
+    l->price += mode == RADIANCE ? 1 + n : (double)n * LIGHT_VERTEX / l->every;
     l->samples += mode == RADIANCE;
 }
 
@@ -89,10 +89,8 @@ static void start_lap(const struct render_job *job, const struct prepared *p, co
     l->by.numbers = k->numbers;
     l->by.size = method_size(&l->by);
     method_counts(job, &l->by);
-    for (int end = 0; end < EYE_ENDS; end++) {
-        l->every[end] = numbers_every(&k->numbers, (enum eye_end)end);
-        l->by.numbers.every[end] = 1;
-    }
+    l->every = numbers_every(&k->numbers);
+    l->by.numbers.every = 1;
 }
 
 /* The square of x >= 0, continued by its tangent above FIREFLY. */
@@ -105,7 +103,7 @@ static double variance(double a, double b) { return huber(fabs(a - b) / sqrt(2.0
 static double judge(struct runner *k, const struct lap *a, const double *unit)
 {
     const struct lap *b = a + 1;
-    double direct = 0, n = pixels_count(a->pixels), parts = 2 * SAMPLES * a->every[LATER_HIT] * n;
+    double direct = 0, n = pixels_count(a->pixels), parts = 2 * SAMPLES * a->every * n;
     k->price = (a->price + b->price) / (a->samples + b->samples);
     k->variance = 1e-30; /* not 0: others are divided by it */
     for (int i = 0; i < n; i++) {
@@ -154,42 +152,38 @@ static bool is_diffuse(const struct scene *scene)
 const char *const runner_helps[RUNNERS] = {
     [RUNNER_ALL] = "as the parameters say: pathpixels, connections, later, lightpoints",
     [RUNNER_QUARTER] = "a light sub-path for four times as many pixels",
-    [RUNNER_QUARTER_FIRST] = "so, too; one light vertex for each eye vertex that the camera sees, seldom for others",
     [RUNNER_PATH_TRACER] = "light sub-paths in one of 32 iterations of a tile; none where all is diffuse",
     [RUNNER_ONE_POINT] = "so, too; one light point for each eye vertex"};
 
 void race_begin(const struct scene *scene, struct prepared *p)
 {
     struct numbers *all = &p->runner[RUNNER_ALL].numbers, *quarter = &p->runner[RUNNER_QUARTER].numbers;
-    struct numbers *quarter_first = &p->runner[RUNNER_QUARTER_FIRST].numbers;
     struct numbers *pt = &p->runner[RUNNER_PATH_TRACER].numbers, *one = &p->runner[RUNNER_ONE_POINT].numbers;
-    *all = *quarter = *quarter_first = *pt = p->numbers;
-    quarter->path_pixels = quarter_first->path_pixels = 4 * all->path_pixels;
-    quarter_first->draws[FIRST_HIT] = all->draws[FIRST_HIT] > 0;
-    quarter_first->every[LATER_HIT] = pt->every[FIRST_HIT] = pt->every[LATER_HIT] = RARE;
+    *all = *quarter = *pt = p->numbers;
+    quarter->path_pixels = 4 * all->path_pixels;
+    pt->every = RARE;
     if (is_diffuse(scene))
         *pt = (struct numbers){.light_points = all->light_points};
     *one = *pt;
     one->light_points = 1;
 }
 
+static double cost(const struct runner *k) { return k->variance * k->price; }
+
 static int find_winner(const struct prepared *p, int first)
 {
     int winner = first;
-    for (int i = first; i < RUNNERS; i++) {
-        const struct runner *k = &p->runner[i], *best = &p->runner[winner];
-        winner = k->variance * k->price < best->variance * best->price ? i : winner;
-    }
+    for (int i = first; i < RUNNERS; i++)
+        winner = cost(&p->runner[i]) < cost(&p->runner[winner]) ? i : winner;
     return winner;
 }
 
 bool race_early(const struct render_job *job, struct prepared *p)
 {
-    struct runner *pt = &p->runner[RUNNER_PATH_TRACER], *one = &p->runner[RUNNER_ONE_POINT];
-    double direct = compete(job, p, pt, RUNNERS - RUNNER_PATH_TRACER);
-    bool wins = direct > 2 * (one->variance - direct);
-    p->winner = wins ? find_winner(p, RUNNER_PATH_TRACER) : RUNNER_ALL;
-    return wins;
+    struct runner *quarter = &p->runner[RUNNER_QUARTER], *pt = &p->runner[RUNNER_PATH_TRACER];
+    double direct = compete(job, p, quarter, RUNNERS - RUNNER_QUARTER), all = p->runner[RUNNER_ONE_POINT].variance;
+    p->winner = find_winner(p, RUNNER_PATH_TRACER);
+    return direct > 2 * (all - direct) || (direct >= 0 && quarter->variance > USELESS * pt->variance);
 }
 
 void race(const struct render_job *job, struct prepared *p)

@@ -12,9 +12,11 @@
  * FIREFLY. Light that the camera sees directly is left out: it is the same for all. The price counts vertices and
  * connections, so the same runner wins on every machine.
  *
- * Light sub-paths cannot help against the noise of direct light at first hits. Two path tracers compete first, with
- * as many light points as RUNNER_ALL and with one. If direct light at first hits makes two thirds of the variance of
- * RUNNER_ONE_POINT, the better of the two wins before more is learnt about light sub-paths than they need.
+ * The race has two stages. First two path tracers, with as many light points as RUNNER_ALL and with one, compete with
+ * RUNNER_QUARTER, and little has been learnt for any. The better path tracer wins if light sub-paths cannot help, since
+ * direct light at first hits makes two thirds of the variance of RUNNER_ONE_POINT, or do not help, since RUNNER_QUARTER
+ * has more than USELESS of the variance of the first path tracer. Else all is learnt, which often halves the variance
+ * of RUNNER_QUARTER, and the others compete with it.
  *
  * Tests: test_race.c.
  */
@@ -29,7 +31,7 @@ enum { RACE_LEAST_PIXELS = 32 * 32 }; /* a smaller picture is rendered by the fi
 extern const char *const runner_helps[RUNNERS];
 
 /* race_begin: add the runners to *p, whose numbers are those of the first.
- * race_early: does a path tracer win, before more is learnt than it needs itself?
+ * race_early: the first stage in *p, which has learnt as little as path tracers need. Does one of them win?
  * race: let all others compete in *p, which is prepared for the first.
  * Both set p->winner. If the job is cancelled, the first wins. */
 void race_begin(const struct scene *scene, struct prepared *p);

@@ -1,4 +1,4 @@
-/* learn.c: see learn.h. What is traced, and what is made of it; below that the passes in their order. */
+/* learn.c: see learn.h. What is traced, and what is made of it; below that the rounds in their order. */
 #include "learning/learn.h"
 
 #include <stdlib.h>
@@ -162,28 +162,28 @@ static void trace_trials(struct learning *l, struct workspace *work, long i, str
 static void take(struct learning *l, const struct lesson *lesson)
 {
     struct tables *t = l->tables;
-    struct axis one = {1, NULL, NULL}, cells = {l->direct.columns, NULL, NULL};
+    const struct axis one = {1, NULL, NULL}, cells = {t->direct.columns, NULL, NULL};
     switch ((enum lesson_kind)lesson->kind) {
     case VISIT: t->use[regions_add(&t->regions, lesson->row)] += lesson->w; break;
     case DIRECT: {
         int region = regions_add(&t->regions, lesson->row);
-        table_sums_add(&l->direct, regions_axis(&t->regions), cells, region, lesson->column, lesson->x, lesson->w);
+        table_add(&t->direct, regions_axis(&t->regions), cells, region, lesson->column, lesson->x, lesson->w);
         break;
     }
     case RAY:
         l->n_light++;
         if (l->rays.n > 0)
-            table_sums_add(&l->sums, one, l->rays, 0, lesson->column, lesson->x, lesson->w);
+            table_add(&t->emission, one, l->rays, 0, lesson->column, lesson->x, lesson->w);
         break;
     case LIGHT_VERTEX: lessons_add(&l->light_vertices, *lesson); break; /* others look regions up: add none yet */
     case TRIAL:
-        table_sums_add(&l->sums, regions_axis(&t->regions), regions_axis(&t->regions), (int)lesson->row,
-                       lesson->column, lesson->x, lesson->w);
+        table_add(&t->pairs, regions_axis(&t->regions), regions_axis(&t->regions), (int)lesson->row, lesson->column,
+                  lesson->x, lesson->w);
         break;
     }
 }
 
-/* --- passes, and the tables that they fill ------------------------------------------------------------ */
+/* --- rounds, and the tables that they fill ------------------------------------------------------------ */
 
 static const double DIRECT_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
 
@@ -191,10 +191,10 @@ static void learn_uses(struct learning *l, long n)
 {
     vec3 low, high;
     find_box(l, &low, &high);
-    regions_init(&l->tables->regions, low, high, REGION_CELLS, REGIONS);
+    regions_init(&l->tables->regions, low, high, REGION_CUBES, REGIONS);
     l->tables->use = mem_alloc(REGIONS, sizeof *l->tables->use);
     if (l->options->direct)
-        table_sums_init(&l->direct, REGIONS, l->job->scene->lights.n_cells);
+        l->tables->direct = table_learn(REGIONS, l->job->scene->lights.n_cells);
     lessons_learn(l, trace_uses, &NO_TABLES, 0, n);
 }
 
@@ -225,16 +225,16 @@ static void learn_light_paths(struct learning *l, long n)
     double *base = NULL;
     if (emission) {
         l->rays = emission_axis_new(lights, &base);
-        table_sums_init(&l->sums, 1, l->rays.n);
+        l->tables->emission = table_learn(1, l->rays.n);
     }
     lessons_learn(l, trace_light_path, l->tables, 0, n);
     if (emission)
-        l->tables->emission = table_build(&l->sums, one, l->rays, base, l->options->emission, true, true);
+        table_build(&l->tables->emission, one, l->rays, base, l->options->emission, true, true);
     emission_axis_free(&l->rays, base);
     count_light_vertices(l);
 }
 
-/* After the last pass that adds regions. */
+/* After the last round that adds regions. */
 static void build_direct(struct learning *l)
 {
     const struct light_set *lights = &l->job->scene->lights;
@@ -242,8 +242,7 @@ static void build_direct(struct learning *l)
     double *base = mem_alloc((size_t)lights->n_cells, sizeof *base);
     for (int cell = 0; cell < lights->n_cells; cell++)
         base[cell] = alias_pmf(&lights->choice, cell);
-    l->tables->direct =
-        table_build(&l->direct, regions_axis(&l->tables->regions), cells, base, DIRECT_DELTA, false, true);
+    table_build(&l->tables->direct, regions_axis(&l->tables->regions), cells, base, DIRECT_DELTA, false, true);
     free(base);
 }
 
@@ -251,9 +250,9 @@ static void learn_pairs(struct learning *l, long first, long end)
 {
     struct tables *t = l->tables;
     const struct axis axis = regions_axis(&t->regions);
-    table_sums_init(&l->sums, axis.n, axis.n);
+    t->pairs = table_learn(axis.n, axis.n);
     lessons_learn(l, trace_trials, t, first, end);
-    t->pairs = table_build(&l->sums, axis, axis, t->vertices, l->options->delta, false, false);
+    table_build(&t->pairs, axis, axis, t->vertices, l->options->delta, false, false);
 }
 
 enum { LIGHT_COUNTED = 4 * 1024 }; /* light sub-paths if only the mean number of their vertices is needed */

@@ -9,16 +9,16 @@
  *   vertices          the same: LIGHT_VERTEX count_light_vertices            -                      base of pairs
  *   pairs             trace_trials: TRIAL    take        learn_pairs         asbdpt.c: draw         counts.h: n_pair
  *
- * There are three passes. Each needs what the ones before have learnt: the worth of a ray needs `use`, and trials need
+ * There are three rounds. Each needs what the ones before have learnt: the worth of a ray needs `use`, and trials need
  * light sub-paths that leave by `emission`.
  *
  * Learning traces a fixed number of eye sub-paths: LEARN_PER_PIXEL for each pixel of the image, but at least
  * LEARN_LEAST and at most LEARN_MOST. If only `direct` is learnt, or if `few` are asked for, it traces one for
  * DIRECT_PIXELS pixels, but at least DIRECT_LEAST: then it takes the time of half a sample of each pixel. It traces as
  * many light sub-paths, but at most LEARN_LIGHT. For trial connections it traces more of them, and uses half of the eye
- * sub-paths. The number does not depend on the number of samples, so an image that is continued or rendered in parts has
- * one estimator. Memory is bounded by REGIONS. Learning ends early if the job is cancelled. Then the tables have fewer sub-paths,
- * which is valid but noisier. Tables are not stored: every render learns them again.
+ * sub-paths. The number does not depend on the number of samples, so an image that is continued or rendered in parts
+ * has one estimator. Memory is bounded by REGIONS. Learning ends early if the job is cancelled. Then the tables have
+ * fewer sub-paths, which is valid but noisier. Tables are not stored: every render learns them again.
  *
  * Tests: test_asbdpt.c (same result for any number of threads, unbiased renders), test_learning.c.
  */
@@ -29,7 +29,7 @@
 
 enum { LEARN_PER_PIXEL = 4, LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LEARN_LIGHT = 16 * 1024 };
 enum { DIRECT_PIXELS = 4, DIRECT_LEAST = 1024 };
-enum { REGIONS = 1536, REGION_CELLS = 8 }; /* at most so many; along the diagonal of the box of eye vertices */
+enum { REGIONS = 1536, REGION_CUBES = 8 }; /* at most so many; along the diagonal of the box of eye vertices */
 
 /* What to learn. */
 struct learn_options {

@@ -1,4 +1,4 @@
-/* lessons.h: a pass over sub-paths that fills tables. All threads trace sub-paths, in chunks. Each chunk makes a list
+/* lessons.h: a round over sub-paths that fills tables. All threads trace sub-paths, in chunks. Each chunk makes a list
  * of lessons, and the lists are taken in in order (parallel.h). So sums and the numbers of regions are the same for any
  * number of threads.
  *
@@ -45,13 +45,12 @@ struct learning {
     /* What learn.c knows so far. */
     const struct learn_options *options;
     struct tables *tables;
-    struct table_sums direct, sums; /* of the table of direct light; of the pass under way */
     struct axis rays;               /* columns of the table of emission */
     double n_light;                 /* light sub-paths so far */
     struct lessons light_vertices;  /* that these have */
     double budget, traced;          /* number of sub-paths: all that learning is by, and those so far */
 
-    /* The pass under way. */
+    /* The round under way. */
     void (*trace)(struct learning *l, struct workspace *work, long i, struct lessons *out);
     void (*take)(struct learning *l, const struct lesson *lesson);
     struct counts counts; /* of any values, since no weight is used */
@@ -59,7 +58,7 @@ struct learning {
     struct lessons *list; /* of the chunks under way */
 };
 
-/* lessons_learn: run a pass over sub-paths first .. end-1, unless the job is cancelled. `trace` lists the lessons of
+/* lessons_learn: run a round over sub-paths first .. end-1, unless the job is cancelled. `trace` lists the lessons of
  * sub-path number i, whose vertices and lobes are in the workspace. l->take takes one in. Walks and connections use the
  * tables `known`, which do not change meanwhile. After each chunk job->progress hears of it. */
 void lessons_learn(struct learning *l, void (*trace)(struct learning *, struct workspace *, long, struct lessons *),

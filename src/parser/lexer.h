@@ -10,7 +10,7 @@
 #include <stdbool.h>
 
 #include "base/mem.h"
-#include "parser/source_position.h"
+#include "parser/messages.h"
 
 enum token_kind { TOKEN_END, TOKEN_WORD, TOKEN_STRING, TOKEN_NUMBER, TOKEN_OPEN, TOKEN_CLOSE };
 

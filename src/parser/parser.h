@@ -8,7 +8,7 @@
 #define ASBDPT_PARSER_H
 
 #include "base/error.h"
-#include "parser/source_position.h" /* struct message_sink */
+#include "parser/messages.h" /* struct message_sink */
 #include "scene/scene.h"
 
 /* What the user says of a scene before it is read; all zeros: nothing. */

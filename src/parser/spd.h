@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-#include "parser/source_position.h"
+#include "parser/messages.h"
 
 /* spd_numbers: *n of them, to be given to free(); *at: where the last one is. */
 double *spd_numbers(struct messages *m, struct source_file *file, struct source_position *at, size_t *n);

@@ -14,7 +14,7 @@
 #define ASBDPT_JOB_H
 
 #include "integrators/prepare.h"
-#include "parser/source_position.h" /* struct message_sink */
+#include "parser/messages.h" /* struct message_sink */
 
 /* --- methods ------------------------------------------------------------------------------------------ */
 

@@ -12,18 +12,18 @@
 /* A key: level (2 bits), face (3 bits, never 0), x, y, z (19 bits each). */
 enum { AXIS_BITS = 19, FACE_SHIFT = 3 * AXIS_BITS, LEVEL_SHIFT = FACE_SHIFT + 3 };
 
-void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int limit)
+void regions_init(struct regions *r, vec3 low, vec3 high, int cubes, int limit)
 {
     const double SHIFT = 0.3819660112501051; /* in cubes; 2 minus the golden ratio */
     vec3 size = sub(high, low);
     double diagonal = sqrt(length2(size));
     memset(r, 0, sizeof *r);
-    r->per_metre = diagonal > 0 ? cells / diagonal : 1;
+    r->per_metre = diagonal > 0 ? cubes / diagonal : 1;
     double shift = SHIFT / r->per_metre;
     r->origin = sub(low, vec(shift, shift, shift));
-    r->last[0] = int_within((size.x + shift) * r->per_metre, 0, cells);
-    r->last[1] = int_within((size.y + shift) * r->per_metre, 0, cells);
-    r->last[2] = int_within((size.z + shift) * r->per_metre, 0, cells);
+    r->last[0] = int_within((size.x + shift) * r->per_metre, 0, cubes);
+    r->last[1] = int_within((size.y + shift) * r->per_metre, 0, cubes);
+    r->last[2] = int_within((size.z + shift) * r->per_metre, 0, cubes);
     r->limit = limit;
     for (r->n_slots = 1; r->n_slots < 2 * (size_t)limit; r->n_slots *= 2)
         ;

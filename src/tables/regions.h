@@ -38,9 +38,9 @@ struct regions {
 
 static inline struct axis regions_axis(const struct regions *r) { return (struct axis){r->n, r->above, r->level}; }
 
-/* regions_init: start with region 0 alone. The diagonal of the box from `low` to `high` is `cells` cubes of level 0
+/* regions_init: start with region 0 alone. The diagonal of the box from `low` to `high` is `cubes` cubes of level 0
  * long. Points outside the box belong to the outermost cubes. */
-void regions_init(struct regions *r, vec3 low, vec3 high, int cells, int limit);
+void regions_init(struct regions *r, vec3 low, vec3 high, int cubes, int limit);
 void regions_free(struct regions *r);
 
 /* regions_key: the key of the region of level 0 of a surface point. `side` is the unit normal of its side, or 0 for a

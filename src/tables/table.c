@@ -11,13 +11,14 @@
 
 static const double PRIOR = 4; /* samples of mean weight that the pair above counts as */
 
-void table_sums_init(struct table_sums *s, int rows, int columns)
+struct table table_learn(int rows, int columns)
 {
     size_t n = (size_t)rows * (size_t)columns;
-    *s = (struct table_sums){rows, columns, mem_alloc(n, sizeof *s->worth), mem_alloc(n, sizeof *s->weight), 0};
+    return (struct table){.columns = columns, .ratio = mem_alloc(n, sizeof(double)),
+                          .weight = mem_alloc(n, sizeof(double))};
 }
 
-static size_t at(const struct table_sums *s, int r, int c) { return (size_t)r * (size_t)s->columns + (size_t)c; }
+static size_t at(const struct table *t, int r, int c) { return (size_t)r * (size_t)t->columns + (size_t)c; }
 
 /* The pair above: both nodes one level up; if their levels differ, only the finer one. False at the top. */
 static bool pair_above(struct axis row, struct axis column, int *r, int *c)
@@ -31,27 +32,27 @@ static bool pair_above(struct axis row, struct axis column, int *r, int *c)
     return row_moves || column_moves;
 }
 
-void table_sums_add(struct table_sums *s, struct axis row, struct axis column, int r, int c, double x, double w)
+void table_add(struct table *t, struct axis row, struct axis column, int r, int c, double x, double w)
 {
-    s->samples++;
+    t->samples++;
     do {
-        s->worth[at(s, r, c)] += w * x;
-        s->weight[at(s, r, c)] += w;
+        t->ratio[at(t, r, c)] += w * x;
+        t->weight[at(t, r, c)] += w;
     } while (pair_above(row, column, &r, &c));
 }
 
 /* Replace the sums of w x by m(r,c), in an order in which the pair above comes first. */
-static void find_means(const struct table_sums *s, struct axis row, struct axis column)
+static void find_means(const struct table *t, struct axis row, struct axis column)
 {
     int tops = column.above == NULL ? column.n : 1; /* pairs without one above */
-    double worth = sum_of(s->worth, tops), weight = sum_of(s->weight, tops), prior = PRIOR * weight / s->samples;
+    double worth = sum_of(t->ratio, tops), weight = sum_of(t->weight, tops), prior = PRIOR * weight / t->samples;
     for (int r = 0; r < row.n; r++)
         for (int c = 0; c < column.n; c++) {
             int r_above = r, c_above = c;
-            double *m = &s->worth[at(s, r, c)];
+            double *m = &t->ratio[at(t, r, c)];
             bool has_above = pair_above(row, column, &r_above, &c_above);
-            double above = has_above ? s->worth[at(s, r_above, c_above)] : worth / weight;
-            *m = (*m + prior * above) / (s->weight[at(s, r, c)] + prior);
+            double above = has_above ? t->ratio[at(t, r_above, c_above)] : worth / weight;
+            *m = (*m + prior * above) / (t->weight[at(t, r, c)] + prior);
         }
 }
 
@@ -65,32 +66,27 @@ static void find_ratios(double *m, const double *base, int n, double delta, bool
         m[c] = sum > 0 ? (1 - delta) * m[c] / sum + delta : 1;
 }
 
-struct table table_build(struct table_sums *s, struct axis row, struct axis column, const double *base, double delta,
-                         bool root, bool drawn)
+void table_build(struct table *t, struct axis row, struct axis column, const double *base, double delta, bool root,
+                 bool drawn)
 {
-    struct table t = {row.n, column.n, NULL, NULL};
     size_t n = (size_t)column.n;
-    if (s->samples > 0 && row.n > 0 && n > 0) {
-        find_means(s, row, column);
-        t.ratio = s->worth;
-        t.before = drawn ? mem_alloc((size_t)row.n * (n + 1), sizeof *t.before) : NULL;
-    } else {
-        t.rows = 0;
-        free(s->worth);
-    }
-    for (int r = 0; r < t.rows; r++) {
-        double *ratio = &t.ratio[(size_t)r * n];
+    t->rows = t->samples > 0 ? row.n : 0;
+    if (t->rows > 0)
+        find_means(t, row, column);
+    t->before = drawn && t->rows > 0 ? mem_alloc((size_t)row.n * (n + 1), sizeof *t->before) : NULL;
+    for (int r = 0; r < t->rows; r++) {
+        double *ratio = &t->ratio[(size_t)r * n];
         find_ratios(ratio, base, column.n, delta, root);
         for (size_t c = 0; c < n && drawn; c++)
-            t.before[(size_t)r * (n + 1) + c + 1] = t.before[(size_t)r * (n + 1) + c] + base[c] * ratio[c];
+            t->before[(size_t)r * (n + 1) + c + 1] = t->before[(size_t)r * (n + 1) + c] + base[c] * ratio[c];
     }
-    free(s->weight);
-    return t;
+    free(t->weight);
+    t->weight = NULL;
 }
 
 struct table table_of_row(const double *m, const double *base, int n, double delta)
 {
-    struct table t = {m != NULL ? 1 : 0, n, NULL, NULL};
+    struct table t = {.rows = m != NULL, .columns = n};
     if (m != NULL) {
         t.ratio = mem_alloc((size_t)n, sizeof *t.ratio);
         memcpy(t.ratio, m, (size_t)n * sizeof *m);
@@ -102,6 +98,7 @@ struct table table_of_row(const double *m, const double *base, int n, double del
 void table_free(struct table *t)
 {
     free(t->ratio);
+    free(t->weight);
     free(t->before);
 }
 

@@ -32,32 +32,26 @@ struct axis {
     int *level; /* [n] 0: the finest; the top has the highest */
 };
 
-/* Sums of samples while learning. */
-struct table_sums {
-    int rows, columns;
-    double *worth, *weight; /* [rows*columns] sums of w x and of w; owned */
-    double samples;         /* their number */
-};
-
-/* table_sums_init: start with zeros, with room for so many rows and columns; table_build releases the sums.
- * table_sums_add: add a sample, which counts in all pairs above, too. */
-void table_sums_init(struct table_sums *s, int rows, int columns);
-void table_sums_add(struct table_sums *s, struct axis row, struct axis column, int r, int c, double x, double w);
-
 struct table {
-    int rows, columns; /* 0: the table is empty */
-    double *ratio;     /* [rows*columns], > 0; owned */
+    int rows, columns; /* rows 0: the table is empty; so it is while it is learnt */
+    double *ratio;     /* [rows*columns], > 0; while it is learnt the sums of w x; owned */
+    double *weight;    /* while it is learnt: the sums of w; owned */
+    double samples;    /* their number */
     double *before;    /* [rows*(columns+1)] cumulative probabilities; NULL if nobody draws by it; owned */
 };
 
-/* table_build: the table of these sums; table_free releases it.
+/* table_learn: begin to learn, with room for so many rows and columns; table_free releases the table.
+ * table_add: add a sample, which counts in all pairs above, too.
+ * table_build: make the sums ratios. Without samples the table is empty.
  *   row     a tree, or one row
  *   base    [column.n], probabilities; 0: the column is never drawn
  *   delta   (0,1]
  *   root    use the square root of the mean, for samples whose worths are squares
  *   drawn   make what table_draw needs */
-struct table table_build(struct table_sums *s, struct axis row, struct axis column, const double *base, double delta,
-                         bool root, bool drawn);
+struct table table_learn(int rows, int columns);
+void table_add(struct table *t, struct axis row, struct axis column, int r, int c, double x, double w);
+void table_build(struct table *t, struct axis row, struct axis column, const double *base, double delta, bool root,
+                 bool drawn);
 void table_free(struct table *t);
 
 /* table_of_row: a table of one row, by these mean worths [n]; empty if m is NULL. */

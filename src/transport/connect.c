@@ -91,7 +91,7 @@ static double light_side(const struct scene *scene, const struct counts *counts,
     if (z->kind == VERTEX_LENS) {
         c_e = y->prev_delta ? 0 : n_if(counts, prev, y, FIRST_HIT);
         if (prev->kind == VERTEX_LIGHT && !light_is_delta(&scene->lights.light[prev->light]))
-            mis = mis_step(counts->hit[FIRST_HIT], 0, 0, prev->pdf_fwd, y->back);
+            mis = mis_step(counts->hit[FIRST_HIT], 0, 0, prev->pdf_fwd, y->g);
     }
     return mis_side(R, y->pdf_fwd, c_e, pdf_rev, mis);
 }
@@ -143,21 +143,22 @@ bool light_draw(const struct scene *scene, const struct counts *counts, const st
     return true;
 }
 
-bool light_point(const struct scene *scene, const struct counts *counts, const struct vertex *z,
-                 struct sampler *sampler, int i, int n, struct vertex *y)
+struct connection connect_direct(const struct scene *scene, const struct counts *counts, const struct vertex *z,
+                                 struct sampler *sampler, int i, int n, struct vertex *y)
 {
     const struct light_set *lights = &scene->lights;
     struct light_point at;
     rgb sent = rgb_black();
     double pdf;
+    y->light = -1;
     if (!light_draw(scene, counts, z, sampler, i, n, &at, &pdf))
-        return false;
+        return (struct connection){.light = -1};
     if (pdf > 0) {
         vec3 w = light_at_infinity(&lights->light[at.light]) ? neg(at.w) : normalize(sub(z->p, at.p));
         sent = rgb_scale(light_Le(lights, &at, w), 1 / pdf);
     }
     vertex_light(scene, &at, sent, counts->hit[z->eye_end], y);
-    return true;
+    return connect_vertices(scene, counts, y, z);
 }
 
 bool lens_point(const struct scene *scene, const struct vertex *y, struct sampler *sampler, struct vertex *z,
@@ -177,14 +178,6 @@ bool lens_point(const struct scene *scene, const struct vertex *y, struct sample
         return false;
     vertex_lens(camera, p, rgb_grey(J), z);
     return true;
-}
-
-struct connection connect_direct(const struct scene *scene, const struct counts *counts, const struct vertex *z,
-                                 struct sampler *sampler, int i, int n, struct vertex *y)
-{
-    y->light = -1;
-    return light_point(scene, counts, z, sampler, i, n, y) ? connect_vertices(scene, counts, y, z)
-                                                           : (struct connection){.light = -1};
 }
 
 struct connection connect_lens(const struct scene *scene, const struct counts *counts, const struct vertex *y,

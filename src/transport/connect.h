@@ -3,8 +3,8 @@
  *   s = 0    the eye sub-path's last vertex is itself on a light       connect_hit
  *   s >= 1   light vertex y_{s-1} and eye vertex z_{t-1} are joined    connect_vertices
  *
- * Two kinds of ends belong to no walk. If s = 1, light_point draws y_0 for the other end. If t = 1, lens_point draws
- * z_0. Strategy (1,1) is left to (0,2).
+ * Two kinds of ends belong to no walk. If s = 1, connect_direct draws y_0 for the other end. If t = 1, connect_lens
+ * draws z_0. Strategy (1,1) is left to (0,2).
  *
  * A connection's value is the unweighted contribution C* of [V97 10.2]: the product of throughputs, both scattering
  * factors, geometry factor and visibility, for *one* sample of its strategy [PBRT3 16.3.3]. Its weight is that of the
@@ -37,21 +37,18 @@ struct connection connect_vertices(const struct scene *scene, const struct count
 /* light_draw: draw a point of a light for eye vertex z, as number i of n whose lights are stratified: of two points on
  * a light of two triangles, each triangle has one. Its density is *pdf; 0 where nothing is emitted. False if no
  * connection can end at z, or there is no light.
- * light_point: the same as a vertex y_0, which may send nothing to z. */
+ * connect_direct: make it a vertex y_0, which may send nothing to z, and connect both. y->light is -1 if there is
+ * none. */
 bool light_draw(const struct scene *scene, const struct counts *counts, const struct vertex *z, struct sampler *sampler,
                 int i, int n, struct light_point *at, double *pdf);
-bool light_point(const struct scene *scene, const struct counts *counts, const struct vertex *z,
-                 struct sampler *sampler, int i, int n, struct vertex *y);
-
-/* lens_point: draw z_0 for light vertex y. False if the camera does not see there.
- *   raster  out: [2] the point at which y arrives, see camera_images */
-bool lens_point(const struct scene *scene, const struct vertex *y, struct sampler *sampler, struct vertex *z,
-                double raster[2]);
-
-/* connect_direct: draw light_point *y for z, and connect both. y->light is -1 if there is none.
- * connect_lens: draw lens_point for y, and connect both. */
 struct connection connect_direct(const struct scene *scene, const struct counts *counts, const struct vertex *z,
                                  struct sampler *sampler, int i, int n, struct vertex *y);
+
+/* lens_point: draw z_0 for light vertex y. False if the camera does not see there.
+ *   raster  out: [2] the point at which y arrives, see camera_images
+ * connect_lens: the same, and connect both. */
+bool lens_point(const struct scene *scene, const struct vertex *y, struct sampler *sampler, struct vertex *z,
+                double raster[2]);
 struct connection connect_lens(const struct scene *scene, const struct counts *counts, const struct vertex *y,
                                struct sampler *sampler, double raster[2]);
 

@@ -4,12 +4,12 @@
 struct counts counts_of(struct numbers n, double direct, double pair, double pixels, const struct tables *tables)
 {
     struct counts c = {.tables = tables};
-    c.lens = n.path_pixels > 0 ? pixels / n.path_pixels / numbers_every(&n, FIRST_HIT) : 0;
+    c.lens = n.path_pixels > 0 ? pixels / n.path_pixels / numbers_every(&n) : 0;
     for (int end = 0; end < EYE_ENDS; end++) {
         double credit = end == FIRST_HIT ? direct : 1;
         c.hit[end] = n.light_points > 0 ? credit : 0;
         c.direct[end] = credit * (end == FIRST_HIT ? n.light_points : n.light_points > 0);
-        c.pair[end] = n.path_pixels > 0 ? n.draws[end] * pair / numbers_every(&n, (enum eye_end)end) : 0;
+        c.pair[end] = n.path_pixels > 0 ? n.draws[end] * pair / numbers_every(&n) : 0;
     }
     return c;
 }

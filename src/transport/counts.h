@@ -38,14 +38,10 @@ struct numbers {
                            * does not use the strategies of path tracing, s = 0 (t >= 3) and s = 1 */
     int draws[EYE_ENDS];  /* light vertices that an eye vertex is joined to; BDPT: all vertices of one sub-path, once */
     int path_pixels;      /* pixels per light sub-path; 0: there are no light sub-paths */
-    int every[EYE_ENDS];  /* draws by such eye vertices happen in one of so many iterations of a tile, and count so many
-                           * times; that of first hits holds for light sub-paths, too. 0, 1: in each. A power of two,
-                           * alike for both ends unless first hits have 1 */
+    int every;            /* light sub-paths, and draws, happen in one of so many iterations of a tile, and count so
+                           * many times. 0, 1: in each. A power of two */
 };
-static inline int numbers_every(const struct numbers *n, enum eye_end end)
-{
-    return n->every[end] > 1 ? n->every[end] : 1;
-}
+static inline int numbers_every(const struct numbers *n) { return n->every > 1 ? n->every : 1; }
 
 /* An eye sub-path alone; an eye sub-path, a light sub-path, and all connections between them. */
 #define NUMBERS_OF_PT {.light_points = 1}

@@ -12,9 +12,9 @@ void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *p
 {
     bool parallel = vertex_at_infinity(w->scene, prev); /* rays of a light at infinity do not spread */
     double spread = prev->kind == VERTEX_LENS ? camera_spread(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
-    v->back = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * spread;
+    v->g = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * spread;
     v->pdf_fwd = from->pdf * vertex_cosine(v, from->ray.d) * spread;
-    v->mis = mis_step(from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, v->back);
+    v->mis = mis_step(from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, v->g);
 }
 
 /* The same with the factors of media on the edge, and the throughput with theirs. */
@@ -22,7 +22,7 @@ static void measure(const struct walk *w, struct vertex *v, const struct vertex 
                     const struct edge *edge, double d2)
 {
     walk_measure(w, v, prev, from, d2);
-    v->back *= edge->density[0];
+    v->g *= edge->density[0];
     v->pdf_fwd *= edge->density[1];
     v->mis *= edge->density[0];
     v->beta = rgb_mul(from->beta, rgb_scale(edge->left, 1 / edge->density[1]));

@@ -88,7 +88,7 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
  * walk is absorbed. */
 bool walk_leave(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out);
 
-/* walk_measure: pdf_fwd, back and mis (mis.h) of a vertex at distance^2 d2 from `prev`. */
+/* walk_measure: pdf_fwd, g and mis (mis.h) of a vertex at distance^2 d2 from `prev`. */
 void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                   double d2);
 

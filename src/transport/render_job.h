@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 #include "base/settings.h"
-#include "parser/source_position.h" /* struct message_sink */
+#include "parser/messages.h" /* struct message_sink */
 #include "scene/film.h"
 
 struct method;

@@ -29,29 +29,6 @@ struct sample {
     rgb value;              /* sum so far of the contributions with t >= 2 */
 };
 
-/* One strategy (s,t) that was tried: a path, or nothing if the value is black. */
-struct joined {
-    int s, t;
-    const struct vertex *light;  /* [s] the light sub-path, or the light point that was drawn; NULL: there is none */
-    const struct vertex *z;      /* z_{t-1}; the vertices before it are in front of it in memory. NULL if t = 1, or if
-                                  * it is not the sample's own vertex */
-    const struct connection *c;  /* value C*, weight, light */
-    double px, py;               /* t = 1: the raster point where it arrives */
-    double pmf;                  /* probability with which it was chosen; 1: there was no choice */
-    double scale;                /* other factors of C*: 1/number of samples, 1/pmf, filter */
-    rgb added;                   /* C* times scale times weight; t = 1: at that point */
-};
-
-/* Each function may be NULL. Its arguments are valid only during the call. */
-struct observer {
-    void *context; /* passed to all functions */
-    /* A sub-path that the sample uses, possibly more than once; RADIANCE: its eye sub-path. */
-    void (*walked)(void *context, const struct sample *sample, enum transport mode, const struct vertex *path, int n);
-    /* A path is about to be added to the sample's sums (t >= 2), or to the tile's splats. */
-    void (*joined)(void *context, const struct sample *sample, const struct joined *path);
-    const struct observer *next; /* the next observer, or NULL */
-};
-
 /* sample_begin: a sample of pixel (x,y) without sub-paths. sample_end: add it to its tile. Call this once. */
 struct sample sample_begin(const struct tile_pass *pass, const struct counts *counts, int light_points, int x, int y,
                            long iteration);
@@ -84,6 +61,31 @@ void sample_pairs(struct sample *sample, const struct drawn *drawn, const struct
 
 /* sample_lens: s >= 2, t = 1 for every vertex of a light sub-path, times `scale`, to the splats of the tile. */
 void sample_lens(struct sample *sample, const struct vertex *light, int n_light, double scale);
+
+/* --- observers --------------------------------------------------------------------------------------- */
+
+/* One strategy (s,t) that was tried: a path, or nothing if the value is black. */
+struct joined {
+    int s, t;
+    const struct vertex *light;  /* [s] the light sub-path, or the light point that was drawn; NULL: there is none */
+    const struct vertex *z;      /* z_{t-1}; the vertices before it are in front of it in memory. NULL if t = 1, or if
+                                  * it is not the sample's own vertex */
+    const struct connection *c;  /* value C*, weight, light */
+    double px, py;               /* t = 1: the raster point where it arrives */
+    double pmf;                  /* probability with which it was chosen; 1: there was no choice */
+    double scale;                /* other factors of C*: 1/number of samples, 1/pmf, filter */
+    rgb added;                   /* C* times scale times weight; t = 1: at that point */
+};
+
+/* Each function may be NULL. Its arguments are valid only during the call. */
+struct observer {
+    void *context; /* passed to all functions */
+    /* A sub-path that the sample uses, possibly more than once; RADIANCE: its eye sub-path. */
+    void (*walked)(void *context, const struct sample *sample, enum transport mode, const struct vertex *path, int n);
+    /* A path is about to be added to the sample's sums (t >= 2), or to the tile's splats. */
+    void (*joined)(void *context, const struct sample *sample, const struct joined *path);
+    const struct observer *next; /* the next observer, or NULL */
+};
 
 /* sample_add: the one place where a path with t >= 2 is added to the sample and where observers are called with it.
  * sample_splat: the same for a path with t = 1. It arrives at every raster point that has the same ray (camera_images).

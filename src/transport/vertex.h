@@ -59,7 +59,7 @@ struct vertex {
     rgb beta;
     double pdf_fwd;
     int medium;   /* of the edge that ends here; LENS, LIGHT: of the place */
-    double back;  /* g of mis.h: turns a density per steradian here into one per area at the previous vertex */
+    double g;     /* of mis.h: turns a density per steradian here into one per area at the previous vertex */
     double mis;   /* mis_e of mis.h */
     double mis_c; /* c_e of mis.h, if this vertex is not left by a delta lobe */
     struct bsdf bsdf;

@@ -7,15 +7,15 @@
 #include "base/os.h"
 #include "cli/cmd_render.h"
 #include "lab/commands.h"
-#include "lab/looks.h"
+#include "lab/channels.h"
 #include "lab/methods.h"
 
 struct more_options {
     struct render_run run;
-    struct look_options look;
+    struct channel_options channel;
 };
 
-#define AT(member) offsetof(struct more_options, look.member)
+#define AT(member) offsetof(struct more_options, channel.member)
 static const struct option OPTIONS[] = {
     {"--aov", "LIST", OPTION_TEXT, AT(aov),
      .help = "also write NAME.albedo.pfm and so on: some of albedo,normal,depth,position,variance"},
@@ -33,8 +33,8 @@ static const struct option OPTIONS[] = {
 /* What a chain does not show: its samples are not a pixel's own, and not independent. */
 static const char *of_samples(const struct more_options *o)
 {
-    return looks_variance(&o->look) ? "--aov variance" : o->look.lights != NULL ? "--lights"
-           : o->look.alpha ? "--alpha" : job_asks_noise(&o->run.of.job) ? "--noise" : NULL;
+    return channels_variance(&o->channel) ? "--aov variance" : o->channel.lights != NULL ? "--lights"
+           : o->channel.alpha ? "--alpha" : job_asks_noise(&o->run.of.job) ? "--noise" : NULL;
 }
 
 /* Can the method show that? */
@@ -43,35 +43,35 @@ static bool can_show(const struct more_options *o, const struct method *m, struc
     if (of_samples(o) != NULL && method_is_chain(m))
         return error_usage(err, "%s: the samples of %s are a chain, and do not show that; render several --seed",
                            of_samples(o), m->name);
-    return o->look.lights == NULL || !method_merges(m) ||
+    return o->channel.lights == NULL || !method_merges(m) ||
            error_set(err, "%s adds what comes of many lights at once: render one of them at a time", m->name);
 }
 
 /* Can the options be as they are? */
 static bool check(const struct more_options *o, struct error *err)
 {
-    bool kept = looks_variance(&o->look) || o->look.lights != NULL || o->look.alpha;
+    bool kept = channels_variance(&o->channel) || o->channel.lights != NULL || o->channel.alpha;
     if (o->run.keep.resume != NULL && kept)
         return error_set(err, "%s: variance, lights and alpha are not saved and cannot be resumed; render them by "
                          "--samples, and take the mean by sum --weights", o->run.keep.resume);
-    return looks_check(&o->look, err);
+    return channels_check(&o->channel, err);
 }
 
 static int run(void *options)
 {
     struct more_options *o = options;
     struct render_run *r = &o->run;
-    struct looks looks;
+    struct channels channels;
     struct error err;
     if (!check(o, &err))
         return fail(&err);
     int status = render_open(r);
     if (status != EXIT_OK)
         return status;
-    bool ok = can_show(o, r->of.job.integrator, &err) && looks_open(&looks, &o->look, r, &err);
+    bool ok = can_show(o, r->of.job.integrator, &err) && channels_open(&channels, &o->channel, r, &err);
     if (ok) {
         ok = render_work(r, &err);
-        ok = looks_write(&looks, ok, &err);
+        ok = channels_write(&channels, ok, &err);
     }
     return render_close(r, ok, &err);
 }

@@ -21,7 +21,7 @@ static double relative_cost(const struct race_result *r, const struct runner *k)
 /* "light sub-paths in one of 32 iterations", "a light sub-path for 4 pixels". */
 static void print_light(FILE *f, const struct numbers *n)
 {
-    int every = numbers_every(n, FIRST_HIT);
+    int every = numbers_every(n);
     if (n->path_pixels == 0)
         fputs("no light sub-paths", f);
     else if (every > 1)
@@ -43,7 +43,7 @@ void race_print_winner(FILE *f, const struct race_result *r)
     if (r->runner[RUNNER_ALL].price > 0)
         fputs(". It has the least variance times price.", f);
     else
-        fputs(", since most noise is of direct light, which they do not reduce.", f);
+        fputs(", since they help little.", f);
     for (int i = 0; i < RUNNERS; i++)
         if (i != r->winner && r->runner[i].price > 0) {
             fprintf(f, "%s %s %.3g", before, runner_name(i), relative_cost(r, &r->runner[i]));
@@ -63,8 +63,8 @@ void race_print_table(FILE *f, const struct race_result *r)
     for (int i = 0; i < RUNNERS; i++) {
         const struct runner *k = &r->runner[i];
         const struct numbers *n = &k->numbers;
-        double later = (double)n->draws[LATER_HIT] / numbers_every(n, LATER_HIT);
-        fprintf(f, "  %-14s %8.3g %6.2g %6d", runner_name(i), (double)n->draws[FIRST_HIT] / numbers_every(n, FIRST_HIT), later,
+        double later = (double)n->draws[LATER_HIT] / numbers_every(n);
+        fprintf(f, "  %-14s %8.3g %6.2g %6d", runner_name(i), (double)n->draws[FIRST_HIT] / numbers_every(n), later,
                 n->light_points);
         if (!(k->price > 0))
             fprintf(f, " %10s %8s %8s", "-", "-", "-"); /* it did not have to start */
@@ -78,6 +78,6 @@ void race_print_table(FILE *f, const struct race_result *r)
     }
     fputs("  at first, later: light vertices for an eye vertex, in the mean over iterations; points: light points at a\n"
           "  first hit; variance: of a sample, relative to brightness; product: variance times price, over that of\n"
-          "  the chosen one; -: the path tracer has won before anything was learnt\n",
+          "  the chosen one; -: the path tracer has won before it had to start\n",
           f);
 }

@@ -18,7 +18,7 @@ for scene; do
     ./asbdpt-lab info "$scene" --race --res "$size" --quiet || exit 1
 done >"$dir/predicted"
 ./asbdpt-lab equal-time "$@" -o "$dir" --res "$size" --spp "${SPP:-32}" --seeds "${SEEDS:-3}" --quiet --methods \
-    asbdpt:race=all,asbdpt:race=quarter,asbdpt:race=quarter_first,asbdpt:race=path_tracer,asbdpt:race=one_point \
+    asbdpt:race=all,asbdpt:race=quarter,asbdpt:race=path_tracer,asbdpt:race=one_point \
     >"$dir/said" || exit 1
 awk -F , -v most="${PRICE:-0.12}" -f test/measure/evidence/predictions.awk "$dir/predicted" "$dir/runs.csv" "$dir/equal-time.md" \
     >"$dir/race.txt"

@@ -389,7 +389,7 @@ prints 'bounds  *(4, 5, 6) to (6, 7, 8)' \
 prints '; chosen$' "$lab" info "$box" --res 40 --race
 # Every runner is explained: help has those of the race, in their order.
 sed -n '/^  runner /,/^  at first/s/^  \([a-z_]*\)  *[0-9].*/\1/p' stdout.txt >runners.txt
-check [ "$(wc -l <runners.txt)" -eq 5 ]
+check [ "$(wc -l <runners.txt)" -eq 4 ]
 expect 0 '' "$program" help integrators
 check [ "$(sed -n '/^Runners: /,$s/^    \([a-z_][a-z_]*\)    *[a-z].*/\1/p' stdout.txt)" = "$(cat runners.txt)" ]
 expect 2 'pt has no race' "$lab" info "$box" --res 40 --race --integrator pt

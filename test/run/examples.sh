@@ -1,7 +1,7 @@
 #!/bin/sh
 # examples.sh PROGRAM: every example in the help of every command, of both programs, does what it says: it ends with 0,
 # makes what it names in out/, and leaves nothing elsewhere. What an example reads and the tree does not have is made
-# before. Those that take minutes are shortened, unless FULL=yes.
+# before. Those that take seconds are shortened, unless FULL=yes.
 . test/run/expect.sh
 for entry in "$top"/*; do
     case ${entry##*/} in out | build* | asbdpt | asbdpt-lab) ;; *) ln -s "$entry" . ;; esac
@@ -24,8 +24,11 @@ examples() {
     while IFS= read -r line; do
         n=$((n + 1)) shorter=
         case $line in "asbdpt-lab "equal-time* | "asbdpt-lab "family* | "asbdpt-lab "experiment*)
-            [ -n "${FULL-}" ] || shorter=" --spp 1 --res 8 --seeds 3 --reference-spp 4" ;;
+            shorter=" --spp 1 --res 8 --seeds 3 --reference-spp 4" ;;
+        *" render "* | "asbdpt-lab "worth* | "asbdpt-lab "strategies* | "asbdpt-lab "transient* | "asbdpt-lab "bench*)
+            shorter=" --spp 1" ;;
         esac
+        [ -z "${FULL-}" ] || shorter=
         ls -A >before.txt
         sh -c "$line$shorter" >said.txt 2>&1 </dev/null || fault "$line ends with $?: $(tail -n 3 said.txt)"
         ls -A >after.txt

@@ -20,10 +20,10 @@ bars() {
     ! tr '\r' '\n' <stdout.txt | grep -Eq "$bar" || fault "$2 has a bar in its standard output"
 }
 left='(, [0-9]+ (s|min.*) left)?'
-bars "$left" '"$program" render "$box" --res 120 --spp 16 -o box.pfm'
-bars "$left" '"$lab" strategies "$box" --res 96 --spp 32 --maxdepth 3 -o strategies'
-bars "$left" '"$lab" transient "$box" --res 96 --spp 32 -o flight'
-bars "$left" '"$lab" bench "$box" --spp 2'
+bars "$left" '"$program" render "$box" --res 120 --spp 8 -o box.pfm'
+bars "$left" '"$lab" strategies "$box" --res 96 --spp 16 --maxdepth 3 -o strategies'
+bars "$left" '"$lab" transient "$box" --res 96 --spp 16 -o flight'
+bars "$left" '"$lab" bench "$box" --spp 1'
 export PROGRAM="$lab" LAB="$lab"
 bars ", (area|mirror)$left" 'rm -rf shown; sh test/measure/conform/kit.sh ours shown bdpt 4 16 area mirror'
 mkdir kit # black pictures of all scenes
@@ -34,7 +34,7 @@ bars "$left" '"$lab" conform kit || [ $? = 1 ]'
 bars ", second, [0-9]+ s left" '{ echo first; sleep 3; echo second; } | "$lab" progress --parts 3'
 # What must not pass.
 if [ -n "$terminal" ]; then
-    bars "$left" '"$lab" strategies "$box" --quiet --res 96 --spp 32 --maxdepth 3 -o strategies' >told.txt
+    bars "$left" '"$lab" strategies "$box" --quiet --res 96 --spp 16 --maxdepth 3 -o strategies' >told.txt
     [ $failures -gt 0 ] && grep -q 'shows no bar' told.txt && failures=$((failures - 1)) ||
         fault "no bar is not noticed"
 fi

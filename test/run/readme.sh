@@ -25,7 +25,7 @@ why() {
     "make test" | "make check"* | "make mutants" | "make "*san | *run.sh* | *course.sh*) echo "other tests" ;;
     "make portability" | "make ref" | "make gallery" | "make experiments" | "make web" | "make inject" | \
         "make evidence"* | *"equal-time"* | *out/gallery* | *"-lab family"* | *"tune.sh"* | \
-        *"ajar.pbrt -o out/ajar.png "*) echo "over a minute" ;;
+        *"conform/measure.sh"* | *"ajar.pbrt -o out/ajar.png "*) echo "over a minute" ;;
     "make install"* | "make clean") echo "changes the system or the tree" ;;
     *resampling*) echo "a method that the page adds" ;;
     *"conform out/pbrt") command -v "${PBRT:-pbrt}" >/dev/null || echo "pbrt-v3 is not there" ;; # as kit.sh: need

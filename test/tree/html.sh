@@ -3,8 +3,8 @@
 #   1. that every local link and picture leads to a file;
 #   2. that [`FILE: FUNCTION`](path) leads to a file of that name, and to the line that defines the function there;
 #   3. that tags are closed as often as they are opened, and that formulas have indices, lists and tables are there;
-#   4. that every name in a source leads to a line that has it, that lines and the formulas that they compute lead to each
-#      other, and that a mark (doc/marks.awk) follows its line, and fails without it;
+#   4. that every name in a source leads to a line that has it, that lines and the formulas that they compute lead to
+#      each other, and that a mark (doc/marks.awk) follows its line, and fails without it;
 #   5. that mutant `NAME` is in test/data/mutants/list.txt, and `build/test NAME` in test/unit.
 # Damaged pages must be found. Prints what is wrong, or one line; exit status 0 only if nothing is. Run from the top.
 dir=$(mktemp -d) || exit 1
@@ -115,6 +115,9 @@ found=$(named "$dir/html")
 [ "$(echo "$found" | sed '$d')" = "" ] || wrong "$(echo "$found" | sed -n 1,5p)"
 [ "$(echo "$found" | tail -n 1)" -gt 20000 ] || wrong "only $found names of the sources lead anywhere"
 grep -q '<munderover><mo>&#x220F;</mo>' "$dir/html/src/transport/mis.h.html" || wrong "mis.h has no product"
+grep -q '^<p>Next: <a href="../../src/transport/vertex.h.html">' "$dir/html/src/transport/mis.h.html" ||
+    wrong "nothing leads from mis.h to the next file that the README names"
+[ "$(cat "$dir"/html/src/*/*.html | grep -c '^<p>Next: ')" -gt 40 ] || wrong "the order of reading ends too soon"
 # Formulas: pages 3 to 11b have marks, and where a line has a formula its page leads back to the line.
 LC_ALL=C awk -f doc/marks.awk doc/tour/*.md >"$dir/marks" || bad=1
 for page in 03 04 05 06 07 07b 08 09 10 11 11b; do

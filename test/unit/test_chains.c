@@ -114,7 +114,7 @@ static void test_follow(struct test *t)
         if (smooth == 0 || !CHECK(t, follow_light(&w, stop, smooth, again) == smooth, "light does not come again"))
             continue;
         for (int k = 1; k < smooth; k++, met++) {
-            CHECK(t, near_to(again[k].mis, walked[k].mis) && near_to(again[k].back, walked[k].back),
+            CHECK(t, near_to(again[k].mis, walked[k].mis) && near_to(again[k].g, walked[k].g),
                   "vertex %d: weights %g, not %g", k, again[k].mis, walked[k].mis);
             CHECK(t, near_to(again[k].pdf_fwd, walked[k].pdf_fwd) && near_to(again[k].mis_c, walked[k].mis_c),
                   "vertex %d: density %g, not %g", k, again[k].pdf_fwd, walked[k].pdf_fwd);

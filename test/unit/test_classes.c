@@ -162,7 +162,7 @@ static void compare_runners(struct subject *s)
         snprintf(way, sizeof way, "asbdpt race=%s", runner_name(i));
         compare(s, way);
     }
-    int rare = RUNNER_QUARTER_FIRST + (int)(s->number / 2 % (RUNNERS - RUNNER_QUARTER_FIRST));
+    int rare = RUNNER_PATH_TRACER + (int)(s->number / 2 % (RUNNERS - RUNNER_PATH_TRACER));
     snprintf(way, sizeof way, "asbdpt select=%s race=%s", s->number % 2 == 0 ? "pool" : "vertices", runner_name(rare));
     compare(s, way);
 }

@@ -85,15 +85,14 @@ static struct table random_table(const struct scene *s, struct rng *r, double de
     double *base;
     struct axis axis = emission_axis_new(&s->lights, &base);
     const struct axis one = {1, NULL, NULL};
-    struct table_sums sums;
-    table_sums_init(&sums, 1, axis.n);
+    struct table out = table_learn(1, axis.n);
     for (int i = 0; i < WORTH; i++) {
         int cell = (int)rng_below(r, (uint32_t)s->lights.n_cells), bin = (int)rng_below(r, SIDE * SIDE);
         const double u[2] = {(bin / SIDE + rng_uniform(r)) / SIDE, (bin % SIDE + rng_uniform(r)) / SIDE};
         double worth = bin % 7 * (1 + cell % 5);
-        table_sums_add(&sums, one, axis, 0, emission_column(cell, u), worth * worth, 1);
+        table_add(&out, one, axis, 0, emission_column(cell, u), worth * worth, 1);
     }
-    struct table out = table_build(&sums, one, axis, base, delta, true, true);
+    table_build(&out, one, axis, base, delta, true, true);
     emission_axis_free(&axis, base);
     return out;
 }
@@ -232,17 +231,16 @@ static void test_root(struct test *t)
     enum { RAYS = 64000 };
     const double delta = 0.25;
     const struct axis one = {1, NULL, NULL};
-    struct table_sums sums;
     if (!scene_from_text(t, ONE, &s))
         return;
     double *base;
     struct axis axis = emission_axis_new(&s.lights, &base);
-    table_sums_init(&sums, 1, axis.n);
+    struct table e = table_learn(1, axis.n);
     for (int i = 0; i < RAYS; i++) { /* on one half 3, on the other every fourth time 8, whose root of the mean is 4 */
         const double u[2] = {(i % 64 + 0.5) / 64, (i / 64 % 8 + 0.5) / 8};
-        table_sums_add(&sums, one, axis, 0, emission_column(0, u), u[0] < 0.5 ? 9 : i % 4 == 0 ? 64 : 0, 1);
+        table_add(&e, one, axis, 0, emission_column(0, u), u[0] < 0.5 ? 9 : i % 4 == 0 ? 64 : 0, 1);
     }
-    struct table e = table_build(&sums, one, axis, base, delta, true, true);
+    table_build(&e, one, axis, base, delta, true, true);
     for (int k = 0; k < 2; k++) {
         const double u[2] = {k, k};
         double ratio = table_ratio(&e, 0, emission_column(0, u)), expected = delta + (1 - delta) * (3 + k) / 3.5;

@@ -118,7 +118,6 @@ static struct tables learn_nothing(const struct scene *scene)
 {
     enum { POINTS = 2000, RAYS = 5000 };
     struct tables l = NO_TABLES;
-    struct table_sums direct, pairs, rays;
     struct rng r = rng_stream(7, RNG_TEST, 0, 0);
     const struct light_set *lights = &scene->lights;
     double *base;
@@ -132,26 +131,26 @@ static struct tables learn_nothing(const struct scene *scene)
         at[i] = regions_add(&l.regions, regions_key(&l.regions, p, on_sphere(&r)));
     }
     struct axis places = regions_axis(&l.regions);
-    table_sums_init(&direct, places.n, cells.n);
-    table_sums_init(&pairs, places.n, places.n);
-    table_sums_init(&rays, 1, emission.n);
+    l.direct = table_learn(places.n, cells.n);
+    l.pairs = table_learn(places.n, places.n);
+    l.emission = table_learn(1, emission.n);
     for (int i = 0; i < POINTS; i++) {
         int cell = (int)rng_below(&r, (uint32_t)cells.n);
-        table_sums_add(&direct, places, cells, at[i], cell, 1 + cell % 3 + i % 5, 1);
-        table_sums_add(&pairs, places, places, at[i], at[rng_below(&r, POINTS)], exp(8 * rng_uniform(&r)), 1);
+        table_add(&l.direct, places, cells, at[i], cell, 1 + cell % 3 + i % 5, 1);
+        table_add(&l.pairs, places, places, at[i], at[rng_below(&r, POINTS)], exp(8 * rng_uniform(&r)), 1);
     }
     for (int i = 0; i < RAYS; i++) {
         const double u[2] = {rng_uniform(&r), rng_uniform(&r)};
         int column = emission_column((int)rng_below(&r, (uint32_t)cells.n), u);
-        table_sums_add(&rays, one, emission, 0, column, exp(8 * (u[0] - u[1])) + i % 3, 1);
+        table_add(&l.emission, one, emission, 0, column, exp(8 * (u[0] - u[1])) + i % 3, 1);
     }
     for (int i = 0; i < cells.n; i++)
         e[i] = alias_pmf(&lights->choice, i);
     for (int i = 0; i < places.n; i++)
         even[i] = 1.0 / places.n;
-    l.direct = table_build(&direct, places, cells, e, 0.1, false, true);
-    l.pairs = table_build(&pairs, places, places, even, 0.1, false, false);
-    l.emission = table_build(&rays, one, emission, base, 0.1, true, true);
+    table_build(&l.direct, places, cells, e, 0.1, false, true);
+    table_build(&l.pairs, places, places, even, 0.1, false, false);
+    table_build(&l.emission, one, emission, base, 0.1, true, true);
     emission_axis_free(&emission, base);
     free(e);
     return l;
@@ -229,12 +228,13 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
     const struct light_set *lights = &c->scene->lights;
     struct vertex y;
     int cell;
-    if (!light_point(c->scene, c->counts, &eye[t - 1], sampler, 0, 1, &y))
+    struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler, 0, 1, &y);
+    if (y.light < 0)
         return;
     if (lights->light[y.light].kind == LIGHT_INFINITE)
         CHECK(c->t, fabs(light_pdf_sky(lights, y.wo, &cell) / y.pdf_fwd - 1) < 1e-9 && cell == y.place,
               "%s: a direction of cell %d, drawn with %g, is of cell %d", c->name, y.place, y.pdf_fwd, cell);
-    compare(c, connect_vertices(c->scene, c->counts, &y, &eye[t - 1]), &y, 1, eye, t);
+    compare(c, got, &y, 1, eye, t);
 }
 
 static void compare_lens(struct comparison *c, const struct vertex *light, int s, struct sampler *sampler)

@@ -20,7 +20,7 @@ static struct vertex as_eye_vertex(const struct vertex *x, const struct vertex *
     v.wo = neg(normalize(d));
     v.kind = VERTEX_SURFACE;
     v.prev_delta = false;
-    v.back = vertex_cosine(z, v.wo) / length2(d);
+    v.g = vertex_cosine(z, v.wo) / length2(d);
     v.pdf_fwd = pdf * abs_dot(x->ng, v.wo) / length2(d);
     v.beta = rgb_grey(1);
     return v;

@@ -96,16 +96,16 @@ static double probabilities(double *e, int n)
 static struct table learnt(struct rng *rng, struct axis row, struct axis column, const double *e, double delta,
                            bool root, struct sample_of_table *s)
 {
-    struct table_sums sums;
-    table_sums_init(&sums, row.n + 2, column.n); /* room for more rows than there will be */
+    struct table t = table_learn(row.n + 2, column.n); /* room for more rows than there will be */
     for (int i = 0; i < SAMPLES; i++) {
         s[i].r = (int)rng_below(rng, (uint32_t)row.n);
         s[i].c = (int)rng_below(rng, (uint32_t)column.n);
         s[i].x = rng_below(rng, 3) == 0 ? 0 : (1 + s[i].r) * (1 + s[i].c) * rng_uniform(rng);
         s[i].w = 0.1 + rng_uniform(rng);
-        table_sums_add(&sums, row, column, s[i].r, s[i].c, s[i].x, s[i].w);
+        table_add(&t, row, column, s[i].r, s[i].c, s[i].x, s[i].w);
     }
-    return table_build(&sums, row, column, e, delta, root, true);
+    table_build(&t, row, column, e, delta, root, true);
+    return t;
 }
 
 static void check_ratios(struct test *t, const struct table *table, const struct sample_of_table *s, struct axis row,
@@ -208,13 +208,11 @@ static void test_special(struct test *t)
 {
     const struct axis row = {2, NULL, NULL}, column = {3, NULL, NULL};
     const double e[3] = {0.25, 0.25, 0.5}, m[3] = {8, 0, 1};
-    struct table_sums sums;
-    table_sums_init(&sums, 2, 3);
-    struct table none = table_build(&sums, row, column, e, 0.1, false, true);
+    struct table none = table_learn(2, 3), dark = table_learn(2, 3);
+    table_build(&none, row, column, e, 0.1, false, true);
     CHECK(t, none.rows == 0 && table_ratio(&none, 1, 2) == 1, "a table without samples is not empty");
-    table_sums_init(&sums, 2, 3);
-    table_sums_add(&sums, row, column, 1, 1, 0, 1);
-    struct table dark = table_build(&sums, row, column, e, 0.1, false, true);
+    table_add(&dark, row, column, 1, 1, 0, 1);
+    table_build(&dark, row, column, e, 0.1, false, true);
     for (int i = 0; i < 6; i++)
         CHECK(t, dark.rows == 2 && table_ratio(&dark, i / 3, i % 3) == 1, "nothing is worth anything: ratio %g",
               table_ratio(&dark, i / 3, i % 3));

@@ -150,7 +150,7 @@ static void sum_light_side(const struct index *r, const struct path_end *end, st
             direct ? count_direct(r, a, ratio, v, LATER_HIT, v[-1].place)
                    : count(a, ratio, r->counts->pair[LATER_HIT], r->light_n[v - r->pool->vertex]);
         passed = v->prev_delta;
-        pdf_other = pdf_rev * v->back;
+        pdf_other = pdf_rev * v->g;
         pdf_rev = vertex_pdf_rev(&v[-1], v, IMPORTANCE);
     }
 }
@@ -185,7 +185,7 @@ static void sum_eye_side(struct index *r, int s, const struct path_end *end, dou
             L *= kept(v, wo, v->wo);
         passed = v->prev_delta;
         wo = neg(v->wo);
-        pdf_other = pdf_rev * v->back;
+        pdf_other = pdf_rev * v->g;
         pdf_rev = vertex_pdf_rev(before, v, RADIANCE);
     }
 }

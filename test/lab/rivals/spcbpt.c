@@ -91,7 +91,7 @@ static void note(struct trainer *r, rgb value, struct found f, const struct vert
             lesson.n_links++;
         }
         f.delta = z->prev_delta;
-        f.pdf = f.pdf_rev * z->back;
+        f.pdf = f.pdf_rev * z->g;
         f.pdf_rev = vertex_pdf_rev(z - 1, z, RADIANCE);
     }
     to->lesson = mem_append(to->lesson, to->n, sizeof *to->lesson);
@@ -110,7 +110,7 @@ static void note_hit(struct trainer *r, const struct vertex *eye, int t)
     double ratio = y0.pdf / x->pdf_fwd, direct = n_direct(r->counts, z->place, z->eye_end, y0.cell);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &y0,
                                    x->kind == VERTEX_ESCAPED ? z->p : x->p, x->wo);
-    struct found f = {1, x->prev_delta ? 0 : ratio * direct, ratio, pdf_emit * x->back, vertex_pdf_rev(z, x, RADIANCE),
+    struct found f = {1, x->prev_delta ? 0 : ratio * direct, ratio, pdf_emit * x->g, vertex_pdf_rev(z, x, RADIANCE),
                       x->prev_delta};
     note(r, c.value, f, z);
 }
@@ -190,7 +190,7 @@ static void guide_subspaces(struct tables *tables, const struct lessons *all, in
     }
     free(region);
     table_free(t);
-    *t = (struct table){(int)rows, t->columns, ratio, before};
+    *t = (struct table){.rows = (int)rows, .columns = t->columns, .ratio = ratio, .before = before};
     regions_free(&tables->regions);
     tables->regions = NO_TABLES.regions;
 }
@@ -204,7 +204,7 @@ static void learn_pairs(const struct lessons *all, struct spcbpt *own, double C,
     for (int l = 0; l < n; l++) /* C / N_l; 1/2: a subspace without a vertex so far may have one in the render */
         vertices[l] = C * n_light / (vertices[l] + 0.5);
     own->gamma = learn_gamma(all, n, vertices, K, own->steps);
-    *pairs = (struct table){n, n, mem_alloc((size_t)n * (size_t)n, sizeof *pairs->ratio), NULL};
+    *pairs = (struct table){.rows = n, .columns = n, .ratio = mem_alloc((size_t)n * (size_t)n, sizeof(double))};
     for (int i = 0; i < n * n; i++) {
         own->gamma[i] = (1 - delta) * own->gamma[i] + delta / n;
         double x = own->gamma[i] * vertices[i % n];
@@ -252,7 +252,7 @@ struct index {
 /* mis of vertex v again, which follows x. */
 static double step_again(const struct vertex *x, const struct vertex *v, double pdf_rev)
 {
-    return mis_step(v->prev_delta ? 0 : x->mis_c, pdf_rev, x->mis, x->pdf_fwd, v->back);
+    return mis_step(v->prev_delta ? 0 : x->mis_c, pdf_rev, x->mis, x->pdf_fwd, v->g);
 }
 
 /* The subspaces of a sub-path's vertices, and what weights depend on them: walks know no trees. A vertex has that of

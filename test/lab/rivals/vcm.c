@@ -52,11 +52,11 @@ static void know_merges(const struct index *m, struct arena *arena, struct verte
         const struct vertex *before = v - 1;
         double c = v->prev_delta ? 0 : before->mis_c, pdf_rev = e > 1 ? vertex_pdf_rev(before, v, mode) : 0;
         if (e > 1)
-            v->mis = mis_step(c, pdf_rev, before->mis, before->pdf_fwd, v->back);
+            v->mis = mis_step(c, pdf_rev, before->mis, before->pdf_fwd, v->g);
         if (e > 1 && v->lamp != NULL) {
             struct vertex *lamp = arena_alloc(arena, sizeof *lamp);
             *lamp = *v->lamp;
-            lamp->mis = mis_step(c, pdf_rev, before->mis, before->pdf_fwd, lamp->back);
+            lamp->mis = mis_step(c, pdf_rev, before->mis, before->pdf_fwd, lamp->g);
             v->lamp = lamp;
         }
         if (can_merge(v))

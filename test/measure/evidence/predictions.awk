@@ -32,7 +32,7 @@ FILENAME ~ /runs.csv$/ {
 }
 function mean_cost(measure) { return cases[measure] ? exp(logs[measure] / cases[measure]) : 0 }
 END {
-    kinds = split("all quarter quarter_first path_tracer one_point", runners, " ")
+    kinds = split("all quarter path_tracer one_point", runners, " ")
     for (k = 1; k <= n; k++) {
         s = scene[k]; sum = count = 0
         for (i = 1; i <= kinds; i++)

@@ -1,5 +1,5 @@
-/* looks.c: see looks.h. */
-#include "lab/looks.h"
+/* channels.c: see channels.h. */
+#include "lab/channels.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,13 +29,13 @@ static bool read_list(const char *list, bool wanted[N_AOVS], struct error *err)
     return true;
 }
 
-bool looks_check(const struct look_options *o, struct error *err)
+bool channels_check(const struct channel_options *o, struct error *err)
 {
     bool wanted[N_AOVS] = {false};
     return read_list(o->aov, wanted, err);
 }
 
-bool looks_variance(const struct look_options *o)
+bool channels_variance(const struct channel_options *o)
 {
     bool wanted[N_AOVS] = {false};
     struct error ignored;
@@ -44,9 +44,9 @@ bool looks_variance(const struct look_options *o)
 
 /* --- files -------------------------------------------------------------------------------------------- */
 
-static bool add_file(struct looks *l, const char *name, int light, enum aov aov, struct error *err)
+static bool add_file(struct channels *l, const char *name, int light, enum aov aov, struct error *err)
 {
-    struct look_file f = {.light = light, .aov = aov};
+    struct channel_file f = {.light = light, .aov = aov};
     if (!image_create(name, &f.file, err))
         return false;
     l->item = mem_append(l->item, (size_t)l->n, sizeof *l->item);
@@ -54,7 +54,7 @@ static bool add_file(struct looks *l, const char *name, int light, enum aov aov,
     return true;
 }
 
-static bool open_aov(struct looks *l, const char *picture, enum aov which, struct error *err)
+static bool open_aov(struct channels *l, const char *picture, enum aov which, struct error *err)
 {
     const char *dot = strrchr(picture, '.'), *slash = os_last_separator(picture);
     int stem = dot != NULL && (slash == NULL || dot > slash) ? (int)(dot - picture) : (int)strlen(picture);
@@ -69,7 +69,7 @@ static bool open_aov(struct looks *l, const char *picture, enum aov which, struc
 }
 
 /* Every picture that has layers or alpha a second time: it is whole without them while they are made. */
-static bool open_again(struct looks *l, struct error *err)
+static bool open_again(struct channels *l, struct error *err)
 {
     const struct outputs *pictures = &l->run->pictures;
     bool ok = true;
@@ -85,7 +85,7 @@ static bool open_again(struct looks *l, struct error *err)
 }
 
 /* A group is called by its name, or by what it is. */
-static bool open_light(struct looks *l, int i, struct error *err)
+static bool open_light(struct channels *l, int i, struct error *err)
 {
     static const char *const KINDS[] = {
         [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot", [LIGHT_DISTANT] = "distant",
@@ -99,7 +99,7 @@ static bool open_light(struct looks *l, int i, struct error *err)
     return ok;
 }
 
-static bool open_lights(struct looks *l, struct error *err)
+static bool open_lights(struct channels *l, struct error *err)
 {
     int n = l->run->of.scene.lights.n_groups;
     bool ok = true;
@@ -113,7 +113,7 @@ static bool open_lights(struct looks *l, struct error *err)
 }
 
 /* Does every file have a name of its own, and is the scene read from none? */
-static bool names_differ(const struct looks *l, struct error *err)
+static bool names_differ(const struct channels *l, struct error *err)
 {
     struct texts names = {0};
     options_written(RENDER_OPTIONS, l->run, &names);
@@ -127,9 +127,9 @@ static bool names_differ(const struct looks *l, struct error *err)
     return ok;
 }
 
-static bool open_files(struct looks *l, struct error *err)
+static bool open_files(struct channels *l, struct error *err)
 {
-    const struct look_options *o = l->options;
+    const struct channel_options *o = l->options;
     bool ok = read_list(o->aov, l->wanted, err);
     for (int i = 0; ok && i < N_AOVS && !o->layers; i++)
         ok = !l->wanted[i] || open_aov(l, l->run->pictures.item[0].file.path, (enum aov)i, err);
@@ -137,7 +137,7 @@ static bool open_files(struct looks *l, struct error *err)
            names_differ(l, err);
 }
 
-static void release(struct looks *l)
+static void release(struct channels *l)
 {
     for (int i = 0; i < l->n; i++)
         if (l->item[i].file.stream != NULL)
@@ -146,10 +146,10 @@ static void release(struct looks *l)
     planes_free(&l->planes);
 }
 
-static bool begin_planes(struct looks *l, struct error *err)
+static bool begin_planes(struct channels *l, struct error *err)
 {
     struct render_run *r = l->run;
-    const struct look_options *o = l->options;
+    const struct channel_options *o = l->options;
     struct error why;
     planes_init(&l->planes, &r->of.scene, &r->of.film, o->lights != NULL, o->alpha, l->wanted[AOV_VARIANCE],
                 r->of.job.n_threads);
@@ -162,9 +162,9 @@ static bool begin_planes(struct looks *l, struct error *err)
     return true;
 }
 
-bool looks_open(struct looks *l, const struct look_options *o, struct render_run *run, struct error *err)
+bool channels_open(struct channels *l, const struct channel_options *o, struct render_run *run, struct error *err)
 {
-    *l = (struct looks){.options = o, .run = run};
+    *l = (struct channels){.options = o, .run = run};
     bool ok = open_files(l, err) && begin_planes(l, err);
     if (!ok)
         release(l);
@@ -191,7 +191,7 @@ static void progress(void *context, double learnt, double done)
     progress_update(&k->bar, done);
 }
 
-static bool make_first_hit(const struct looks *l, float *const picture[N_AOVS])
+static bool make_first_hit(const struct channels *l, float *const picture[N_AOVS])
 {
     struct keep *k = &l->run->keep;
     struct render_job o = l->run->of.job;
@@ -224,7 +224,7 @@ static void show(const struct tone *tone, const float *alpha, size_t n, float *p
 }
 
 /* The channels of the picture's own file. Returns their number. */
-static int channels_of(const struct looks *l, const float *alpha, float *const picture[N_AOVS], struct channel *out)
+static int channels_of(const struct channels *l, const float *alpha, float *const picture[N_AOVS], struct channel *out)
 {
     static const char *const NAMES[N_AOVS][3] = {{"albedo.R", "albedo.G", "albedo.B"},
                                                  {"normal.X", "normal.Y", "normal.Z"},
@@ -240,7 +240,7 @@ static int channels_of(const struct looks *l, const float *alpha, float *const p
     return n;
 }
 
-static bool write_one(const struct looks *l, struct look_file *f, float *const picture[N_AOVS], struct error *err)
+static bool write_one(const struct channels *l, struct channel_file *f, float *const picture[N_AOVS], struct error *err)
 {
     const struct render_run *r = l->run;
     const struct film *film = f->light >= 0 ? &l->planes.film[f->light] : &r->of.film;
@@ -264,10 +264,10 @@ static bool write_one(const struct looks *l, struct look_file *f, float *const p
 }
 
 /* One that fails does not keep the others from being written: the first message is kept. */
-static bool write_all(struct looks *l, float *const picture[N_AOVS], bool ok, struct error *err)
+static bool write_all(struct channels *l, float *const picture[N_AOVS], bool ok, struct error *err)
 {
     for (int i = 0; i < l->n; i++) {
-        struct look_file *f = &l->item[i];
+        struct channel_file *f = &l->item[i];
         if (f->aov < N_AOVS && picture[f->aov] == NULL)
             continue;
         char *name = mem_copy_text(f->file.path);
@@ -281,7 +281,7 @@ static bool write_all(struct looks *l, float *const picture[N_AOVS], bool ok, st
 }
 
 /* The images of --aov that are wanted, to be given to free(); NULL where they were not made. False with a message. */
-static bool make_aovs(const struct looks *l, float *picture[N_AOVS], struct error *err)
+static bool make_aovs(const struct channels *l, float *picture[N_AOVS], struct error *err)
 {
     const struct film *film = &l->run->of.film;
     bool first_hit = false;
@@ -304,7 +304,7 @@ static bool make_aovs(const struct looks *l, float *picture[N_AOVS], struct erro
     return true;
 }
 
-bool looks_write(struct looks *l, bool ok, struct error *err)
+bool channels_write(struct channels *l, bool ok, struct error *err)
 {
     float *picture[N_AOVS] = {NULL};
     planes_end(&l->planes);

@@ -1,9 +1,9 @@
-/* source_position.h: positions in scene files, and messages that begin with one.
+/* messages.h: where messages about a scene go, and the positions in its files that they begin with.
  *
  * Every token knows its position, so every message begins with FILE:LINE:COL.
  * Tests: test_parser.c. */
-#ifndef ASBDPT_SOURCE_POSITION_H
-#define ASBDPT_SOURCE_POSITION_H
+#ifndef ASBDPT_MESSAGES_H
+#define ASBDPT_MESSAGES_H
 
 #include <stdbool.h>
 #include <stddef.h>

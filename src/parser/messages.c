@@ -1,5 +1,5 @@
-/* source_position.c: see source_position.h. */
-#include "parser/source_position.h"
+/* messages.c: see messages.h. */
+#include "parser/messages.h"
 
 #include <stdarg.h>
 #include <stdio.h>
