@@ -28,7 +28,7 @@ LABS     = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/lab/*.c tes
 TARGETS  = $(patsubst %,$(BUILD)/obj/test/fuzz/%.o,targets hostile lists)
 TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/unit/*.c)) $(TARGETS)
 BOXED    = $(patsubst src/%.c,%.o,$(wildcard src/scene/scene.c src/scene/medium.c src/render/job.c))
-PROGRAMS = asbdpt asbdpt-lab $(addprefix $(BUILD)/,test boxes fuzz inject inject-lab embree)
+PROGRAMS = asbdpt asbdpt-lab $(addprefix $(BUILD)/,test boxes fuzz inject inject-lab inject-library embree)
 
 # The tests, too, if they were built before: what is run is never older than its sources.
 all: asbdpt asbdpt-lab $(wildcard $(BUILD)/test) ## build ./asbdpt, the renderer, and ./asbdpt-lab, the laboratory (the default)
@@ -50,6 +50,7 @@ $(BUILD)/inject: $(OBJECTS) $(BUILD)/obj/test/fuzz/inject.o
 $(BUILD)/embree: $(BUILD)/obj/test/measure/peers/embree.o $(filter-out %/main.o,$(LABS))
 $(BUILD)/embree: LIBS += -lembree3
 $(BUILD)/inject-lab: $(LABS) $(BUILD)/obj/test/fuzz/inject.o
+$(BUILD)/inject-library: $(BUILD)/obj/test/fuzz/embed.o $(filter-out %/main.o,$(OBJECTS)) $(BUILD)/obj/test/fuzz/inject.o
 
 $(PROGRAMS): $(BUILD)/files
 	$(SAY)$(CC) $(FLAGS) $(AT_LINK) $(CFLAGS) -o $@ $(filter %.o,$^) $(LDFLAGS) $(LIBS)
@@ -164,20 +165,20 @@ FACTS = $(foreach name,layers standard references limits specimens links measure
 check: asbdpt-lab ## facts about sources and documents, in ten seconds
 	@sh test/run/suites.sh $(FACTS)
 
-LONG  = $(foreach name,mini cli keep build examples progress,"sh test/run/$(name).sh $(PROGRAM)")
+LONG  = $(foreach name,mini cli keep build examples progress library,"sh test/run/$(name).sh $(PROGRAM)")
 SHORT = $(foreach name,lab sample corpus outputs boxes install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") \
     "LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB)" "sh test/tree/words_test.sh" \
     "sh test/run/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
-test: asbdpt asbdpt-lab $(BUILD)/test $(BUILD)/boxes ## build and run the test suite (three minutes on two cores)
+test: asbdpt asbdpt-lab $(BUILD)/test $(BUILD)/boxes lib ## build and run the test suite (three minutes on two cores)
 	@sh test/run/suites.sh $(LONG) $(FACTS) $(BUILD)/test $(SHORT)
 
-scripts: asbdpt asbdpt-lab $(BUILD)/boxes ## the same without the suites in C: what depends on the sh and awk of a system
+scripts: asbdpt asbdpt-lab $(BUILD)/boxes lib ## the same without the suites in C: what depends on the sh and awk of a system
 	@sh test/run/suites.sh $(LONG) $(FACTS) $(SHORT)
 
 check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
 	@sh test/run/suites.sh "sh test/run/course.sh prove" "$(BUILD)/test --slow" "sh test/run/keep.sh $(PROGRAM) 100" \
 	    "sh test/run/readme.sh $(PROGRAM)" "PICTURES=all sh test/run/mini.sh $(PROGRAM)" "BUILD=$(BUILD) sh test/run/add_method.sh" \
-	    "sh test/run/report.sh $(PROGRAM)" "FULL=yes sh test/run/examples.sh $(PROGRAM)" \
+	    "sh test/run/report.sh $(PROGRAM)" "FULL=yes sh test/run/examples.sh $(PROGRAM)" "FULL=yes sh test/run/library.sh $(PROGRAM)" \
 	    "sh doc/tour/figures.sh $(PROGRAM) out/figures && \
 	    diff -r -x equal.png doc/tour/figures out/figures"
 	sh test/run/cluster.sh $(PROGRAM)
@@ -236,9 +237,11 @@ san: ## run the tests (or SUITES="...") under the address and undefined-behaviou
 
 INJECTED = calloc realloc fwrite fprintf fputs fputc fclose fsync fdopen rename pthread_create
 .PHONY: inject
-inject: ## make every allocation, write, close, rename and thread fail once, and see what the program does
+inject: all lib ## make every allocation, write, close, rename and thread fail once, and see what the program does
 	$(MAKE) BUILD=build-inject LTO= OPT="-O1 $(foreach name,$(INJECTED),-D$(name)=inject_$(name))" build-inject/inject build-inject/inject-lab
 	sh test/run/inject.sh build-inject/inject
+	$(MAKE) BUILD=build-inject-asan LTO= OPT="-O1 -g -fsanitize=address $(foreach name,$(INJECTED),-D$(name)=inject_$(name))" build-inject-asan/inject-library
+	sh test/run/library.sh $(PROGRAM) build-inject-asan/inject-library
 
 .PHONY: fuzz
 fuzz: ## build build-fuzz/fuzz, which feeds every reader with damaged input (clang; sh test/fuzz/run.sh runs it)

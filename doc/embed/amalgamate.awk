@@ -1,12 +1,12 @@
-# amalgamate.awk HEADERS... SOURCES... library: SOURCES... main: SOURCES...: see amalgamate.sh. Reads all files and prints
-# one. A file-local name is that of a static function or variable, of an enumerator, or of a struct, union or enum that
+# amalgamate.awk HEADERS... SOURCES... library: SOURCES... main: SOURCES...: see amalgamate.sh. Reads all and prints one
+# file. A file-local name is that of a static function or variable, of an enumerator, or of a struct, union or enum that
 # a .c file defines; where two files have it, or a header, it gets the file's name in front. Members stay as they are.
 # Macros of a .c file end with it.
 function tokens(text,    n, c) { # into tok[1 .. n]; blanks and comments are tokens, too
     n = 0
     while (text != "") {
-        if (match(text, /^[A-Za-z_][A-Za-z0-9_]*/) || match(text, /^\/\*([^*]|\*+[^*\/])*\*+\//) || match(text, /^[ \t\n]+/) ||
-            match(text, /^"([^"\\]|\\.)*"/) || match(text, /^'([^'\\]|\\.)*'/) || match(text, /^\/\/[^\n]*/) ||
+        if (match(text, /^[A-Za-z_][A-Za-z0-9_]*/) || match(text, /^\/\*([^*]|\*+[^*\/])*\*+\//) ||
+            match(text, /^[ \t\n]+/) || match(text, /^"([^"\\]|\\.)*"/) || match(text, /^'([^'\\]|\\.)*'/) || match(text, /^\/\/[^\n]*/) ||
             match(text, /^[0-9.][A-Za-z0-9_.]*/) || match(text, /^->/) || match(text, /^\.\.\./))
             c = RLENGTH
         else
@@ -26,7 +26,7 @@ function note(file, space, name) {
     }
 }
 # What a piece of text at the file's top level declares. Preprocessor lines are not in it.
-function collect(file, header, text,    n, i, t, depth, start, first, tag, kind, in_enum, before, static, body, paren) {
+function collect(file, header, text,    n, i, t, depth, start, tag, kind, in_enum, before, static, done, body, paren) {
     n = tokens(text)
     start = 1
     for (i = 1; i <= n; i++) {
@@ -36,8 +36,7 @@ function collect(file, header, text,    n, i, t, depth, start, first, tag, kind,
             start = 0
             static = t == "static"
             before = tag = kind = ""
-            named = header && !static
-            done = extern = t == "extern"
+            done = t == "extern"
         }
         if (depth == 0 && paren == 0) {
             if (t == "struct" || t == "union" || t == "enum") kind = t
@@ -71,7 +70,7 @@ function collect(file, header, text,    n, i, t, depth, start, first, tag, kind,
     }
 }
 # The text with this file's names; members of structs and what comes after a dot stay.
-function rename(file, stem, text,    n, i, t, depth, out, kind, before, inside, square, at, paren) {
+function rename(file, stem, text,    n, i, t, depth, out, kind, before, inside, square, at, paren, is_tag, member) {
     n = tokens(text)
     out = ""
     for (i = 1; i <= n; i++) {
@@ -88,8 +87,8 @@ function rename(file, stem, text,    n, i, t, depth, out, kind, before, inside, 
         if (inside && t == "]") square--
         if (t == ";" || t == "(" || t == ")") kind = ""
         is_tag = before == "struct" || before == "union" || before == "enum"
-        if (word(t) && (is_tag ? (file, "tag", t) in clash : (file, "name", t) in clash && before != "." && before != "->" &&
-            !at && (!inside || square)))
+        member = before == "." || before == "->" || at || (inside && !square)
+        if (word(t) && (is_tag ? (file, "tag", t) in clash : (file, "name", t) in clash && !member))
             out = out stem "_" t
         else
             out = out t
@@ -153,11 +152,13 @@ BEGIN {
         if (part[1] !~ /\.c$/ || owners[part[2], part[3]] < 2) continue
         header = part[1]
         sub(/c$/, "h", header)
-        if (part[2] == "name" || source[header] !~ ("struct " part[3] "[^a-z_0-9]")) clash[part[1], part[2], part[3]] = 1
+        if (part[2] == "name" || source[header] !~ ("struct " part[3] "[^a-z_0-9]"))
+            clash[part[1], part[2], part[3]] = 1
     }
-    print "/* asbdpt.c: the program asbdpt, or with -DASBDPT_LIBRARY its library (asbdpt.h), as one file; made by doc/embed/amalgamate.sh"
-    print " * from the sources, which are the text to read. */"
-    print "#ifndef _POSIX_C_SOURCE\n#define _POSIX_C_SOURCE 200809L\n#endif\n#ifndef _NETBSD_SOURCE\n#define _NETBSD_SOURCE 1\n#endif"
+    print "/* asbdpt.c: the program asbdpt, or with -DASBDPT_LIBRARY its library (asbdpt.h), as one file; made by"
+    print " * doc/embed/amalgamate.sh from the sources, which are the text to read. */"
+    print "#if defined __linux__ || defined __CYGWIN__ || defined __wasi__ /* see src/base/os.c */"
+    print "#define _POSIX_C_SOURCE 200809L\n#define _XOPEN_SOURCE 700\n#endif\n#define _NETBSD_SOURCE 1"
     for (i = 1; i < ARGC; i++) {
         if (ARGV[i] == "library:") print "#ifndef ASBDPT_LIBRARY"
         else if (ARGV[i] == "main:") print "#endif"

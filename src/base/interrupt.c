@@ -48,7 +48,6 @@ static void note(int number)
 void interrupt_init(void)
 {
     os_catch_signals(note);
-    atexit(remove_temporaries); /* out of memory */
 }
 
 void interrupt_defer(const char *notice) { deferred = notice; }
@@ -67,6 +66,8 @@ static struct temporary *find(const char *path)
 void temporary_add(const char *path)
 {
     os_take_process();
+    if (first == NULL)
+        atexit(remove_temporaries); /* out of memory */
     struct temporary *t = find(NULL);
     if (t == NULL) {
         t = mem_alloc(1, sizeof *t);

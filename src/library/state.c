@@ -55,12 +55,24 @@ bool state_open(struct asbdpt *r, struct error *err)
     return true;
 }
 
+/* The part, if it ends there or later: calls may have added more samples than were asked for at first. */
+static struct part grown(const struct asbdpt *r, long end)
+{
+    struct part p = r->part;
+    p.end = end > p.end ? end : p.end;
+    p.planned = p.end > p.planned ? p.end : p.planned;
+    return p;
+}
+
 bool state_load(struct asbdpt *r, const char *path, struct error *err)
 {
     struct part found;
     FILE *file = part_open(path, &found, err);
     if (file == NULL)
         return false;
+    const struct part before = r->part;
+    if (r->by_parts)
+        r->part = grown(r, found.end);
     struct part asked = r->part; /* the same picture, of however many samples */
     asked.planned = found.planned;
     bool ok = true;
@@ -79,6 +91,8 @@ bool state_load(struct asbdpt *r, const char *path, struct error *err)
         begin_film(r, halves);
     }
     part_free(&found);
+    if (!ok)
+        r->part = before;
     return ok;
 }
 
@@ -86,12 +100,13 @@ bool state_save(const struct asbdpt *r, const char *path, struct error *err)
 {
     const struct film *f = &r->film;
     struct film none = {.rect = f->rect};
+    struct part part = grown(r, r->part.first + f->iterations + (f->passes > 0 ? f->block.iterations : 0));
     struct file_output file;
     if (!file_create(path, &file, err))
         return false;
     if (f->learnt_short)
         film_init(&none, f->rect, f->full_width, f->full_height);
-    part_write(&file, &r->part, f->learnt_short ? &none : f);
+    part_write(&file, &part, f->learnt_short ? &none : f);
     film_free(&none);
     return file_commit(&file, err);
 }
@@ -154,8 +169,6 @@ bool state_render(struct asbdpt *r, long samples, struct error *err)
         bool within = f->passes > 0 && r->by_parts; /* a block that is incomplete ends where it was to end */
         job->first = r->part.first + f->iterations;
         job->end = within ? job->first + f->block.iterations : end;
-        r->part.end = job->end > r->part.end ? job->end : r->part.end;
-        r->part.planned = job->planned = job->end > job->planned ? job->end : job->planned;
         ok = render_scene(job, &r->prepared, &r->film, err);
         more = within && f->passes == 0 && r->part.first + f->iterations < end && job_cancelled(job) == CANCEL_NOT;
     }

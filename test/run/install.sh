@@ -1,9 +1,9 @@
 #!/bin/sh
-# install.sh: make install puts both programs and their man pages where it is told, whatever the path and the umask, and
+# install.sh: make install puts programs, man pages, library and header where it is told, whatever the path and the umask, and
 # make uninstall removes these and nothing else. Run from the top: sh test/run/install.sh ./asbdpt
 . test/run/expect.sh
 make=${MAKE:-make}
-run() { (cd "$top" && umask 077 && "$make" -s -o all "$1" DESTDIR="$here" PREFIX="$2"); }
+run() { (cd "$top" && umask 077 && "$make" -s -o all -o lib "$1" DESTDIR="$here" PREFIX="$2"); }
 
 for name in plain 'two words' "it's \"quoted\"; exit 3"; do
     here=$dir/$name/root prefix="/usr/$name"
@@ -11,10 +11,14 @@ for name in plain 'two words' "it's \"quoted\"; exit 3"; do
     echo mine >two # what uninstall would take for the path before the blank
     expect 0 '' run install "$prefix"
     cat >wanted.txt <<END
+-rw-r--r-- $here$prefix/include/asbdpt.h
+-rw-r--r-- $here$prefix/lib/libasbdpt.a
+-rw-r--r-- $here$prefix/lib/pkgconfig/asbdpt.pc
 -rw-r--r-- $here$prefix/share/man/man1/asbdpt-lab.1
 -rw-r--r-- $here$prefix/share/man/man1/asbdpt.1
 -rwxr-xr-x $here$prefix/bin/asbdpt
 -rwxr-xr-x $here$prefix/bin/asbdpt-lab
+-rwxr-xr-x $here$prefix/lib/libasbdpt.so
 END
     find "$name" -type f -exec ls -l {} + | sed "s|^\([-rwx]*\).* $name/|\1 $dir/$name/|" | LC_ALL=C sort >found.txt
     cmp -s wanted.txt found.txt || fault "$name: installed are $(cat found.txt)"

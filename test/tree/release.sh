@@ -1,7 +1,7 @@
 #!/bin/sh
 # release.sh DIR: what a release consists of, of the last commit and the programs of this tree, into DIR: the sources,
-# the page that renders if it can be built, the man pages, the kit's scenes for other renderers, and checksums of all.
-# `make release` calls it. The tag is set by hand: the last line says how. Exit status 1 if the tree has changes that no commit has, CHANGELOG.md has no line for
+# the page that renders if it can be built, the man pages, the one file of C, the kit's scenes for other renderers, and
+# checksums of all. `make release` calls it. The tag is set by hand: the last line says how. Exit status 1 if the tree has changes that no commit has, CHANGELOG.md has no line for
 # the estimator, or doc/asbdpt.html, which is stored anew with a release only, is of older sources.
 dir=$1
 version=$(sed -n 's/^#define VERSION "asbdpt \(.*\)"$/\1/p' src/base/version.h)
@@ -20,6 +20,8 @@ make -s install PREFIX=/ DESTDIR="$dir/root" MANDIR=/man >/dev/null && mv "$dir/
 rm -rf "$dir/root"
 sh scenes/generate/conform.sh "$dir/$name-conform" && tar -C "$dir" -cf "$dir/$name-conform.tar" "$name-conform" &&
     gzip -9n "$dir/$name-conform.tar" && rm -r "$dir/$name-conform" || exit
+sh doc/embed/amalgamate.sh "$dir/one" && tar -C "$dir/one" -cf "$dir/$name-one-file.tar" asbdpt.c asbdpt.h &&
+    gzip -9n "$dir/$name-one-file.tar" && rm -r "$dir/one" || exit
 sh doc/web/build.sh "$dir/$name.html" >"$dir/log" 2>&1 || rm -f "$dir/$name.html"
 if [ ! -f "$dir/$name.html" ]; then
     echo "release: no page that renders: $(tail -n 1 "$dir/log")"
