@@ -27,7 +27,7 @@ LABS     = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/lab/*.c tes
            $(filter-out %/cli/program.o %/render/rows.o,$(OBJECTS))
 TARGETS  = $(patsubst %,$(BUILD)/obj/test/fuzz/%.o,targets hostile lists)
 TESTS    = $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/unit/*.c)) $(TARGETS)
-BOXED    = scene/scene scene/medium render/job
+BOXED    = $(patsubst src/%.c,%.o,$(wildcard src/scene/scene.c src/scene/medium.c src/render/job.c))
 PROGRAMS = asbdpt asbdpt-lab $(addprefix $(BUILD)/,test boxes fuzz inject inject-lab inject-library embree)
 
 # The tests, too, if they were built before: what is run is never older than its sources.
@@ -43,7 +43,8 @@ asbdpt-lab: $(LABS)
 $(BUILD)/test: $(TESTS) $(filter-out %/main.o,$(LABS))
 $(BUILD)/fuzz: $(BUILD)/obj/test/fuzz/libfuzzer.o $(TARGETS) $(filter-out %/main.o,$(LABS))
 # the renderer with a tree of boxes in place of the kd-tree
-$(BUILD)/boxes: $(filter-out $(BOXED:%=$(BUILD)/obj/%.o),$(OBJECTS)) $(BOXED:%=$(BUILD)/obj/boxed/%.o) $(BUILD)/obj/test/boxes/boxes.o
+$(BUILD)/boxes: $(filter-out $(addprefix $(BUILD)/obj/,$(BOXED)),$(OBJECTS)) $(addprefix $(BUILD)/obj/boxed/,$(BOXED)) \
+    $(patsubst test/%.c,$(BUILD)/obj/test/%.o,$(wildcard test/boxes/*.c))
 # both programs, except for functions that may fail: test/fuzz/inject.c has others in their place
 $(BUILD)/inject: $(OBJECTS) $(BUILD)/obj/test/fuzz/inject.o
 $(BUILD)/embree: $(BUILD)/obj/test/measure/peers/embree.o $(filter-out %/main.o,$(LABS))

@@ -11,10 +11,10 @@
  *
  * The MIS weights take this into account: the strategies count as
  *     n = x / (1 + x / M),      x = 2 C ratio(e(z), l(y)) / N,      M = K / 4
- * samples, where N is the mean number of connectible vertices of a light sub-path, and K that of a full tile. 2 is the
- * credit of a draw, and M a bound (counts.h). A draw takes y in proportion to L_v, too. The other strategies cannot
- * know L_v of a walk that they have not made, so n has its mean. Any n that is a function of the path alone keeps the
- * weights valid.
+ * samples, where N is the mean number of connectible vertices of a light sub-path (1/N: prepare.c), and K the number of
+ * light sub-paths of a full tile. 2 is the credit of a draw, and M a bound (counts.h). A draw takes y in proportion to
+ * L_v, too. The other strategies cannot know L_v of a walk that they have not made, so n has its mean. Any n that is a
+ * function of the path alone keeps the weights valid.
  *
  * [Su 2022] has subspaces of eye and light sub-paths and a matrix of probabilities between them. Here the regions are
  * cubes, and the table is learnt from trial connections.

@@ -1,9 +1,10 @@
-/* method.h: a method is one file and one row. Methods differ in how many samples they take of each kind, and in how
- * they choose light vertices for an eye vertex.
+/* method.h: a method is a row, and a file if it has code of its own. Methods differ in how many samples they take of
+ * each kind, and in how they choose light vertices for an eye vertex.
  *
- * A row describes a method completely; the table of all rows is render/rows.c. Before the first sample, a method
- * reads its parameters and is prepared: tables are learnt, a race may decide on the numbers of samples, and the counts
- * in the weights follow. Then it renders tile passes (tile_pass.h) on all threads.
+ * A row has all of a method: fallbacks of parameters, and numbers that have none. The table of all rows is
+ * render/rows.c. Before the first sample, a method reads its parameters and is prepared: tables are learnt, a race may
+ * decide on the numbers of samples, and the counts in the weights follow. Then it renders tile passes (tile_pass.h) on
+ * all threads.
  *
  * doc/add-a-method.md adds one. Tests: test_render.c, test_options.c, test/run/add_method.sh.
  */
@@ -146,8 +147,7 @@ bool method_read(const struct method *m, const struct scene *scene, struct prepa
 
 /* method_size: p->size, or that of a path tracer if p->numbers are those of one: its pixels share next to no sub-paths,
  * so those of a tile may be neighbours.
- * method_counts: p->counts, of p->numbers, p->draw and p->tables. Direct light has the more credit the rarer light
- * sub-paths are: rare splats of it would be noise. */
+ * method_counts: p->counts, of p->numbers, p->draw and p->tables. */
 struct pass_size method_size(const struct prepared *p);
 void method_counts(const struct render_job *job, struct prepared *p);
 

@@ -85,7 +85,7 @@ void method_numbers(const struct prepared *p, struct method_number out[METHOD_NU
     memset(out, 0, METHOD_NUMBERS * sizeof *out); /* a NULL name ends the list */
     memcpy(out, numbers, sizeof numbers);
     for (int i = 0; i < RUNNERS; i++)
-        if (p->runner[i].price > 0)
+        if (p->runner[i].price > 0 && winner->price > 0) /* unless the race was cancelled */
             out[used++] = (struct method_number){RUNNER_NUMBERS[i], p->runner[i].variance * p->runner[i].price /
                                                                         (winner->variance * winner->price)};
 }

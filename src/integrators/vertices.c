@@ -53,7 +53,8 @@ static void prepare(const struct render_job *job, struct prepared *p)
 {
     struct tables *t = p->tables;
     (void)job;
-    t->pairs = table_of_row(t->use, t->vertices, t->regions.n, p->parameters.delta);
+    const double *use = t->vertices != NULL ? t->use : NULL; /* NULL: there are no light sub-paths */
+    t->pairs = table_of_row(use, t->vertices, t->regions.n, p->parameters.delta);
 }
 
 static const struct field PARAMETERS[] = {
@@ -67,5 +68,5 @@ static const struct field PARAMETERS[] = {
 
 const struct method method_vertices = {
     .name = "asbdpt", .select = "vertices", .help = "one alias table over the light vertices of a tile",
-    .parameters = PARAMETERS, .numbers = NUMBERS_OF_PT, .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true,
+    .parameters = PARAMETERS, .rr_threshold = DEFAULT_RR_THRESHOLD, .vertices = true,
     .learns_use = true, .prepare = prepare, .build = build, .draw = draw, .render = selection_render};

@@ -86,9 +86,9 @@ static inline bool may_leave(const struct vertex *v, vec3 w)
 static double light_side(const struct scene *scene, const struct counts *counts, const struct vertex *y,
                          const struct vertex *z, double R, double pdf_rev)
 {
-    const struct vertex *prev = y - 1; /* if y is no LIGHT */
     double c_e = y->mis_c, mis = y->mis;
-    if (z->kind == VERTEX_LENS) {
+    if (z->kind == VERTEX_LENS) { /* y is no LIGHT */
+        const struct vertex *prev = y - 1;
         c_e = y->prev_delta ? 0 : n_if(counts, prev, y, FIRST_HIT);
         if (prev->kind == VERTEX_LIGHT && !light_is_delta(&scene->lights.light[prev->light]))
             mis = mis_step(counts->hit[FIRST_HIT], 0, 0, prev->pdf_fwd, y->g);

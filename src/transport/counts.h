@@ -5,20 +5,22 @@
  *   pair    s >= 2, t >= 2 connection to a light vertex
  *   lens    s >= 2, t = 1  connection of a light vertex to the lens
  *
- * BDPT takes one sample of each. In general the number n of a strategy for a path is a function of the two ends of the
- * connecting edge: of the kind of the eye end, and of the places of both (vertex.h). A walk that arrives at the second
- * end knows both, so every strategy computes the same number for the same path.
+ * BDPT takes one sample of each, and of `lens` one for each pixel of the film. In general the number n of a strategy
+ * for a path is a function of the two ends of the connecting edge: of the kind of the eye end, and of the places of
+ * both (vertex.h). A walk that arrives at the second end knows both, so every strategy computes the same number for the
+ * same path.
  *
  * Places count for methods that learn: these choose one place more often than another. Their tables (table.h) have the
  * *ratio*: how much more often than if nothing had been learnt. Elsewhere it is 1: take it for 1 at a first reading.
  *
  * The balance heuristic compares second moments. The samples of some strategies are better distributed than independent
  * samples and have less variance. Such a strategy deserves a higher count, a credit [Grittmann 2019]. The weights still
- * add up to 1. Stratified draws have the credit 2. The credit of direct light at a first hit is 4, times `every` of
- * struct numbers: the first numbers of an eye sub-path are spread evenly over the iterations of a pixel (sampler.h), so
- * the mean of N samples of direct light has less than 1/N of the variance of one. Such a sample should count as E[X^2]
- * / (N V_N) samples, X its contribution and V_N the variance of the mean. For N = 16 that ratio is between 1 and 64 in
- * most scenes. One constant costs 3 % more squared error than to measure it before each render.
+ * add up to 1. Stratified draws have the credit 2. The credit of direct light at a first hit is 4: the first numbers of
+ * an eye sub-path are spread evenly over the iterations of a pixel (sampler.h), so the mean of N samples of direct
+ * light has less than 1/N of the variance of one. Such a sample should count as E[X^2] / (N V_N) samples, X its
+ * contribution and V_N the variance of the mean. For N = 16 that ratio is between 1 and 64 in most scenes. One constant
+ * costs 3 % more squared error than to measure it before each render. Where light sub-paths are rare (`every` below),
+ * so are splats of the same light, which would be noise: there the credit is 4 times `every`.
  *
  * Draws from a pool of light vertices (asbdpt.c) have a bound M: where few of them are useful, the same ones are drawn
  * again and again. Draws that would count as x samples of an endless pool count as x / (1 + x / M), less than M.
@@ -55,7 +57,7 @@ static inline int numbers_every(const struct numbers *n) { return n->every > 1 ?
 struct counts {
     double hit[EYE_ENDS];    /* t >= 3; by the kind of z_{t-2} */
     double direct[EYE_ENDS]; /* times the ratio of tables->direct */
-    double pair[EYE_ENDS];   /* times the ratio of tables->pairs: x over `every` */
+    double pair[EYE_ENDS];   /* times the ratio of tables->pairs: x of n_pair */
     double lens;             /* light sub-paths, those of all pixels of the film */
     const struct tables *tables;
     double bound[EYE_ENDS];  /* times the ratio of tables->pairs: x / M; 0: no bound */
@@ -68,9 +70,9 @@ struct counts {
 struct counts counts_of(struct numbers n, double direct, double pair, double pixels, const struct tables *tables);
 
 /* n_of: n of the strategy that connects light vertex y and eye vertex z. It is a function of both alone.
- * n_if: the same as if z were the other kind of eye end.
+ * n_if: the same as if z were of the kind `end`.
  * n_direct: n of s = 1, of an eye vertex in a region and a point of a light cell.
- * n_pair: n of s >= 2, t >= 2, of an eye vertex in region e and a light vertex in region l. */
+ * n_pair: n of s >= 2, t >= 2, of an eye vertex in region e and a light vertex in region l: x / (1 + x / M). */
 static inline double n_direct(const struct counts *c, int region, enum eye_end end, int cell)
 {
     return c->direct[end] * table_ratio(&c->tables->direct, region, cell);

@@ -74,7 +74,7 @@ static inline double n_before(const struct counts *c, const struct vertex *prev,
 /* How a walk left its last vertex. */
 struct departure {
     struct ray ray;
-    rgb beta;       /* throughput on arrival */
+    rgb beta;       /* throughput on arrival, but for what media leave */
     double pdf;     /* of the direction, 1/sr; of parallel rays from a light or the lens: of the origin, 1/m^2 */
     double pdf_rev; /* 1/sr, of the reverse move: from that vertex to the vertex before it */
     bool delta;
@@ -84,8 +84,8 @@ struct departure {
 int walk_on(const struct walk *w, struct departure from, struct vertex *path, int n, int max_vertices,
             enum transport mode);
 
-/* walk_leave: leave a surface vertex by sampling its BSDF: beta is multiplied by f cos / pdf [V97 10.2]. False if the
- * walk is absorbed. */
+/* walk_leave: leave a vertex by sampling its BSDF or phase function: beta is multiplied by f cos / pdf [V97 10.2].
+ * False if the walk is absorbed. */
 bool walk_leave(const struct walk *w, const struct vertex *v, enum transport mode, struct departure *out);
 
 /* walk_measure: pdf_fwd, g and mis (mis.h) of a vertex at distance^2 d2 from `prev`. */

@@ -41,7 +41,8 @@ struct tile_pass {
 
 /* pass_cancelled: should the tile pass stop early? Every method asks before each of its samples. After the first yes
  * the answer stays yes, and the tile is discarded.
- * pass_pixel: pixel i of the tile; false if there are not so many, and if the pass should stop, except for pixel 0. */
+ * pass_pixel: pixel i of the tile; false if there are not so many, and if the pass should stop, except for
+ * pixel 0: then a pool has a sub-path at least. */
 static inline bool pass_cancelled(const struct tile_pass *pass)
 {
     return !pass->taken && job_cancelled(pass->job) >= (pass->trial ? CANCEL_BLOCK : CANCEL_NOW);
