@@ -50,7 +50,7 @@ void method_counts(const struct render_job *job, struct prepared *p)
     p->counts = counts_of(p->numbers, q->credits ? DIRECT_CREDIT * every : 1, q->credits ? PAIR_CREDIT : 1,
                           (double)rect_pixels(job->film_rect), p->tables);
     for (int end = 0; end < EYE_ENDS; end++) {
-        p->counts.pair[end] *= p->draw[end];
+        p->counts.pair[end] *= p->draw_worth[end];
         p->counts.bound[end] = q->bound ? p->counts.pair[end] * every / M : 0;
     }
 }

@@ -94,7 +94,7 @@ struct prepared {
     struct parameters parameters;
     void *own;                /* see struct method; owned */
     struct numbers numbers;   /* those of the parameters, or of the winner of a race */
-    double draw[EYE_ENDS];    /* samples of BDPT that a draw counts as, without a credit; `prepare` may change it */
+    double draw_worth[EYE_ENDS]; /* samples of BDPT that a draw counts as, without a credit; `prepare` may change it */
     struct counts counts;     /* in the weights */
     struct tables *tables;    /* owned */
     struct scene *uniform;    /* the job's scene if it chooses lights uniformly, else NULL; owned */
@@ -147,7 +147,7 @@ bool method_read(const struct method *m, const struct scene *scene, struct prepa
 
 /* method_size: p->size, or that of a path tracer if p->numbers are those of one: its pixels share next to no sub-paths,
  * so those of a tile may be neighbours.
- * method_counts: p->counts, of p->numbers, p->draw and p->tables. */
+ * method_counts: p->counts, of p->numbers, p->draw_worth and p->tables. */
 struct pass_size method_size(const struct prepared *p);
 void method_counts(const struct render_job *job, struct prepared *p);
 

@@ -25,7 +25,7 @@ static void learn_for(const struct render_job *job, struct prepared *p, int runn
     if (learns)
         learn(job, &options, p->tables);
     for (int end = 0; end < EYE_ENDS; end++) /* of single vertices, a draw is one of so many of a light sub-path */
-        p->draw[end] = p->method->vertices && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
+        p->draw_worth[end] = p->method->vertices && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
     if (p->method->prepare != NULL)
         p->method->prepare(job, p);
     method_counts(job, p);

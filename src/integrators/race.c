@@ -10,7 +10,7 @@ enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32 };
 static const double FIREFLY = 11, USELESS = 0.95;
 
 /* Prices, fitted to CPU times; a sample costs 1, an eye vertex, too. That of a light vertex includes its splat. */
-enum { CONNECTION = 2, LIGHT_VERTEX = 3 };
+enum { PRICE_CONNECTION = 2, PRICE_LIGHT_VERTEX = 3 };
 
 /* Samples of a runner. */
 struct lap {
@@ -35,7 +35,7 @@ static void joined(void *context, const struct sample *sample, const struct join
     bool first = p->t > 1 && (p->s == 0 ? p->z - 1 : p->z)->eye_end == FIRST_HIT; /* s = 0: z is on the light */
     int every = p->s < 2 ? 1 : l->every;
     if (p->t > 1 && p->s > 0)
-        l->price += (double)CONNECTION / every;
+        l->price += (double)PRICE_CONNECTION / every;
     if (p->s + p->t == 2 || !fits_float(value) || !(x >= film.x0 && x < film.x1 && y >= film.y0 && y < film.y1))
         return;
     int cell = pixels_cell(l->pixels, (int)x, (int)y);
@@ -49,7 +49,7 @@ static void walked(void *context, const struct sample *sample, enum transport mo
 {
     struct lap *l = context;
     (void)sample, (void)path;
-    l->price += mode == RADIANCE ? 1 + n : (double)n * LIGHT_VERTEX / l->every;
+    l->price += mode == RADIANCE ? 1 + n : (double)n * PRICE_LIGHT_VERTEX / l->every;
     l->samples += mode == RADIANCE;
 }
 

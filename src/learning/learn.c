@@ -117,7 +117,7 @@ static void trace_light_path(struct learning *l, struct workspace *work, long i,
     for (const struct vertex *y = path + 1; y < path + n; y++)
         if (vertex_connectible(y))
             lessons_add(out,
-                        (struct lesson){LIGHT_VERTEX, regions_key(&t->regions, y->p, vertex_side(y)), column, 0, 1});
+                        (struct lesson){SUBPATH_VERTEX, regions_key(&t->regions, y->p, vertex_side(y)), column, 0, 1});
 }
 
 /* Trace the light sub-paths of the chunk that eye sub-path number i begins, into the workspace's pool. */
@@ -175,7 +175,7 @@ static void take(struct learning *l, const struct lesson *lesson)
         if (l->rays.n > 0)
             table_add(&t->emission, one, l->rays, 0, lesson->column, lesson->x, lesson->w);
         break;
-    case LIGHT_VERTEX: lessons_add(&l->light_vertices, *lesson); break; /* others look regions up: add none yet */
+    case SUBPATH_VERTEX: lessons_add(&l->light_vertices, *lesson); break; /* others look regions up: add none yet */
     case TRIAL:
         table_add(&t->pairs, regions_axis(&t->regions), regions_axis(&t->regions), (int)lesson->row, lesson->column,
                   lesson->x, lesson->w);

@@ -17,7 +17,7 @@ enum lesson_kind {
     DIRECT,       /* what it receives from a light cell              direct */
     TRIAL,        /* what it receives from a light vertex            pairs */
     RAY,          /* of a light sub-path: what its ray was worth     emission */
-    LIGHT_VERTEX  /* of a light sub-path: where it has a vertex      vertices, light_vertices */
+    SUBPATH_VERTEX /* of a light sub-path: where it has a vertex      vertices, light_vertices */
 };
 
 /* A sample for a table: its row and column, worth and weight. */

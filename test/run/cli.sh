@@ -573,6 +573,17 @@ else
     echo "skipped: pictures of ImageMagick (convert is not installed)"
 fi
 
+# Each runner of each method that can race, in a scene of matte and four lamps: path tracers need no light sub-paths.
+echo 'Film "image" "integer xresolution" 9 "integer yresolution" 9 LookAt 0 0 -4 0 0 0 0 1 0 Camera "perspective"
+    WorldBegin LightSource "point" "point from" [3 0 -3] LightSource "point" "point from" [-3 0 -3]
+    LightSource "point" "point from" [0 3 -3] LightSource "point" "point from" [0 -3 -3]
+    Shape "sphere" WorldEnd' >four.pbrt
+for select in pool vertices subspaces; do
+    for race in all quarter path_tracer one_point; do
+        expect 0 '' "$program" render four.pbrt --integrator asbdpt -P select=$select -P race=$race --spp 2 --quiet -o four.ppm
+    done
+done
+
 # --- end
 [ $failures -eq 0 ] && echo "command line: all as expected"
 exit $((failures > 0))

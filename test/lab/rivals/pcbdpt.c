@@ -21,7 +21,7 @@ static void prepare(const struct render_job *job, struct prepared *p)
 {
     (void)job;
     for (int end = 0; end < EYE_ENDS; end++) /* all draws count as one */
-        p->draw[end] = 1.0 / most_of(p->numbers.draws[end], 1);
+        p->draw_worth[end] = 1.0 / most_of(p->numbers.draws[end], 1);
 }
 
 static const struct field PARAMETERS[] = {

@@ -436,7 +436,7 @@ void ris_prepare(const struct render_job *job, struct prepared *p)
     int M = own->sub_paths;
     (void)job;
     for (int end = 0; end < EYE_ENDS; end++)
-        p->draw[end] = own->nabata ? M / ((M - 1) * p->tables->light_vertices + 1) : 1;
+        p->draw_worth[end] = own->nabata ? M / ((M - 1) * p->tables->light_vertices + 1) : 1;
 }
 
 void ris_render(const struct prepared *p, const struct tile_pass *pass)
