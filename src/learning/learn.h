@@ -6,7 +6,7 @@
  *   use               trace_uses: VISIT      take        as it is            select_pool, vertices  -
  *   direct            trace_uses: DIRECT     take        build_direct        connect.c: light_draw  counts.h: n_direct
  *   emission          trace_light_path: RAY  take        learn_light_paths   emission_sample        emission_pdf
- *   vertices          the same: SUBPATH_VERTEX count_light_vertices            -                      base of pairs
+ *   vertices          SUBPATH_VERTEX         count_light_vertices            -                      base of pairs
  *   pairs             trace_trials: TRIAL    take        learn_pairs         asbdpt.c: draw         counts.h: n_pair
  *
  * There are three rounds. Each needs what the ones before have learnt: the worth of a ray needs `use`, and trials need
