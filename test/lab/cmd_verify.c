@@ -269,6 +269,7 @@ static int load(struct verify_options *o, struct scene *scene, int *max_depth)
     if (!job_open(&job, scene, &err))
         return job_failed(&err);
     bool ok = choose_integrators(o, scene, job.integrator, &err);
+    readers[0] = job.integrator; /* of files alone nothing is rendered: the scene's reads what it says */
     for (int i = 0, n = 0; i < 2; i++)
         if (o->by[i] != NULL)
             readers[n++] = o->by[i];

@@ -12,7 +12,7 @@ ln -s "$top/scenes" scenes
 cp "$top/doc/embed/embed.c" .
 header="-I$top/src/library"
 
-check $cc -std=c99 -pedantic -Wall -Wextra -Werror $header -o embed embed.c "$build/libasbdpt.a" $libs
+check $cc -std=c99 -pedantic -Wall -Wextra -Werror "$header" -o embed embed.c "$build/libasbdpt.a" $libs
 cat >room.pbrt <<'END'
 Film "image" "integer xresolution" 8 "integer yresolution" 8
 WorldBegin
@@ -23,7 +23,7 @@ prints '^8x8 pixels, 16 samples' ./embed room.pbrt room.png
 expect 1 'none.pbrt: cannot open' ./embed none.pbrt room.png
 printf '#include "asbdpt.h"\n#include <cstdio>\nint main() { return std::puts(asbdpt_version()) < 0; }\n' >a.cpp
 if command -v "${CXX:-c++}" >/dev/null; then
-    check "${CXX:-c++}" -Wall -Wextra -pedantic -Werror $header -o plus a.cpp "$build/libasbdpt.a" $libs
+    check "${CXX:-c++}" -Wall -Wextra -pedantic -Werror "$header" -o plus a.cpp "$build/libasbdpt.a" $libs
     prints '^asbdpt ' ./plus
 fi
 
