@@ -141,7 +141,8 @@ END {
         if (page != "sentence" && page != "quartiles") group("tune", "set", "tune", n_measures)
         group("report", "set", "report", n_measures)
         if (page == "sentence" || page == "quartiles") exit
-        group("both", "", "", n_measures)
+        for (i in set) sets[set[i]]
+        if ("tune" in sets && "report" in sets) group("both", "", "", n_measures)
         if (page) exit
     }
     head("by what the race has chosen")

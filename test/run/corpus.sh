@@ -113,5 +113,21 @@ for column in 4 5; do
     prints '</svg>' awk -v column=$column -f "$measure/corpus_svg.awk" scores.txt
     check [ "$(grep -c '<circle' stdout.txt)" -eq $((6 - column)) ]
 done
+
+# ---- rivals: half of the cost of lvc, twice that of the others; in scene 6 lvc misses light ----
+for half in services choice; do
+    for n in 1 2 3 4 5 6; do
+        for row in bdpt,8 asbdpt,4 lvc,8 cbdpt,2 mbdpt,2 spcbpt,2; do
+            mark=$([ "$row$n" = lvc,86 ] && echo 'misses light')
+            x=${row#*,}.0$n
+            for seed in 1 2; do echo "$half,$n,run,${row%,*},$seed,32,1,$x,$x,$x,1,$mark"; done
+        done
+    done
+done >rivals.csv
+prints '^| `lvc` | 5 | 0.50 \[0.50, 0.50\] | 0.50 | 0.50 | 0.50 | 0.50 | 0.50 \[0' awk -f "$measure/evidence/better.awk" \
+    -f "$measure/evidence/rivals.awk" rivals.csv
+says '^| `mbdpt` | 6 | 1.9[89] ' '^== holm$' '^in 6 of 24 cells' 'leaves 6: over `lvc` by mse8; over `lvc`' \
+    '^0.50 \[0.50, 0.50\] (mse8), 0.50 '
+check [ "$(sed -n '/^== data/,$p' stdout.txt | wc -l)" -eq 6 ]
 [ $failures -eq 0 ] && echo "corpus: all as expected"
 exit $((failures > 0))

@@ -50,7 +50,7 @@ function table(half, title,    j, k, set) {
         print ""
         for (k = 1; k <= 3; k++) if (number[set, k] > 4 && error_of(set, k) > 0) {
             p[++all] = student_p(logs[set, k] / number[set, k] / error_of(set, k), number[set, k] - 1)
-            text[all] = "over `" rival[j] "` by " measure[k] (half == "choice" ? ", choice alone" : ", all techniques")
+            text[all] = "over `" rival[j] "` by " measure[k] (half == "choice" ? ", choice alone" : "")
             below[all] = mean_of(set, k) * exp(student(number[set, k] - 1) * error_of(set, k)) < 1
             sure += below[all]
         }
