@@ -165,7 +165,7 @@ FACTS = $(foreach name,layers standard references limits specimens links measure
 check: asbdpt-lab ## facts about sources and documents, in ten seconds
 	@sh test/run/suites.sh $(FACTS)
 
-LONG  = $(foreach name,mini cli keep build examples progress library,"sh test/run/$(name).sh $(PROGRAM)")
+LONG  = $(foreach name,mini cli keep build examples progress embed,"sh test/run/$(name).sh $(PROGRAM)")
 SHORT = $(foreach name,lab sample corpus outputs boxes install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") \
     "LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB)" "sh test/tree/words_test.sh" \
     "sh test/run/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
@@ -178,7 +178,7 @@ scripts: asbdpt asbdpt-lab $(BUILD)/boxes lib ## the same without the suites in 
 check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
 	@sh test/run/suites.sh "sh test/run/course.sh prove" "$(BUILD)/test --slow" "sh test/run/keep.sh $(PROGRAM) 100" \
 	    "sh test/run/readme.sh $(PROGRAM)" "PICTURES=all sh test/run/mini.sh $(PROGRAM)" "BUILD=$(BUILD) sh test/run/add_method.sh" \
-	    "sh test/run/report.sh $(PROGRAM)" "FULL=yes sh test/run/examples.sh $(PROGRAM)" "FULL=yes sh test/run/library.sh $(PROGRAM)" \
+	    "sh test/run/report.sh $(PROGRAM)" "FULL=yes sh test/run/examples.sh $(PROGRAM)" "FULL=yes sh test/run/embed.sh $(PROGRAM)" \
 	    "sh doc/tour/figures.sh $(PROGRAM) out/figures && \
 	    diff -r -x equal.png doc/tour/figures out/figures"
 	sh test/run/cluster.sh $(PROGRAM)
@@ -241,7 +241,7 @@ inject: all lib ## make every allocation, write, close, rename and thread fail o
 	$(MAKE) BUILD=build-inject LTO= OPT="-O1 $(foreach name,$(INJECTED),-D$(name)=inject_$(name))" build-inject/inject build-inject/inject-lab
 	sh test/run/inject.sh build-inject/inject
 	$(MAKE) BUILD=build-inject-asan LTO= OPT="-O1 -g -fsanitize=address $(foreach name,$(INJECTED),-D$(name)=inject_$(name))" build-inject-asan/inject-library
-	sh test/run/library.sh $(PROGRAM) build-inject-asan/inject-library
+	sh test/run/embed.sh $(PROGRAM) build-inject-asan/inject-library
 
 .PHONY: fuzz
 fuzz: ## build build-fuzz/fuzz, which feeds every reader with damaged input (clang; sh test/fuzz/run.sh runs it)

@@ -16,7 +16,7 @@
  * need the "C" locale, which is a program's at first. The same scene, seed and samples give the same bytes, for any
  * number of threads, in one call or in many.
  *
- * Tests: test_library.c, test/run/library.sh. */
+ * Tests: test_library.c, test/run/embed.sh. */
 #ifndef ASBDPT_H
 #define ASBDPT_H
 

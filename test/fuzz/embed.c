@@ -5,7 +5,7 @@
  *     embed SCENE -n N       opens, renders and closes N times; prints the kilobytes that the process has held at most
  *                            after a tenth of them, and after all
  *
- * test/run/library.sh runs it, and with functions that fail (inject.c) under the address sanitizer. */
+ * test/run/embed.sh runs it, and with functions that fail (inject.c) under the address sanitizer. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

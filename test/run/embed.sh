@@ -1,5 +1,5 @@
 #!/bin/sh
-# library.sh PROGRAM [DRIVER]: the library as others use it: the header in C and C++, doc/embed's program and module, the
+# embed.sh PROGRAM [DRIVER]: the library as others use it: the header in C and C++, doc/embed's program and module, the
 # one file of C; a thousand renders take no more memory than a hundred. DRIVER, of `make inject`, does all that the
 # library does, while every allocation, write, open, close, rename and thread fails once. FULL=yes: the one file by all
 # compilers at hand. Run from the top after make lib.
@@ -88,7 +88,7 @@ if [ -n "$driver" ]; then
             find out -name '*.tmp*' | grep -q . && fault "$kind $i: a temporary file stays"
         done
     done <counts.txt
-    echo "library: $runs faults injected"
+    echo "embed: $runs faults injected"
 fi
-[ $failures -eq 0 ] && echo "library: all as expected"
+[ $failures -eq 0 ] && echo "embed: all as expected"
 exit $((failures > 0))
