@@ -115,28 +115,27 @@ int asbdpt_parameter(int number, struct asbdpt_parameter *out)
     return 0;
 }
 
-static int open_scene(asbdpt *r, const char *name)
+/* A file, or a text in its place. */
+static int open_scene(asbdpt *r, const char *name, const char *text, size_t length)
 {
     struct error err = {.text = ""};
     if (!begins(r, false))
         return 1;
     r->warnings.n = 0;
     r->job.scene_path = keep(r, name);
+    r->job.scene_text = text;
+    r->job.scene_length = length;
     bool ok = strcmp(name, "-") != 0 || error_set(&err, "-: standard input belongs to the program");
-    return end_call(r, ok && state_open(r, &err), &err);
+    ok = ok && state_open(r, &err);
+    r->job.scene_text = NULL; /* it was copied */
+    return end_call(r, ok, &err);
 }
 
-int asbdpt_open(asbdpt *r, const char *path) { return open_scene(r, path); }
+int asbdpt_open(asbdpt *r, const char *path) { return open_scene(r, path, NULL, 0); }
 
 int asbdpt_open_text(asbdpt *r, const char *name, const char *text, size_t length)
 {
-    if (!r->open) {
-        r->job.scene_text = text;
-        r->job.scene_length = length;
-    }
-    int status = open_scene(r, name);
-    r->job.scene_text = NULL; /* it was copied */
-    return status;
+    return open_scene(r, name, text, length);
 }
 
 int asbdpt_size(asbdpt *r, int *width, int *height)
