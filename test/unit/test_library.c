@@ -13,15 +13,19 @@
 enum { SIZE = 16, VALUES = 3 * SIZE * SIZE };
 static const char SCENE[] = "scenes/cornell-box.pbrt";
 
-/* An open render, with a box filter, one thread and 16 pixels a side. */
-static asbdpt *open_with(struct test *t, const char *scene, const char *integrator, const char *seed)
+/* An open render, with a box filter and one thread; open_with: of 16 pixels a side. */
+static asbdpt *open_sized(struct test *t, const char *size, const char *scene, const char *integrator, const char *seed)
 {
     asbdpt *r = asbdpt_new();
-    bool ok = asbdpt_set(r, "--res", "16x16") == 0 && asbdpt_set(r, "--filter", "box") == 0 &&
+    bool ok = asbdpt_set(r, "--res", size) == 0 && asbdpt_set(r, "--filter", "box") == 0 &&
               asbdpt_set(r, "--nthreads", "1") == 0 && asbdpt_set(r, "--seed", seed) == 0 &&
               asbdpt_set(r, "--integrator", integrator) == 0 && asbdpt_open(r, scene) == 0;
     CHECK(t, ok, "%s", asbdpt_message(r));
     return r;
+}
+static asbdpt *open_with(struct test *t, const char *scene, const char *integrator, const char *seed)
+{
+    return open_sized(t, "16x16", scene, integrator, seed);
 }
 
 static void picture(struct test *t, asbdpt *r, float out[VALUES])
@@ -249,6 +253,37 @@ static void take(void *context, const struct asbdpt_path *p)
         told->sum[3 * (SIZE * y + x) + c] += p->value[c] * p->weight;
 }
 
+static void count_pass(void *context, double learnt, double done)
+{
+    int *passes = context;
+    (void)learnt;
+    *passes += done > 0;
+}
+static int stop_after_pass(void *context)
+{
+    const int *passes = context;
+    return *passes > 0 ? ASBDPT_STOP : ASBDPT_CONTINUE;
+}
+
+/* A block of which one tile of four is there ends where it was to end, though less is asked for then. */
+static void test_block(struct test *t)
+{
+    enum { N = 3 * 32 * 32 };
+    float whole[N], pixels[N];
+    asbdpt *r = open_sized(t, "32x32", SCENE, "bdpt", "1"), *other = open_sized(t, "32x32", SCENE, "bdpt", "1");
+    int passes = 0;
+    CHECK(t, asbdpt_render(r, 1000, count_pass, stop_after_pass, &passes) == 0, "%s", asbdpt_message(r));
+    double part = asbdpt_samples(r);
+    CHECK(t, asbdpt_render(r, 1, NULL, NULL, NULL) == 0, "%s", asbdpt_message(r));
+    long n = (long)asbdpt_samples(r);
+    CHECK(t, part > 0 && part < (double)n && n < 1000 && (double)n == asbdpt_samples(r), "%g, then %ld samples", part, n);
+    CHECK(t, asbdpt_render(other, n, NULL, NULL, NULL) == 0, "%s", asbdpt_message(other));
+    CHECK(t, asbdpt_read(r, pixels) == 0 && asbdpt_read(other, whole) == 0 &&
+          memcmp(whole, pixels, sizeof whole) == 0, "the picture of %ld samples is another after a cut", n);
+    asbdpt_free(r);
+    asbdpt_free(other);
+}
+
 static void test_paths(struct test *t)
 {
     static const char *const METHODS[] = {"pt", "lt", "bdpt", "asbdpt"};
@@ -293,6 +328,7 @@ void test_library(struct test *t)
     test_error(t);
     test_two(t);
     test_cancel(t);
+    test_block(t);
     test_paths(t);
     test_parameters(t);
 }
