@@ -19,7 +19,7 @@
 
 #include "integrators/method.h"
 
-/* selection_render: the `render` of such methods. It stands in asbdpt.c, beside the choice of the default. */
+/* selection_render: the `render` of such methods. It is in asbdpt.c, with the choice of the default. */
 void selection_render(const struct prepared *p, const struct tile_pass *pass);
 
 /* Its steps.

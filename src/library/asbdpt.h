@@ -59,7 +59,7 @@ int asbdpt_parameter(int number, struct asbdpt_parameter *out);
 
 /* asbdpt_open: read a scene file and all that it names, and begin an empty film. Not "-".
  * asbdpt_open_text: the same of a text, which is copied.
- *   name  stands for the path in messages; files that the text names are looked for beside it, as if it were a file
+ *   name  the path that messages show; files that the text names are searched in its folder
  *   text  [length] bytes */
 int asbdpt_open(asbdpt *r, const char *path);
 int asbdpt_open_text(asbdpt *r, const char *name, const char *text, size_t length);

@@ -74,7 +74,7 @@ static inline double n_before(const struct counts *c, const struct vertex *prev,
 /* How a walk left its last vertex. */
 struct departure {
     struct ray ray;
-    rgb beta;       /* throughput on arrival, but for what media leave */
+    rgb beta;       /* throughput on arrival, without the transmittance of the edge */
     double pdf;     /* of the direction, 1/sr; of parallel rays from a light or the lens: of the origin, 1/m^2 */
     double pdf_rev; /* 1/sr, of the reverse move: from that vertex to the vertex before it */
     bool delta;

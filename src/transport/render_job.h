@@ -1,8 +1,9 @@
 /* render_job.h: a render from the words of a command line to the walk: what is asked of a scene, what follows from it,
- * and who hears of it. Whoever asks fills the first part, job.h settles the rest once; all below read the same struct.
+ * and the callbacks. The caller fills the first part. job.h then settles the rest once. All modules below read the same
+ * struct.
  *
- * A render ends early in one way: everybody who works asks job_cancelled, and nobody else decides. A limit of time or
- * noise, a signal, or a window that closes are answers of the function `cancel`.
+ * A render ends early in one way: all code that takes samples asks job_cancelled, and no other code decides. A limit of
+ * time or noise, a signal, or a closed window is an answer of the function `cancel`.
  */
 #ifndef ASBDPT_RENDER_JOB_H
 #define ASBDPT_RENDER_JOB_H
@@ -29,7 +30,7 @@ struct render_job {
     const char *scene_path, *integrator_name, *filter;
     const char *scene_text; /* [scene_length], in the place of the file; or NULL */
     size_t scene_length;
-    struct settings overrides; /* parameters of the integrator, of -P; of whoever asks */
+    struct settings overrides; /* parameters of the integrator, from -P; owned by the caller */
     int spp;
     int res[2];          /* width and height of the film; height 0: the same shape */
     double crop[4];      /* x0, x1, y0, y1 in fractions of the film; x1 = 0: the scene's */
@@ -56,7 +57,7 @@ struct render_job {
     double rr_threshold; /* of Russian roulette, see path.h */
     enum light_strategy strategy;
 
-    /* Who hears of it. All may be NULL, and share the context. */
+    /* Callbacks. All may be NULL, and share the context. */
     struct message_sink sink; /* of warnings and errors of the scene, in the place of stderr */
     const struct observers *observers; /* who looks on at every path */
     /* Called after each chunk of learning and after each tile pass with the shares of both that are done, in [0,1]; one
