@@ -136,7 +136,7 @@ page() {
         README.md) math=2 ;;
         doc/tour/* | doc/course/* | doc/method.md | doc/dissertation.md | doc/design-notes.md | doc/add-a-method.md) math=1 ;;
         esac
-        awk -v root="$root" -v math=$math -v class=$class -v title="$(sed -n 's/^# //p;/^# /q' "$1")" -v marks="$work/marks" -f doc/math.awk -f doc/frame.awk -f doc/html.awk "$1" \
+        awk -v root="$root" -v math=$math -v class=$class -v title="$(sed -n '/^# /{s///p;q;}' "$1")" -v marks="$work/marks" -f doc/math.awk -f doc/frame.awk -f doc/html.awk "$1" \
             >"$out/${1%.md}.html" ;;
     *.png | *.svg) cp "$1" "$out/$1" ;;
     *.html) sed 's/\(href="[^"]*\)\.md"/\1.html"/' "$1" >"$out/$1" ;;

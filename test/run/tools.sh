@@ -86,7 +86,7 @@ if wanted busybox busybox; then
     for applet in $(busybox --list); do tool "$applet" "exec busybox $applet \"\$@\""; done
     if ! with awk 'BEGIN { exit log(1) }'; then # Debian's
         say busybox "its awk has no log: the awk of this system takes its place"
-        tool awk "exec $(command -v awk) \"\$@\""
+        tool awk "POSIXLY_CORRECT=1 exec $(command -v awk) \"\$@\"" # which gawk obeys
     fi
     scripts
 fi
