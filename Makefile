@@ -181,6 +181,7 @@ check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject #
 	    "sh test/run/report.sh $(PROGRAM)" "FULL=yes sh test/run/examples.sh $(PROGRAM)" "FULL=yes sh test/run/embed.sh $(PROGRAM)" \
 	    "sh doc/tour/figures.sh $(PROGRAM) out/figures && \
 	    diff -r -x equal.png doc/tour/figures out/figures"
+	if command -v python3 >/dev/null; then python3 test/measure/recompute.py; else echo "recompute: skipped: no python3"; fi
 	sh test/run/cluster.sh $(PROGRAM)
 	BUILD=$(BUILD) sh test/measure/structures.sh out/structures
 	BUILD=$(BUILD) COUNT=10 SPP=16 sh test/measure/predictions.sh out/race

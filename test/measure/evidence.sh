@@ -9,7 +9,7 @@
 #   sh test/measure/evidence.sh again [NAME...] compute again what is derived from stored runs, and show it
 #   sh test/measure/evidence.sh fill           put what is stored into the documents
 #   sh test/measure/evidence.sh check          do the documents show what is stored, and say so where it is old? Are
-#                                              means and intervals those of the stored runs?
+#                                              they those of the stored runs? (recompute.py asks again)
 # What is stored lies below a line "=== NAME": the runs in doc/measured/runs.txt, as csv; in numbers.txt a head of lines
 # "key: value" and sections "== SECTION". A document shows a section between <!-- measured: NAME.SECTION --> and
 # <!-- end -->: both on lines of their own, or both in a line of text.
@@ -258,19 +258,8 @@ near() {
         END { exit bad || FNR != n }' "$1" "$2"
 }
 
-# recompute: the stored runs against the stored numbers.
-recompute() {
-    for name in $(names); do
-        [ -f "$stored/$name.csv" ] && grep -qE '^== (choice|services|row)$' "$stored/$name.txt" || continue
-        awk -f test/measure/evidence/recompute.awk "$stored/$name.csv" "$stored/$name.txt" >"$dir/again" ||
-            wrong "$name is not what its runs say"
-        sed "s/^/$name: /" "$dir/again"
-    done
-}
-
 check() {
     n=0 behind=
-    recompute
     for name in $(names); do
         file=$stored/$name.txt
         if [ ! -f "$file" ]; then behind="$behind $name"; continue; fi
@@ -317,8 +306,6 @@ check() {
     stored=$dir/measured
     drift . | grep -qx "$page" || wrong "an old estimator in $name is not noticed"
     again "$name" | cmp -s - "$stored/$name.txt" && wrong "another run of $name is not noticed"
-    awk -f test/measure/evidence/recompute.awk "$stored/$name.csv" "$stored/$name.txt" >"$dir/again" &&
-        wrong "another run of $name is not noticed when it is computed again"
     stored=$STORED
     [ $bad -ne 0 ] || echo "evidence: $n results, shown as they are stored; old or not measured:${behind:- none}"
 }

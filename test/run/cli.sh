@@ -517,12 +517,6 @@ expect 0 'cornell-box, lvc:.*, seed' "$lab" family "$@"
 check grep -q '^| lvc |' family/family.md
 expect 0 '' "$lab" family "$@"
 check [ "$(grep -c ', seed ' stderr.txt)" = 0 ]
-# Its means and intervals can be computed again from its runs; another number is found out.
-evidence=$top/test/measure/evidence
-awk -f "$evidence/family.awk" family/family.md >family.txt
-expect 0 '' awk -f "$evidence/recompute.awk" family/runs.csv family.txt
-sed '/^| pt/s/\[/[9/' family.txt >planted.txt
-expect 1 '' awk -f "$evidence/recompute.awk" family/runs.csv planted.txt
 # A reference is of the scene, or it is none: another's of the same name is not taken.
 mkdir -p bathroom/ref
 echo 'Film "image" "integer xresolution" 32 "integer yresolution" 32 WorldBegin
