@@ -87,7 +87,7 @@ raw() {
 # derived NAME SHOWN: the sections that derive: prints, from stored runs and from SHOWN, what show: has printed.
 derived() {
     {
-        echo 'ratios() { awk -v missing="$SHOWN" -f "$AWK/better.awk" -f "$AWK/runs.awk" "$@"; }'
+        echo 'ratios() { awk -v missing="$SHOWN" -f "$AWK/better.awk" -f "$AWK/equal.awk" "$@"; }'
         commands "$1" derive
     } >"$dir/derive"
     AWK=test/measure/evidence RUNS=$stored/$1.csv SHOWN=$2 sh -e "$dir/derive"

@@ -1,16 +1,15 @@
 # better.awk: functions on sets of ratios of squared errors, of which a set has one for each scene, by three measures:
-# geometric means, their intervals, losses, the worst. What reads the ratios is runs.awk.
+# geometric means, their intervals, losses, the worst. What reads the ratios: equal.awk, rivals.awk.
 
 # loses: is a ratio one of a loss? Ratios within 0.5 % of 1 are ties.
 function loses(v) { return v > 1.005 }
-# take: into a set a ratio v, with a name if the worst is asked for; 0: not known, counted. What is below 0.0005
-# counts as that: one scene shall not make the mean.
-function take(set, m, v, name) {
-    if (v <= 0) { lost[set, m]++; return }
+# take: into a set a ratio v; 0: not known. What is below 0.0005 counts as that: one scene shall not make the mean.
+function take(set, m, v) {
+    if (v <= 0) return
     if (v < 0.0005) v = 0.0005
     logs[set, m] += log(v); squares[set, m] += log(v) ^ 2; each[set, m, ++number[set, m]] = log(v)
     above[set, m] += loses(v)
-    if (v > most[set, m]) { most[set, m] = v; worst_name[set, m] = name }
+    if (v > most[set, m]) most[set, m] = v
 }
 function mean_of(set, m) { return number[set, m] ? exp(logs[set, m] / number[set, m]) : 0 }
 # error_of: the standard error of the mean logarithm.
@@ -42,11 +41,6 @@ function student_p(t, n,    angle, c, term, sum, i) {
     for (i = n % 2 + 2; i <= n; i += 2) { sum += term; term *= c * c * (i - 1) / i }
     return 1 - (n % 2 ? 2 / 3.14159265358979 * (angle + sin(angle) * sum) : sin(angle) * sum)
 }
-# median_of: of x[1] to x[n], which it sorts.
-function median_of(x, n) {
-    sort(x, n)
-    return n % 2 ? x[(n + 1) / 2] : (x[n / 2] + x[n / 2 + 1]) / 2
-}
 function sort(x, n,    i, j, y) {
     for (i = 1; i <= n; i++) {
         y = x[i]
@@ -67,16 +61,3 @@ function commas(text,    first) {
     return substr(text, 1, first) "," substr(text, first + 1)
 }
 function digits(v) { return v < 0.0995 ? sprintf("%.3f", v) : two(v) }
-# means_of: of a set, by each measure, in words.
-function means_of(set) { return three(two(mean_of(set, 1)), two(mean_of(set, 2)), two(mean_of(set, 3))) }
-function three(a, b, c) { return a " (mse8), " b " (relmse) and " c " (8x8)" }
-# row: of a set, cells of a table: the means by each measure, and in how many scenes asbdpt has more error.
-function row(set,    m, text, losses, of_each, same) {
-    same = number[set, 1] == number[set, 2] && number[set, 2] == number[set, 3]
-    for (m = 1; m <= 3; m++) {
-        text = text interval(set, m) " | "
-        losses = losses (m > 1 ? ", " : "") above[set, m]
-        of_each = of_each (m > 1 ? ", " : "") above[set, m] " of " number[set, m]
-    }
-    return text (same ? losses " of " number[set, 1] : of_each)
-}

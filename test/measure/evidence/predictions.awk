@@ -1,7 +1,7 @@
 # predictions.awk: predictions of a race (predictions.sh) against what was measured: its files predicted, runs.csv and
 # equal-time.md. Sections: prices, the root of the mean square of log(predicted / measured), each scene in a unit of
-# its own; winners, how often the predicted runner was the best and the mean and the worst of its error over that of
-# the best, right and costs the same in words; scenes, a row each. Exit status 1 if prices are wrong by more than `most`.
+# its own; scenes, a row each; right, how often the predicted runner was the best, or within 5 % of it; costs, the mean
+# of its error over that of the best. Exit status 1 if prices are wrong by more than `most`.
 function runner_of(label) {
     sub(/.*race=/, "", label)
     return label
@@ -62,17 +62,8 @@ END {
             line = " " (known ? sprintf("%.2f", cost) : "-") " |" line
             if (!known) continue
             logs[measure] += log(cost); cases[measure]++; right[measure] += cost < 1.05
-            if (cost > worst[measure]) { worst[measure] = cost; where[measure] = s }
         }
         print "| " s " | " winner[s] " | " best " |" line
-    }
-    print "== winners"
-    print "| measure | scenes | the best, or within 5 % of it | mean cost | worst |"
-    print "|---|---:|---:|---:|---|"
-    for (m = 1; m <= 3; m++) {
-        measure = measures[m]
-        printf "| %s | %d | %d | %.3f | %.2f %s |\n", measure, cases[measure], right[measure], \
-            mean_cost(measure), worst[measure], where[measure]
     }
     printf "== right\n%d (mse8), %d (relmse) and %d (8x8) of %d\n", right["mse8"], right["relmse"], right["8x8"], cases["mse8"]
     printf "== costs\n%.2f (mse8), %.2f (relmse) and %.2f (8x8)\n", mean_cost("mse8"), mean_cost("relmse"), mean_cost("8x8")

@@ -28,7 +28,7 @@ function ratio(half, s, method, k,    b) {
 # over: the set of ratios to a method, filled; the cells of its row.
 function over(half, method,    set, k, i, n, x) {
     set = half " " method
-    for (k = 1; k <= 3; k++) for (i = 1; i <= scenes; i++) take(set, k, ratio(half, scene[i], method, k), scene[i])
+    for (k = 1; k <= 3; k++) for (i = 1; i <= scenes; i++) take(set, k, ratio(half, scene[i], method, k))
     return set
 }
 function quantile(set, k, share,    x, n, i, at) { # between neighbours in proportion
