@@ -8,6 +8,7 @@
 
 enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32 };
 static const double FIREFLY = 11, USELESS = 0.95;
+static const double NOTHING = 1e-30, BLIND = 1e30; /* not 0 and infinity: others are divided by them */
 
 /* Prices, fitted to CPU times; a sample costs 1, an eye vertex, too. That of a light vertex includes its splat. */
 enum { PRICE_CONNECTION = 2, PRICE_LIGHT_VERTEX = 3 };
@@ -99,19 +100,30 @@ static double huber(double x) { return x < FIREFLY ? x * x : 2 * FIREFLY * x - F
 /* The variance of a sample, from two sums of samples. */
 static double variance(double a, double b) { return huber(fabs(a - b) / sqrt(2.0 * SAMPLES)); }
 
-/* From the two laps of a runner. Returns the variance of direct light. */
-static double judge(struct runner *k, const struct lap *a, const double *unit)
+/* The number of pixels in which a runner has met light in one of its two laps. */
+static int pixels_lit(const struct lap *a)
+{
+    int lit = 0;
+    for (int i = 0; i < pixels_count(a->pixels); i++)
+        lit += a[0].mean[i] + a[1].mean[i] > 0;
+    return lit;
+}
+
+/* From the two laps of a runner; most: of pixels_lit. Returns the variance of direct light. */
+static double judge(struct runner *k, const struct lap *a, const double *unit, int most)
 {
     const struct lap *b = a + 1;
     double direct = 0, n = pixels_count(a->pixels), parts = 2 * SAMPLES * a->every * n;
     k->price = (a->price + b->price) / (a->samples + b->samples);
-    k->variance = 1e-30; /* not 0: others are divided by it */
+    k->variance = NOTHING;
     for (int i = 0; i < n; i++) {
         direct += variance(a->direct[i] / unit[i], b->direct[i] / unit[i]) / n;
         k->variance += variance(a->often[i] / unit[i], b->often[i] / unit[i]) / n;
         for (int j = 0; j < SAMPLES; j++)
             k->variance += (huber(a->rare[j][i] / unit[i]) + huber(b->rare[j][i] / unit[i])) / parts;
     }
+    if (2 * pixels_lit(a) < most)
+        k->variance = BLIND;
     return direct;
 }
 
@@ -124,8 +136,13 @@ static double compete(const struct render_job *job, const struct prepared *p, st
     struct parallel_jobs jobs = {2 * n, job->n_threads, 2 * n, lap, run_lap, count_lap, NULL};
     double unit[MOST_PIXELS], picture = 0, direct = -1;
     bool all = job->scene->lights.n > 0 && parallel_run(&jobs) == 2 * n && job_cancelled(job) == CANCEL_NOT;
+    int most = 0;
+    for (int i = 0; i < n; i++) {
+        int lit = pixels_lit(&lap[2 * i]);
+        most = lit > most ? lit : most;
+    }
     for (int i = 0; i < pixels_count(lap->pixels); i++) {
-        unit[i] = 1e-30;
+        unit[i] = NOTHING;
         for (int j = 0; j < 2 * n; j++)
             unit[i] += lap[j].mean[i] / (2 * n);
         picture += unit[i] / pixels_count(lap->pixels);
@@ -133,7 +150,7 @@ static double compete(const struct render_job *job, const struct prepared *p, st
     for (int i = 0; i < pixels_count(lap->pixels); i++)
         unit[i] = (unit[i] + picture) / 2;
     for (int i = 0; i < n && all; i++)
-        direct = judge(&first[i], &lap[2 * i], unit);
+        direct = judge(&first[i], &lap[2 * i], unit, most);
     free(lap);
     return direct;
 }

@@ -9,8 +9,9 @@
  * and one pixel of each is sampled. Splats anywhere in a cell count as its pixel's. The variance is the squared
  * difference of the two, plus the squares of what is made in one of k iterations, times k: that is sampled in every
  * iteration, but weighed as in the render. Both are relative to the brightness of pixel and picture, and grow only in
- * proportion above FIREFLY = 11. Light that the camera sees directly is left out: it is the same for all. The price
- * counts vertices and connections, so the same runner wins on every machine.
+ * proportion above FIREFLY = 11. Light that the camera sees directly is left out: it is the same for all. A runner that
+ * meets light in less than half as many pixels as another cannot win. The price counts vertices and connections, so the
+ * same runner wins on every machine.
  *
  * The race has two stages. First two path tracers, with as many light points as RUNNER_ALL and with one, compete with
  * RUNNER_QUARTER, and little has been learnt for any. The better path tracer wins if light sub-paths cannot help, since
