@@ -5,10 +5,13 @@
 #                                                   NUMBER SET RUNNER, asbdpt over the better by relmse, pt over bdpt
 #   awk -v page=sets -f test/measure/corpus.awk FILE                          the first table for a page; page=runners: the
 #                                                   second, by mse8; page=sentence: of `report`, by mse8, in words;
-#                                                   page=quartiles: of `report`, for a short table
+#                                                   page=quartiles: of `report`, for a short table; page=baselines:
+#                                                   of `report`, over pt and over bdpt alone; page=few: how many
+#                                                   scenes of `report` a path tracer renders
 BEGIN {
     power = ":lightsamplestrategy=power"
     split("mse8 relmse 8x8 mse8,power relmse,power 8x8,power", measure, " ")
+    baselines = "pt bdpt"
     n_measures = page == "quartiles" ? 3 : page == "sentence" || page == "runners" ? 1 : page ? 3 : 6
     FORM = "%-16s %-12s %4d %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %8.3f %7.1f %% %7.1f %%\n"
 }
@@ -46,12 +49,13 @@ function noisy(number,    key, i) {
     }
     return 0
 }
-# asbdpt over the better of pt and bdpt; -1: one of them is missing, or there is no noise.
+# asbdpt over the better of the baselines, pt and bdpt or one of them; -1: asbdpt or all of these are missing, or there
+# is no noise.
 function score(number, m,    k, a, p, b) {
     k = (m - 1) % 3 + 1
     a = cost(number, "asbdpt", k)
-    p = cost(number, "pt" (m > 3 ? power : ""), k)
-    b = cost(number, "bdpt" (m > 3 ? power : ""), k)
+    p = baselines ~ /^pt/ ? cost(number, "pt" (m > 3 ? power : ""), k) : -1
+    b = baselines ~ /bdpt$/ ? cost(number, "bdpt" (m > 3 ? power : ""), k) : -1
     b = b > 0 && (p <= 0 || b < p) ? b : p
     return a > 0 && b > 0 && noisy(number) ? a / b : -1
 }
@@ -135,6 +139,23 @@ END {
         for (m in missing) printf "    %s misses light in %d\n", m, missing[m]
         for (i = 1; i <= n_scenes; i++) still += !noisy(scene[i])
         printf "    %d without noise that one could see\n", still
+    }
+    if (page == "few") {
+        for (i = 1; i <= n_scenes; i++) if (set[scene[i]] == "report" && score(scene[i], 1) > 0) {
+            all++
+            few += runner[scene[i]] ~ /^(path_tracer|one_point)$/
+        }
+        print few + 0 " of " all
+        exit
+    }
+    if (page == "baselines") {
+        head()
+        split("pt,bdpt,pt bdpt", each, ",")
+        for (k = 1; k <= 3; k++) {
+            baselines = each[k]
+            group(k < 3 ? "over `" each[k] "`" : "over the better of both", "set", "report", 1)
+        }
+        exit
     }
     if (page != "runners") {
         head("error x CPU time of asbdpt over the better of pt and bdpt")
