@@ -86,6 +86,7 @@ static void test_text(struct test *t)
     REFUSED(open_text(r, "a text", "WorldBegin\n  Foo 1\nShape \"sphre\"\nWorldEnd\n"), "a text:2:3: unknown directive Foo");
     CHECK(t, strstr(asbdpt_message(r), "\na text:3:7: ") != NULL, "the second error: %s", asbdpt_message(r));
     REFUSED(asbdpt_open_text(r, "short", ROOM, 20), "short:1:");
+    REFUSED(asbdpt_open_text(r, "none", NULL, 0), "WorldBegin"); /* an empty text, not a file */
     REFUSED(open_text(r, "scenes/none/a", "Include \"b.pbrt\"\n"), "scenes/none/b.pbrt: cannot open");
     CHECK(t, open_text(r, "a text", ROOM) == 0, "%s", asbdpt_message(r));
     CHECK(t, asbdpt_render(r, 2, NULL, NULL, NULL) == 0, "%s", asbdpt_message(r));
