@@ -179,6 +179,7 @@ check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject #
 	@sh test/run/suites.sh "sh test/run/course.sh prove" "$(BUILD)/test --slow" "sh test/run/keep.sh $(PROGRAM) 100" \
 	    "sh test/run/readme.sh $(PROGRAM)" "PICTURES=all sh test/run/mini.sh $(PROGRAM)" "BUILD=$(BUILD) sh test/run/add_method.sh" \
 	    "sh test/run/report.sh $(PROGRAM)" "FULL=yes sh test/run/examples.sh $(PROGRAM)" "FULL=yes sh test/run/embed.sh $(PROGRAM)" \
+	    "FULL=yes sh test/run/web.sh out/asbdpt.html" \
 	    "sh doc/tour/figures.sh $(PROGRAM) out/figures && \
 	    diff -r -x equal.png doc/tour/figures out/figures"
 	if command -v python3 >/dev/null; then python3 test/measure/recompute.py; else echo "recompute: skipped: no python3"; fi

@@ -4,7 +4,7 @@
  *   web_command  run them as asbdpt would
  *   web_begin    load a scene for a render with the options of `asbdpt render`
  *   web_step     learn, or render one block of iterations more, and show the page the picture: a worker that is to be paused must
- *                return between them, since it hears nothing while it computes
+ *                return between them, since it hears nothing while it computes. Ends the program with a message if it fails
  *
  * The page gives web_show and web_learns. All files are the page's: scenes, references, and what is written.
  */
@@ -78,6 +78,7 @@ static struct watch {
     float *pixels;
     uint8_t *rgba;
     double shown; /* when the page was shown something, by the clock */
+    bool begun;   /* the block of this step, after learning */
 } watched; /* one to a worker, which ends with it */
 
 /* Squares of k x k pixels are compared with one of the reference. */
@@ -142,6 +143,7 @@ static void show(struct watch *w)
 static void progress(void *context, double learnt, double done)
 {
     struct watch *w = context;
+    w->begun |= done > 0;
     if (os_wall_seconds() - w->shown < 0.1)
         return;
     w->shown = os_wall_seconds();
@@ -149,6 +151,13 @@ static void progress(void *context, double learnt, double done)
         web_learns(learnt);
     else if (w->of.film.iterations == 0)
         show(w);
+}
+
+/* All learning, and one block. */
+static int enough(void *context)
+{
+    const struct watch *w = context;
+    return w->begun ? ASBDPT_END_BLOCK : ASBDPT_CONTINUE;
 }
 
 static bool read_reference(struct watch *w, const char *path, struct error *err)
@@ -172,14 +181,18 @@ static bool begin(struct watch *w, const char *reference, struct error *err)
     w->pixels = mem_alloc(3 * n, sizeof *w->pixels);
     w->rgba = mem_alloc(4 * n, sizeof *w->rgba);
     w->of.job.n_threads = 1;
+    w->of.job.block = 1; /* unless the method has blocks of its own */
     return true;
 }
 
 int web_step(void)
 {
     struct watch *w = &watched;
-    if (asbdpt_render(&w->of, 1, progress, NULL, w) != 0)
+    w->begun = false;
+    if (asbdpt_render(&w->of, 0, progress, enough, w) != 0) {
         say_line("asbdpt: %s", asbdpt_message(&w->of));
+        exit(EXIT_FAILURE);
+    }
     show(w);
     return w->of.film.iterations < w->of.part.end;
 }

@@ -77,7 +77,8 @@ typedef void asbdpt_progress(void *context, double learnt, double done);
 typedef int asbdpt_cancel(void *context);
 
 /* asbdpt_render: render some more samples of each pixel, first learning if the method learns.
- *   samples   how many; they end with a whole four where the filter has negative lobes, and with a block of select=bins.
+ *   samples   how many; they end with a whole four where the filter has negative lobes, and with a block of
+ *             select=bins. With restart=0 all of --spp is one block, and no call can add to it
  *             0: all that are missing of --spp, or until --noise is reached
  *   progress, cancel  may be NULL; `context` is passed to both
  * A render that is cancelled is no error; the next call continues it. */

@@ -135,7 +135,7 @@ int asbdpt_open(asbdpt *r, const char *path) { return open_scene(r, path, NULL, 
 
 int asbdpt_open_text(asbdpt *r, const char *name, const char *text, size_t length)
 {
-    return open_scene(r, name, text, length);
+    return open_scene(r, name, length > 0 ? text : "", length);
 }
 
 int asbdpt_size(asbdpt *r, int *width, int *height)

@@ -138,7 +138,7 @@ static enum cancel cancel(void *context)
 }
 
 /* Where so many samples more end: with a cycle of the filter, and with a block where the method says how long these are,
- * which shows when it is prepared. False with a message. */
+ * which shows when it is prepared. A block without an end is all of --spp. False with a message. */
 static bool find_end(struct asbdpt *r, long samples, long *end, struct error *err)
 {
     enum { LONG = 1 << 16 };
@@ -151,6 +151,8 @@ static bool find_end(struct asbdpt *r, long samples, long *end, struct error *er
         return error_set(err, "learning was cancelled, but the samples of the checkpoint go by all of it: open both again");
     long block = r->prepared.size.block, unit = block > 0 && block < LONG ? block : filter_cycle(&r->scene.filter);
     *end = (r->part.first + f->iterations + samples + unit - 1) / unit * unit;
+    if (block >= LONG && *end < r->part.end)
+        *end = r->part.end;
     return true;
 }
 

@@ -1,6 +1,7 @@
 /* render.c: see render.h. */
 #include "render/render.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -183,6 +184,9 @@ static bool check_range(const struct run *r, struct error *err)
     int block = r->method->size.block;
     if (block == 0 || o->first == o->end)
         return true;
+    if (r->film->iterations > 0 && o->first % block != 0 && block == INT_MAX)
+        return error_set(err, "the film ends at sample %ld: here all samples are one block, so it cannot be continued",
+                         o->first);
     if (r->film->iterations > 0 && o->first % block != 0)
         return error_set(err,
                          "the film ends at sample %ld: here they come in blocks of %d, so it cannot be continued",

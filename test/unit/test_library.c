@@ -86,6 +86,7 @@ static void test_text(struct test *t)
     REFUSED(open_text(r, "a text", "WorldBegin\n  Foo 1\nShape \"sphre\"\nWorldEnd\n"), "a text:2:3: unknown directive Foo");
     CHECK(t, strstr(asbdpt_message(r), "\na text:3:7: ") != NULL, "the second error: %s", asbdpt_message(r));
     REFUSED(asbdpt_open_text(r, "short", ROOM, 20), "short:1:");
+    REFUSED(asbdpt_open_text(r, "none", NULL, 0), "WorldBegin"); /* an empty text, not a file */
     REFUSED(open_text(r, "scenes/none/a", "Include \"b.pbrt\"\n"), "scenes/none/b.pbrt: cannot open");
     CHECK(t, open_text(r, "a text", ROOM) == 0, "%s", asbdpt_message(r));
     CHECK(t, asbdpt_render(r, 2, NULL, NULL, NULL) == 0, "%s", asbdpt_message(r));
@@ -125,6 +126,28 @@ static void test_calls(struct test *t)
         CHECK(t, strstr(asbdpt_statistics(r), "\"spp_done\": 9,") != NULL, "%s", asbdpt_statistics(r));
         asbdpt_free(r);
     }
+}
+
+/* A block without an end is all of --spp: the first call renders it, and no other can add to it. */
+static void test_endless(struct test *t)
+{
+    float whole[VALUES], pixels[VALUES];
+    asbdpt *r[2];
+    for (int i = 0; i < 2; i++) {
+        r[i] = asbdpt_new();
+        CHECK(t, asbdpt_set(r[i], "--res", "16x16") == 0 && asbdpt_set(r[i], "--spp", "6") == 0 &&
+              asbdpt_set(r[i], "--integrator", "asbdpt") == 0 && asbdpt_set(r[i], "-P", "select=bins") == 0 &&
+              asbdpt_set(r[i], "-P", "restart=0") == 0 && asbdpt_open(r[i], SCENE) == 0, "%s", asbdpt_message(r[i]));
+        CHECK(t, asbdpt_render(r[i], i, NULL, NULL, NULL) == 0 && asbdpt_samples(r[i]) == 6, "%g samples of 6; %s",
+              asbdpt_samples(r[i]), asbdpt_message(r[i]));
+    }
+    picture(t, r[0], whole);
+    picture(t, r[1], pixels);
+    CHECK(t, memcmp(whole, pixels, sizeof whole) == 0, "restart=0: one sample and all of --spp are two pictures");
+    CHECK(t, asbdpt_render(r[1], 1, NULL, NULL, NULL) == 1 && strstr(asbdpt_message(r[1]), "one block") != NULL, "%s",
+          asbdpt_message(r[1]));
+    asbdpt_free(r[0]);
+    asbdpt_free(r[1]);
 }
 
 static void test_error(struct test *t)
@@ -325,6 +348,7 @@ void test_library(struct test *t)
     test_order(t);
     test_text(t);
     test_calls(t);
+    test_endless(t);
     test_error(t);
     test_two(t);
     test_cancel(t);
