@@ -165,7 +165,7 @@ FACTS = $(foreach name,layers standard references limits specimens links measure
 check: asbdpt-lab ## facts about sources and documents, in ten seconds
 	@sh test/run/suites.sh $(FACTS)
 
-LONG  = $(foreach name,mini cli keep build examples progress embed,"sh test/run/$(name).sh $(PROGRAM)")
+LONG  = $(foreach name,mini cli checkpoint build examples progress embed,"sh test/run/$(name).sh $(PROGRAM)")
 SHORT = $(foreach name,lab sample corpus outputs boxes install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") \
     "LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB)" "sh test/tree/words_test.sh" \
     "sh test/run/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
@@ -176,7 +176,7 @@ scripts: asbdpt asbdpt-lab $(BUILD)/boxes lib ## the same without the suites in 
 	@sh test/run/suites.sh $(LONG) $(FACTS) $(SHORT)
 
 check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
-	@sh test/run/suites.sh "sh test/run/course.sh prove" "$(BUILD)/test --slow" "sh test/run/keep.sh $(PROGRAM) 100" \
+	@sh test/run/suites.sh "sh test/run/course.sh prove" "$(BUILD)/test --slow" "sh test/run/checkpoint.sh $(PROGRAM) 100" \
 	    "sh test/run/readme.sh $(PROGRAM)" "PICTURES=all sh test/run/mini.sh $(PROGRAM)" "BUILD=$(BUILD) sh test/run/add_method.sh" \
 	    "sh test/run/report.sh $(PROGRAM)" "FULL=yes sh test/run/examples.sh $(PROGRAM)" "FULL=yes sh test/run/embed.sh $(PROGRAM)" \
 	    "sh doc/tour/figures.sh $(PROGRAM) out/figures && \

@@ -173,7 +173,7 @@ bool channels_open(struct channels *l, const struct channel_options *o, struct r
 
 /* --- images ------------------------------------------------------------------------------------------- */
 
-static bool late(const struct keep *k)
+static bool late(const struct checkpoint *k)
 {
     return k->time > 0 && os_wall_seconds() - k->begun >= k->time;
 }
@@ -186,14 +186,14 @@ static enum cancel cancel(void *context)
 
 static void progress(void *context, double learnt, double done)
 {
-    struct keep *k = context;
+    struct checkpoint *k = context;
     (void)learnt;
     progress_update(&k->bar, done);
 }
 
 static bool make_first_hit(const struct channels *l, float *const picture[N_AOVS])
 {
-    struct keep *k = &l->run->keep;
+    struct checkpoint *k = &l->run->checkpoint;
     struct render_job o = l->run->of.job;
     o.end = l->run->of.film.iterations > 0 ? l->run->of.film.iterations : 1;
     o.progress = progress;

@@ -1,6 +1,6 @@
 #!/bin/sh
-# keep.sh: nothing rendered is lost: signals, time limits, checkpoints, parts, and a program that is killed.
-# Run from the top: sh test/run/keep.sh ./asbdpt [KILLS]    (10 kills unless said otherwise)
+# checkpoint.sh: nothing rendered is lost: signals, time limits, checkpoints, parts, and a program that is killed.
+# Run from the top: sh test/run/checkpoint.sh ./asbdpt [KILLS]    (10 kills unless said otherwise)
 . test/run/expect.sh
 kills=${2:-10}
 
