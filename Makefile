@@ -172,8 +172,8 @@ SHORT = $(foreach name,lab sample corpus outputs boxes install suites_test hashe
 test: asbdpt asbdpt-lab $(BUILD)/test $(BUILD)/boxes lib ## build and run the test suite (three minutes on two cores)
 	@sh test/run/suites.sh $(LONG) $(FACTS) $(BUILD)/test $(SHORT)
 
-scripts: asbdpt asbdpt-lab $(BUILD)/boxes lib ## the same without the suites in C: what depends on the sh and awk of a system
-	@sh test/run/suites.sh $(LONG) $(FACTS) $(SHORT)
+scripts: asbdpt asbdpt-lab $(BUILD)/boxes lib ## what depends on the sh and awk of a system: no suites in C, few samples
+	@BRIEF=yes sh test/run/suites.sh $(LONG) $(FACTS) $(SHORT)
 
 check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
 	@sh test/run/suites.sh "sh test/run/course.sh prove" "$(BUILD)/test --slow" "sh test/run/checkpoint.sh $(PROGRAM) 100" \
