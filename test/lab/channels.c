@@ -87,13 +87,11 @@ static bool open_again(struct channels *l, struct error *err)
 /* A group is called by its name, or by what it is. */
 static bool open_light(struct channels *l, int i, struct error *err)
 {
-    static const char *const KINDS[] = {
-        [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot", [LIGHT_DISTANT] = "distant",
-        [LIGHT_INFINITE] = "infinite"};
     const struct light_group *g = &l->run->of.scene.lights.group[i];
     size_t size = strlen(l->options->lights) + 64;
     char *name = mem_alloc(size, 1);
-    snprintf(name, size, "%s/light%02d_%s.pfm", l->options->lights, i, g->name != NULL ? g->name : KINDS[g->kind]);
+    snprintf(name, size, "%s/light%02d_%s.pfm", l->options->lights, i,
+             g->name != NULL ? g->name : LIGHT_KINDS[g->kind]);
     bool ok = add_file(l, name, i, N_AOVS, err);
     free(name);
     return ok;
