@@ -165,18 +165,19 @@ FACTS = $(foreach name,layers standard references limits specimens links measure
 check: asbdpt-lab ## facts about sources and documents, in ten seconds
 	@sh test/run/suites.sh $(FACTS)
 
-LONG  = $(foreach name,mini cli keep build examples progress embed,"sh test/run/$(name).sh $(PROGRAM)")
+LONG  = $(foreach name,mini cli checkpoint build examples progress embed,"sh test/run/$(name).sh $(PROGRAM)")
 SHORT = $(foreach name,lab sample corpus outputs boxes install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") \
     "LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB)" "sh test/tree/words_test.sh" \
     "sh test/run/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
-test: asbdpt asbdpt-lab $(BUILD)/test $(BUILD)/boxes lib ## build and run the test suite (three minutes on two cores)
+test: ## build with all cores, and run the test suite (three minutes on two cores)
+	@$(MAKE) -j$$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) asbdpt asbdpt-lab $(BUILD)/test $(BUILD)/boxes lib
 	@sh test/run/suites.sh $(LONG) $(FACTS) $(BUILD)/test $(SHORT)
 
-scripts: asbdpt asbdpt-lab $(BUILD)/boxes lib ## the same without the suites in C: what depends on the sh and awk of a system
-	@sh test/run/suites.sh $(LONG) $(FACTS) $(SHORT)
+scripts: asbdpt asbdpt-lab $(BUILD)/boxes lib ## what depends on the sh and awk of a system: no suites in C, few samples
+	@BRIEF=yes sh test/run/suites.sh $(LONG) $(FACTS) $(SHORT)
 
 check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
-	@sh test/run/suites.sh "sh test/run/course.sh prove" "$(BUILD)/test --slow" "sh test/run/keep.sh $(PROGRAM) 100" \
+	@sh test/run/suites.sh "sh test/run/course.sh prove" "$(BUILD)/test --slow" "sh test/run/checkpoint.sh $(PROGRAM) 100" \
 	    "sh test/run/readme.sh $(PROGRAM)" "PICTURES=all sh test/run/mini.sh $(PROGRAM)" "BUILD=$(BUILD) sh test/run/add_method.sh" \
 	    "sh test/run/report.sh $(PROGRAM)" "FULL=yes sh test/run/examples.sh $(PROGRAM)" "FULL=yes sh test/run/embed.sh $(PROGRAM)" \
 	    "FULL=yes sh test/run/web.sh out/asbdpt.html" \

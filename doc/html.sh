@@ -2,6 +2,7 @@
 # html.sh OUT: all documents as static HTML in OUT, with the sources they link to; `make doc` calls it. Needs sh and awk.
 # It ends where one of its commands fails, so no command whose status counts begins a pipeline.
 set -eu
+export LC_ALL=C
 out=$1
 rm -rf "$out"
 mkdir -p "$out"

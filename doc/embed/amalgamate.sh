@@ -20,4 +20,4 @@ for room in $(cat src/LAYERS); do
 done
 program=$(ls src/cli/*.c)
 # What needs the system's own headers comes last: their names are many.
-awk -f doc/embed/amalgamate.awk src/*/*.h $list library: $program main: src/base/os*.c >"$out/asbdpt.c"
+LC_ALL=C awk -f doc/embed/amalgamate.awk src/*/*.h $list library: $program main: src/base/os*.c >"$out/asbdpt.c"

@@ -7,7 +7,7 @@
  * SIGKILL, temporary files are removed: file.h registers them here.
  *
  * A signal handler can reach nothing but static variables; those of interrupt.c are the only ones of the program that
- * change. Tests: test/run/keep.sh. */
+ * change. Tests: test/run/checkpoint.sh. */
 #ifndef ASBDPT_INTERRUPT_H
 #define ASBDPT_INTERRUPT_H
 

@@ -147,7 +147,7 @@ static int run(void *options)
     struct error err;
     int n_pictures = 0;
     for (int i = 0; i < o->output.n; i++)
-        n_pictures += !outputs_is_part(o->output.item[i]);
+        n_pictures += !file_has_extension(o->output.item[i], ".part");
     if (o->partial && n_pictures < o->output.n)
         return usage_error(&command_merge, "--partial is for images; a part has one range of samples");
     if (!outputs_open(&o->output, &o->tone, true, &out, &err))

@@ -20,15 +20,15 @@ const struct option RENDER_OPTIONS[] = {
      .help = IMAGE_HELP " (default: the scene's Film name)", .list = image_list_written},
     TONE_ROWS,
     UNCLAMPED_ROW,
-    {"--time", "TIME", OPTION_TIME, AT(keep.time), 1e-9, 1e9,
+    {"--time", "TIME", OPTION_TIME, AT(checkpoint.time), 1e-9, 1e9,
      .help = "render for at most TIME, in seconds or as 90s, 5m, 1h, and write the image so far (default: no limit)"},
-    {"--preview", "TIME", OPTION_TIME, AT(keep.preview), 1e-9, 1e9,
+    {"--preview", "TIME", OPTION_TIME, AT(checkpoint.preview), 1e-9, 1e9,
      .help = "write the image so far to the first -o file after 1, 2, 4 ... seconds, then every TIME"},
-    {"--checkpoint", "FILE", OPTION_TEXT, AT(keep.checkpoint), .written = true,
+    {"--checkpoint", "FILE", OPTION_TEXT, AT(checkpoint.file), .written = true,
      .help = "save the render in FILE at intervals, and when a signal stops it"},
-    {"--interval", "TIME", OPTION_TIME, AT(keep.interval), 0, 1e9, .fallback = "60",
+    {"--interval", "TIME", OPTION_TIME, AT(checkpoint.interval), 0, 1e9, .fallback = "60",
      .help = "time between checkpoints in seconds"},
-    {"--resume", "FILE", OPTION_TEXT, AT(keep.resume), .help = "continue the render that a checkpoint holds"},
+    {"--resume", "FILE", OPTION_TEXT, AT(checkpoint.resume), .help = "continue the render that a checkpoint holds"},
     {"--stats", "FILE", OPTION_TEXT, AT(stats_path), .written = true,
      .help = "write parameters, times and memory as JSON"},
     {"--aov", .kind = OPTION_ELSEWHERE, .help = "asbdpt-lab render has this option"},
@@ -68,7 +68,7 @@ static bool open_named(struct render_run *r, struct error *err)
 {
     if (r->of.job.samples[1] > 0 && r->output.n == 0)
         return error_usage(err, "--samples needs -o NAME.part");
-    return keep_check(&r->keep, &r->of.job, err) &&
+    return checkpoint_check(&r->checkpoint, &r->of.job, err) &&
            (r->output.n == 0 || outputs_open(&r->output, &r->tone, true, &r->pictures, err)) &&
            (r->stats_path == NULL || file_create(r->stats_path, &r->stats, err));
 }
@@ -100,7 +100,7 @@ static bool names_differ(struct render_run *r, struct error *err)
 static bool open_others(struct render_run *r, struct error *err)
 {
     return (r->pictures.n > 0 || open_default_output(r, err)) &&
-           (r->keep.preview == 0 || outputs_previews(&r->pictures, err)) && names_differ(r, err);
+           (r->checkpoint.preview == 0 || outputs_previews(&r->pictures, err)) && names_differ(r, err);
 }
 
 int render_open(struct render_run *r)
@@ -199,7 +199,7 @@ static void write_stats(struct render_run *r)
     struct growing text = {0};
     for (int i = 0; i < r->pictures.n; i++)
         texts_add(&files, r->pictures.item[i].file.path);
-    stats_add(&text, &r->of, &files, r->keep.checkpoint);
+    stats_add(&text, &r->of, &files, r->checkpoint.file);
     fputs(text.text, r->stats.stream);
     free(text.text);
     free(files.item);
@@ -212,12 +212,12 @@ bool render_work(struct render_run *r, struct error *err)
     r->pictures.part = &r->of.part;
     r->pictures.film = &r->of.film;
     r->pictures.unclamped = r->unclamped;
-    if (!keep_begin(&r->keep, &r->of, &r->pictures, err))
+    if (!checkpoint_begin(&r->checkpoint, &r->of, &r->pictures, err))
         return false;
-    r->of.progress = keep_progress;
-    r->of.cancel = keep_cancel;
-    r->of.context = &r->keep;
-    bool ok = state_render(&r->of, 0, err), kept = keep_end(&r->keep, ok, err);
+    r->of.progress = checkpoint_progress;
+    r->of.cancel = checkpoint_cancel;
+    r->of.context = &r->checkpoint;
+    bool ok = state_render(&r->of, 0, err), kept = checkpoint_end(&r->checkpoint, ok, err);
     if (!ok)
         return false;
     if (r->stats.stream != NULL)

@@ -1,12 +1,12 @@
 /* cmd_render.h: the steps of `asbdpt render`, which the laboratory's program takes, too, and looks on.
- * Tests: test/run/cli.sh, test/run/outputs.sh, test/run/keep.sh. */
+ * Tests: test/run/cli.sh, test/run/outputs.sh, test/run/checkpoint.sh. */
 #ifndef ASBDPT_CMD_RENDER_H
 #define ASBDPT_CMD_RENDER_H
 
 #include <stdio.h>
 
 #include "library/job_options.h"
-#include "cli/keep.h"
+#include "cli/checkpoint.h"
 #include "cli/outputs.h"
 
 /* A render on its way from options to files. */
@@ -16,7 +16,7 @@ struct render_run {
     struct tone_options tone;
     bool unclamped;
     const char *stats_path; /* or NULL */
-    struct keep keep;       /* options that stop, save and resume, and what becomes of them */
+    struct checkpoint checkpoint; /* options that stop, save and resume, and what becomes of them */
     struct outputs pictures;
     struct file_output stats; /* its stream NULL: none; it is complete when all others are */
 };

@@ -26,12 +26,6 @@ static bool read_tone(const struct tone_options *t, const struct texts *names, s
            error_usage(err, "--exposure and --tonemap are for 8-bit images; none is written");
 }
 
-bool outputs_is_part(const char *name)
-{
-    size_t n = strlen(name);
-    return n > 5 && strcmp(name + n - 5, ".part") == 0;
-}
-
 static bool add_file(struct outputs *out, const char *name, bool is_part, struct error *err)
 {
     struct output o = {.is_part = is_part};
@@ -48,7 +42,7 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, bo
     memset(out, 0, sizeof *out);
     bool ok = read_tone(tone, names, &out->tone, err);
     for (int i = 0; ok && i < names->n; i++)
-        ok = add_file(out, names->item[i], parts && outputs_is_part(names->item[i]), err);
+        ok = add_file(out, names->item[i], parts && file_has_extension(names->item[i], ".part"), err);
     if (!ok)
         outputs_abandon(out);
     return ok;

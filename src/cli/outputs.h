@@ -45,9 +45,7 @@ struct tone_options {
      .help = "keep negative values in linear images, for images that are averaged (default: 0 instead)"}
 #define IMAGE_HELP "image to write, repeatable; 8-bit formats are sRGB, others linear; - is .pfm to standard output"
 
-/* outputs_is_part: does the name end in .part? outputs_possible: can a file of this name be made? False with a
- * message. */
-bool outputs_is_part(const char *name);
+/* outputs_possible: can a file of this name be made? False with a message. */
 bool outputs_possible(const char *name, struct error *err);
 
 /* outputs_open: begin to write pictures of these names, which differ.

@@ -9,7 +9,7 @@
 #include "image/image.h"
 #include "library/job_options.h"
 #include "library/state.h"
-#include "render/halves.h"
+#include "render/noise_estimate.h"
 
 const char *asbdpt_version(void) { return VERSION; }
 
@@ -189,7 +189,7 @@ int asbdpt_error(asbdpt *r, float *pixels)
         return 1;
     bool ok = f->half != NULL || error_set(&err, "no error is kept: call asbdpt_keep_error before the first sample");
     ok = ok && ((f->iterations > 0 && f->passes == 0 && f->iterations % (2L * f->run) == 0) ||
-                error_set(&err, "the error is known at every %ld samples, not at %ld", 2L * halves_run(1),
+                error_set(&err, "the error is known at every %ld samples, not at %ld", 2L * noise_run(1),
                           f->iterations));
     double scale = r->scene.film_scale / (double)(f->iterations > 0 ? f->iterations : 1);
     for (size_t i = 0; ok && i < rect_pixels(f->rect) * 3; i++)

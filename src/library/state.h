@@ -1,7 +1,7 @@
 /* state.h: what a render is behind asbdpt.h: all that lies between the options and the film. The programs' subcommand
  * `render` has one, too, and does by these functions what the library does, with its own messages.
  *
- * Tests: test_library.c, test/run/keep.sh. */
+ * Tests: test_library.c, test/run/checkpoint.sh. */
 #ifndef ASBDPT_STATE_H
 #define ASBDPT_STATE_H
 

@@ -6,7 +6,7 @@
  *     samples A B                      samples A .. B-1 of each pixel are to be in the file when it is complete,
  *     done N P                         the first N of them are, and P tile passes of the next block
  *     left-out K                       contributions that were not finite or too large
- *     halves N                         1: behind the sums are those of half the samples (render/halves.h); 0: not
+ *     halves N                         1: also the sums of half the samples (render/noise_estimate.h), 0: not
  *     size W H                         pixels of the film's rectangle
  *     film W H, window X Y             the whole frame, and where in it the rectangle begins
  *     scale X                          by which pixels are multiplied when they are written
@@ -26,7 +26,7 @@
  * The same film gives the same bytes, and sums are exact, so parts added up in any order give the bytes of the whole.
  * Parts are read as a stream: adding them needs the memory of one film. Files appear whole or not at all.
  *
- * Tests: test_part.c, test/run/keep.sh.
+ * Tests: test_part.c, test/run/checkpoint.sh.
  */
 #ifndef ASBDPT_PART_H
 #define ASBDPT_PART_H

@@ -8,7 +8,7 @@
 #include "base/number.h"
 #include "base/parallel.h"
 #include "base/sampler.h"
-#include "render/halves.h"
+#include "render/noise_estimate.h"
 
 /* --- tiles ------------------------------------------------------------------------------------------- */
 
@@ -97,7 +97,7 @@ static bool good_enough(const struct run *r)
 {
     const double *limit = r->job->noise;
     struct film *f = r->film;
-    bool good = halves_noise(f, r->job->scene->film_scale);
+    bool good = noise_measure(f, r->job->scene->film_scale);
     for (int i = 0; i < N_NOISE_SCALES; i++)
         good = good && (limit[i] == 0 || f->noise[i].value < limit[i]);
     return good && limit[NOISE_RELATIVE] + limit[NOISE_8_BIT] > 0;
@@ -204,7 +204,7 @@ static bool cut(struct run *r, struct error *err)
     long first, end;
     r->block = size->block > 0 ? size->block : r->job->block > 0 ? r->job->block : choose_block(r->job, size->tile);
     r->tiling = tiling_of(r->job->film_rect, size);
-    r->film->run = halves_run(r->block);
+    r->film->run = noise_run(r->block);
     r->begun = r->film->passes;
     block_range(r, 0, &first, &end);
     return r->begun == 0 || (r->begun < tiles_per_block(r) && r->film->block.iterations == end - first) ||

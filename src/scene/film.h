@@ -111,7 +111,7 @@ struct film_block {
     float *splat; /* [pixels*3], what its splats have brought; owned */
 };
 
-/* How far the picture is from what it converges to, as halves.h finds it. */
+/* How far the picture is from what it converges to, as noise_estimate.h finds it. */
 enum noise_scale { NOISE_RELATIVE, NOISE_8_BIT, N_NOISE_SCALES };
 struct noise_estimate {
     double value, error; /* its standard error; both infinite where nothing is known */

@@ -9,6 +9,10 @@
 #include "base/number.h"
 #include "base/warp.h"
 
+const char *const LIGHT_KINDS[] = {
+    [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot", [LIGHT_DISTANT] = "distant",
+    [LIGHT_INFINITE] = "infinite"};
+
 int light_add(struct light_set *set, struct light l, const struct light_frame *frame)
 {
     l.frame = NULL;

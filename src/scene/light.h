@@ -27,6 +27,7 @@ enum light_kind {
     LIGHT_DISTANT,
     LIGHT_INFINITE
 };
+extern const char *const LIGHT_KINDS[]; /* by enum light_kind: "area" */
 
 /* A light. What its fields mean depends on its kind; a dash: not used.
  *

@@ -87,13 +87,11 @@ static bool open_again(struct channels *l, struct error *err)
 /* A group is called by its name, or by what it is. */
 static bool open_light(struct channels *l, int i, struct error *err)
 {
-    static const char *const KINDS[] = {
-        [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot", [LIGHT_DISTANT] = "distant",
-        [LIGHT_INFINITE] = "infinite"};
     const struct light_group *g = &l->run->of.scene.lights.group[i];
     size_t size = strlen(l->options->lights) + 64;
     char *name = mem_alloc(size, 1);
-    snprintf(name, size, "%s/light%02d_%s.pfm", l->options->lights, i, g->name != NULL ? g->name : KINDS[g->kind]);
+    snprintf(name, size, "%s/light%02d_%s.pfm", l->options->lights, i,
+             g->name != NULL ? g->name : LIGHT_KINDS[g->kind]);
     bool ok = add_file(l, name, i, N_AOVS, err);
     free(name);
     return ok;
@@ -173,7 +171,7 @@ bool channels_open(struct channels *l, const struct channel_options *o, struct r
 
 /* --- images ------------------------------------------------------------------------------------------- */
 
-static bool late(const struct keep *k)
+static bool late(const struct checkpoint *k)
 {
     return k->time > 0 && os_wall_seconds() - k->begun >= k->time;
 }
@@ -186,14 +184,14 @@ static enum cancel cancel(void *context)
 
 static void progress(void *context, double learnt, double done)
 {
-    struct keep *k = context;
+    struct checkpoint *k = context;
     (void)learnt;
     progress_update(&k->bar, done);
 }
 
 static bool make_first_hit(const struct channels *l, float *const picture[N_AOVS])
 {
-    struct keep *k = &l->run->keep;
+    struct checkpoint *k = &l->run->checkpoint;
     struct render_job o = l->run->of.job;
     o.end = l->run->of.film.iterations > 0 ? l->run->of.film.iterations : 1;
     o.progress = progress;

@@ -12,11 +12,6 @@
 #include "lab/race_table.h"
 #include "lab/tree.h"
 
-static const char *const LIGHT_NAMES[] = {
-    [LIGHT_AREA] = "area", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot", [LIGHT_DISTANT] = "distant",
-    [LIGHT_INFINITE] = "infinite",
-};
-
 static void print_lights(const struct light_set *lights)
 {
     enum { SHOWN = 16 };
@@ -25,7 +20,7 @@ static void print_lights(const struct light_set *lights)
         total += light_watts(&lights->light[i]);
     printf("lights        %d\n", lights->n);
     for (int i = 0; i < lights->n && i < SHOWN; i++)
-        printf("  %-11s power %.4g W (%.1f %%)\n", LIGHT_NAMES[lights->light[i].kind], light_watts(&lights->light[i]),
+        printf("  %-11s power %.4g W (%.1f %%)\n", LIGHT_KINDS[lights->light[i].kind], light_watts(&lights->light[i]),
                total > 0 ? 100 * light_watts(&lights->light[i]) / total : 0);
     if (lights->n > SHOWN)
         printf("  and %d more\n", lights->n - SHOWN);

@@ -51,9 +51,9 @@ static bool can_show(const struct more_options *o, const struct method *m, struc
 static bool check(const struct more_options *o, struct error *err)
 {
     bool kept = channels_variance(&o->channel) || o->channel.lights != NULL || o->channel.alpha;
-    if (o->run.keep.resume != NULL && kept)
+    if (o->run.checkpoint.resume != NULL && kept)
         return error_set(err, "%s: variance, lights and alpha are not saved and cannot be resumed; render them by "
-                         "--samples, and take the mean by sum --weights", o->run.keep.resume);
+                         "--samples, and take the mean by sum --weights", o->run.checkpoint.resume);
     return channels_check(&o->channel, err);
 }
 

@@ -303,7 +303,7 @@ for name in albedo.R normal.X depth.Z position.Z variance.B; do check grep -aq "
 check [ ! -e l.albedo.pfm ]
 
 # --- noise
-# --noise: the render ends when it is low enough; --spp is the most. test_halves.c: at the same sample by any threads.
+# --noise: the render ends when it is low enough; --spp is the most. test_noise.c: at the same sample by any threads.
 noisy="--res 20x16 --integrator bdpt --maxdepth 3"
 expect 0 '128 spp' "$program" render "$box" $noisy --spp 1000 --noise 0.055 -j 1 -o noise1.pfm
 check grep -q 'noise 0.0[0-9]* +- .* of the brightness around, .* at 128 samples per pixel: below' stderr.txt

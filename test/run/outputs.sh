@@ -71,11 +71,11 @@ END
 least() { "$lab" info "$1" | awk '$3 == "to" && (n++ == 0 || $2 < least) { least = $2 } END { exit !(least '"$2"' 0) }'; }
 red() { check "$program" render red.pbrt --spp 4 --quiet "$@"; }
 red -o cut.pfm -o cut.exr --checkpoint red.state
-red --unclamped -o kept.pfm -o kept.exr -o kept.part
+red --unclamped -o kept.pfm -o kept.exr -o kept.PART
 for name in cut.pfm cut.exr; do check least $name ==; done
 for name in kept.pfm kept.exr; do check least $name '<'; done
 for half in 0:2 2:4; do red --samples $half -o "${half%:*}.part"; done
-for from in '0.part 2.part' red.state kept.part; do
+for from in '0.part 2.part' red.state kept.PART; do
     makes cut.pfm "$program" merge $from --quiet -o x.pfm
     makes kept.pfm "$program" merge $from --quiet --unclamped -o x.pfm
 done

@@ -15,30 +15,29 @@ wrong() { echo "html: $*"; bad=1; }
 # whole DIR: prints what is wrong with the pages of DIR.
 whole() {
     LC_ALL=C find "$1" -name '*.html' -exec awk '
-        function count(text, piece,    n, at) {
-            while (at = index(text, piece)) { n++; text = substr(text, at + length(piece)) }
-            return n + 0
-        }
         function exists(path,    line, found) {
             if (!(path in known)) { found = (getline line < path) >= 0; close(path); known[path] = found }
             return known[path]
         }
-        function check(    i, text) {
+        function check(    i, name) {
             if (page == "") return
             for (i = 1; i <= n_tags; i++)
-                if (opened[i] != closed[i]) print page ": " opened[i] " times <" tag[i] ">, " closed[i] " times closed"
+                if (seen[tag[i]] + 0 != seen["/" tag[i]] + 0)
+                    print page ": " seen[tag[i]] + 0 " times <" tag[i] ">, " seen["/" tag[i]] + 0 " times closed"
+            for (name in seen) delete seen[name]
         }
         BEGIN { n_tags = split("p ul ol li table tr td th pre div section strong em sub sup code a math mrow mfrac msub", tag) }
         FNR == 1 {
             check()
             page = folder = FILENAME
             sub(/[^\/]*$/, "", folder)
-            for (i = 1; i <= n_tags; i++) opened[i] = closed[i] = 0
         }
         {
-            for (i = 1; i <= n_tags; i++) {
-                opened[i] += count($0, "<" tag[i] ">") + count($0, "<" tag[i] " ")
-                closed[i] += count($0, "</" tag[i] ">")
+            n = split($0, piece, "<")
+            for (i = 2; i <= n; i++) {
+                name = piece[i]
+                sub(/[ >].*/, "", name)
+                seen[name]++
             }
             gsub(/<wbr>/, "")
             line = $0
@@ -79,23 +78,37 @@ for count in '6 <img src="doc/gallery/' '8 <img src="doc/mini/'; do
     [ "$(grep -o "${count#* }" "$index" | wc -l | tr -d ' ')" = "${count%% *}" ] || wrong "index.html has not $count"
 done
 leads() { # prints the headings of a list that are not where it says
-    sed -n 's/^<li><a href="\([^"#]*\)#\([^"]*\)".*/\1 \2/p' "$1" | while read -r page id; do
-        grep -qF " id=\"$id\">" "$dir/html/$page" || echo "$page#$id"
-    done
+    awk -v html="$dir/html" '
+        function ids(page,    line) {
+            while ((getline line < (html "/" page)) > 0)
+                while (match(line, / id="[^"]*">/)) {
+                    is[page "#" substr(line, RSTART + 5, RLENGTH - 7)] = 1
+                    line = substr(line, RSTART + RLENGTH)
+                }
+            close(html "/" page)
+            known[page] = 1
+        }
+        /^<li><a href="[^"#]*#/ {
+            split($0, part, "\"")
+            page = part[2]
+            sub(/#.*/, "", page)
+            if (!(page in known)) ids(page)
+            if (!(part[2] in is)) print part[2]
+        }' "$1"
 }
 [ "$(grep -c '^<li><a href="[^"]*#' "$index")" -gt 200 ] || wrong "index.html lists few headings"
 found=$(leads "$index")
 [ -z "$found" ] || wrong "index.html leads to no heading: $found"
-sed 's/#render"/#rendered"/' "$index" >"$dir/index.html"
+sed -n 's/#render"/#rendered"/p' "$index" >"$dir/index.html"
 [ -n "$(leads "$dir/index.html")" ] || wrong "a heading that is not there is not noticed"
 
-# named DIR: the links of its sources whose line has not their name, and how many links there are.
+# named DIR [FILE]: the links of its sources, or of this one, whose line has not their name, and how many links there are.
 named() {
-    find src -name '*.[ch]' -exec awk -v html="$1" '
+    LC_ALL=C find src -name '*.[ch]' -exec awk -v html="$1" -v only="$2" '
         { text[FILENAME, FNR] = $0; if (FNR == 1) file[++n] = FILENAME }
         END {
             for (i = 1; i <= n; i++)
-                while ((getline line < (html "/" file[i] ".html")) > 0)
+                while ((only == "" || only == file[i]) && (getline line < (html "/" file[i] ".html")) > 0)
                     while (match(line, /<a href="[^"]*#L[0-9]+">[A-Za-z_0-9]+</)) {
                         split(substr(line, RSTART, RLENGTH), part, /[">#<]+/)
                         line = substr(line, RSTART + RLENGTH)
@@ -142,10 +155,10 @@ expected=$(awk -F '\t' -v OFS='\t' '$1 ~ /07b/ { print $1, $2, $3 + ($2 ~ /path/
 sed 's|    return|    give|' src/transport/mis.h >"$dir/moved/src/transport/mis.h"
 marked >/dev/null
 grep -q 'mis.h: mis_side has 0 lines with return' "$dir/said" || wrong "a line that is gone is not noticed"
-mkdir "$dir/wrong" && cp -R "$dir/html/src" "$dir/wrong"
-of=src/transport/connect.c.html
-sed 's/\(vertex.h.html#L\)[0-9]*">beta</\11">beta</' "$dir/html/$of" >"$dir/wrong/$of"
-named "$dir/wrong" | grep -q 'connect.c: beta is not in line 1 of src/transport/vertex.h' ||
+of=src/transport/connect.c
+mkdir -p "$dir/wrong/src/transport"
+sed 's/\(vertex.h.html#L\)[0-9]*">beta</\11">beta</' "$dir/html/$of.html" >"$dir/wrong/$of.html"
+named "$dir/wrong" $of | grep -q 'connect.c: beta is not in line 1 of src/transport/vertex.h' ||
     wrong "a name that leads elsewhere is not noticed"
 
 mkdir "$dir/damaged"

@@ -141,7 +141,7 @@ static void roughness(struct writer *w)
 }
 
 /* Broad lobes, which every method can make. Without roughness along both axes there is one of all, or none. */
-static void rough(struct writer *w, int kind)
+static void rough(struct writer *w)
 {
     static const struct {
         const char *name;
@@ -150,6 +150,7 @@ static void rough(struct writer *w, int kind)
     } KINDS[] = {{"matte", 0.9, 0, 0, false},       {"matte", 0.9, 0, 0, false},      {"metal", 0, 0, 0, true},
                  {"plastic", 0.6, 0.4, 0, false},   {"translucent", 0.6, 0.4, 0, false},
                  {"substrate", 0.6, 0.4, 0, true},  {"uber", 0.6, 0.4, 0, true},      {"glass", 0, 0, 1.1, true}};
+    int kind = pick(w, sizeof KINDS / sizeof KINDS[0]);
     put(w, "\"%s\" ", KINDS[kind].name);
     if (KINDS[kind].Kd > 0)
         colour(w, "Kd", KINDS[kind].Kd);
@@ -230,7 +231,7 @@ static void one_material(struct writer *w)
     else if (kind == 3)
         of_layers(w, pick(w, 3));
     else
-        rough(w, pick(w, 8));
+        rough(w);
 }
 
 void put_material(struct writer *w, bool lamp)
@@ -445,7 +446,7 @@ void put_area_light(struct writer *w)
 static void delta_light(struct writer *w, double unit)
 {
     static const char *const KINDS[] = {"point", "spot", "goniometric", "projection"};
-    int kind = pick(w, 4);
+    int kind = pick(w, sizeof KINDS / sizeof KINDS[0]);
     bool spot = kind == 1;
     double strength = across(w, 10, 30) * unit * unit;
     w->delta_light = true;

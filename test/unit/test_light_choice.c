@@ -127,7 +127,7 @@ static double noise(struct test *t, struct scene *scene, const char *way)
 
 /* Of direct light, uniform is the best of the two that know nothing where the weak lamp is all that is seen; the guide
  * is best. Without it pt and bdpt are as by power, to the byte. */
-static void test_noise(struct test *t)
+static void test_noise_of_choice(struct test *t)
 {
     static const char *const methods[] = {"pt", "bdpt"};
     struct scene scene;
@@ -156,5 +156,5 @@ void test_light_choice(struct test *t)
 {
     test_probabilities(t);
     test_means(t);
-    test_noise(t);
+    test_noise_of_choice(t);
 }

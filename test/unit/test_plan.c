@@ -40,6 +40,11 @@ static void test_methods(struct test *t)
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         CHECK(t, !methods_read(wrong[i][0], &m, &err) && strstr(err.text, wrong[i][1]) != NULL, "%s: %s", wrong[i][0],
               err.text);
+    for (const struct method *const *row = method_rows; *row != NULL; row++) { /* also those of one row, without any */
+        char text[64];
+        snprintf(text, sizeof text, "%s:select=none", (*row)->name);
+        CHECK(t, !methods_read(text, &m, &err) && strstr(err.text, "select") != NULL, "%s: %s", text, err.text);
+    }
 }
 
 /* A method with services is another in each half, under one label; one without is the same in both. */

@@ -1,4 +1,4 @@
-/* test_halves.c: the noise computed from two halves of the samples, against known noise and against errors relative to
+/* test_noise.c: the noise computed from two halves of the samples, against known noise and against errors relative to
  * a reference. */
 #include <limits.h>
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "base/os.h"
 #include "base/rng.h"
 #include "helpers.h"
-#include "render/halves.h"
+#include "render/noise_estimate.h"
 #include "suites.h"
 
 /* Pixels of uniform numbers and splats, some 20 deviations of the estimate's own error apart from a noise that lacks
@@ -23,12 +23,12 @@ static void test_known(struct test *t)
     struct tile tile = {.splat = NULL};
     struct film film;
     film_init(&film, all, SIDE, SIDE);
-    CHECK(t, !halves_noise(&film, 1), "a film without halves has an estimate");
+    CHECK(t, !noise_measure(&film, 1), "a film without halves has an estimate");
     film_keep_halves(&film);
     film.run = 2;
     for (int i = 0; i < ITERATIONS; i++) {
         bool whole = i > 0 && i % 4 == 0;
-        CHECK(t, halves_noise(&film, 1) == whole, "an estimate at %d iterations", i);
+        CHECK(t, noise_measure(&film, 1) == whole, "an estimate at %d iterations", i);
         tile_start(&tile, pixels_all(all), all, &box);
         tile.first_half = i / 2 % 2 == 0;
         for (int p = 0; p < SIDE * SIDE; p++)
@@ -43,13 +43,13 @@ static void test_known(struct test *t)
     for (double scale = 1; scale < 3; scale++) {
         const struct noise_estimate *e = &film.noise[NOISE_RELATIVE];
         double expected = sqrt(variance * sqr(scale) / (sqr(mean * scale) + 0.01));
-        CHECK(t, halves_noise(&film, scale), "no estimate");
+        CHECK(t, noise_measure(&film, scale), "no estimate");
         CHECK(t, fabs(e->value - expected) < 4 * e->error, "noise %g +- %g, not %g",
               e->value, e->error, expected);
         CHECK(t, fabs(expected * sqrt(0.5) - expected) > 10 * e->error && e->error > 0, "its error is %g", e->error);
     }
     film.passes = 1;
-    CHECK(t, !halves_noise(&film, 1), "an estimate within a block");
+    CHECK(t, !noise_measure(&film, 1), "an estimate within a block");
     tile_free(&tile);
     film_free(&film);
 }
@@ -58,7 +58,7 @@ static void test_known(struct test *t)
 
 static double level(double x) { return 255 * srgb_encode(clamp(x, 0, 1)); }
 
-/* The mean squares that halves.h defines, of a picture beside its reference, whose own error is taken off. */
+/* The mean squares that noise_estimate.h defines, of a picture beside its reference, whose own error is taken off. */
 static void measure(const float *picture, const struct side *ref, double out[N_NOISE_SCALES])
 {
     const double *mean = ref->pixels.value, *off = ref->pixels.error;
@@ -184,13 +184,13 @@ static void test_blocks(struct test *t)
     scene_free(&scene);
 }
 
-void test_halves_long(struct test *t)
+void test_noise_long(struct test *t)
 {
     static const char *const ways[] = {"pt", "lt", "asbdpt", NULL};
     test_pictures_told(t, ways);
 }
 
-void test_halves(struct test *t)
+void test_noise(struct test *t)
 {
     static const char *const ways[] = {"bdpt", NULL};
     test_blocks(t);
@@ -198,5 +198,5 @@ void test_halves(struct test *t)
     test_pictures_told(t, ways);
     test_end(t, "bdpt", 64);
     test_end(t, "asbdpt select=bins restart=24", 96);
-    CHECK(t, halves_run(1) == 32 && halves_run(24) == 48 && halves_run(INT_MAX) == INT_MAX, "runs");
+    CHECK(t, noise_run(1) == 32 && noise_run(24) == 48 && noise_run(INT_MAX) == INT_MAX, "runs");
 }

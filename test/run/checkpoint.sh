@@ -1,8 +1,9 @@
 #!/bin/sh
-# keep.sh: nothing rendered is lost: signals, time limits, checkpoints, parts, and a program that is killed.
-# Run from the top: sh test/run/keep.sh ./asbdpt [KILLS]    (10 kills unless said otherwise)
+# checkpoint.sh: nothing rendered is lost: signals, time limits, checkpoints, parts, and a program that is killed.
+# Run from the top: sh test/run/checkpoint.sh ./asbdpt [KILLS]    (10 kills unless said otherwise)
 . test/run/expect.sh
-kills=${2:-10}
+kills=${2:-${BRIEF:+2}}
+kills=${kills:-10}
 
 same() { cmp -s "$1" "$2" || fault "$1 and $2 differ, $3"; }
 no_temporaries() { [ -z "$(find . -name '.asbdpt-*')" ] || fault "temporary files are left: $1"; }

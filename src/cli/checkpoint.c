@@ -1,5 +1,5 @@
-/* keep.c: see keep.h. */
-#include "cli/keep.h"
+/* checkpoint.c: see checkpoint.h. */
+#include "cli/checkpoint.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,34 +11,34 @@
 #include "base/os.h"
 
 /* Is the checkpoint to be resumed the one to be written? */
-static bool resumes_its_own(const struct keep *o)
+static bool resumes_its_own(const struct checkpoint *o)
 {
-    return o->checkpoint != NULL && o->resume != NULL && strcmp(o->checkpoint, o->resume) == 0;
+    return o->file != NULL && o->resume != NULL && strcmp(o->file, o->resume) == 0;
 }
 
-bool keep_check(const struct keep *o, const struct render_job *job, struct error *err)
+bool checkpoint_check(const struct checkpoint *o, const struct render_job *job, struct error *err)
 {
     if (job->samples[1] > 0 && job_asks_noise(job))
         return error_usage(err, "--noise is that of the whole image; --samples takes a part of it");
-    if (o->checkpoint == NULL)
+    if (o->file == NULL)
         return true;
-    enum os_kind kind = os_kind_of(o->checkpoint);
-    if (strcmp(o->checkpoint, "-") == 0 || (kind != OS_NOTHING && kind != OS_FILE))
-        return error_usage(err, "--checkpoint %s: it needs a file", o->checkpoint);
+    enum os_kind kind = os_kind_of(o->file);
+    if (strcmp(o->file, "-") == 0 || (kind != OS_NOTHING && kind != OS_FILE))
+        return error_usage(err, "--checkpoint %s: it needs a file", o->file);
     if (kind == OS_FILE && !resumes_its_own(o))
         return error_set(err, "%s: the file exists already; continue it by --resume %s, or remove it",
-                         o->checkpoint, o->checkpoint);
-    return outputs_possible(o->checkpoint, err);
+                         o->file, o->file);
+    return outputs_possible(o->file, err);
 }
 
 /* If a checkpoint that is to be resumed and written does not exist yet, the render begins. */
-static bool resume(const struct keep *k, struct error *err)
+static bool resume(const struct checkpoint *k, struct error *err)
 {
     return k->resume == NULL || (resumes_its_own(k) && !file_exists(k->resume)) || state_load(k->of, k->resume, err);
 }
 
 /* The share of the work that is done if the noise ends it: the square of the noise falls as 1 / samples. */
-static double share_by_noise(const struct keep *k)
+static double share_by_noise(const struct checkpoint *k)
 {
     double share = HUGE_VAL;
     for (int i = 0; i < N_NOISE_SCALES; i++)
@@ -47,7 +47,7 @@ static double share_by_noise(const struct keep *k)
     return share;
 }
 
-static void show(struct keep *k, double done)
+static void show(struct checkpoint *k, double done)
 {
     bool relative = k->of->job.noise[NOISE_RELATIVE] > 0;
     double noise = k->of->film.noise[relative ? NOISE_RELATIVE : NOISE_8_BIT].value;
@@ -66,16 +66,16 @@ static void warn_once(bool *fails, bool ok, const struct error *err)
     *fails = !ok;
 }
 
-static void save(struct keep *k)
+static void save(struct checkpoint *k)
 {
     struct error err;
-    bool ok = state_save(k->of, k->checkpoint, &err);
+    bool ok = state_save(k->of, k->file, &err);
     warn_once(&k->save_fails, ok, &err);
     k->saved = os_wall_seconds();
 }
 
 /* What is shown then is new in half of its samples, until previews come at intervals. */
-static void preview(struct keep *k)
+static void preview(struct checkpoint *k)
 {
     struct error err;
     bool ok = outputs_preview(k->pictures, &err);
@@ -89,33 +89,33 @@ static const char STOPPING[] = "\rasbdpt: stopping, and writing the image so far
                                "again after a second to quit without it\n";
 
 /* Is the time over, and so many seconds more? */
-static bool late(const struct keep *k, double more)
+static bool late(const struct checkpoint *k, double more)
 {
     return k->time > 0 && os_wall_seconds() - k->begun >= k->time + more;
 }
 
 /* A block under way has half a second to end. Asked before every sample: the clock is read once. */
-int keep_cancel(void *context)
+int checkpoint_cancel(void *context)
 {
-    const struct keep *k = context;
+    const struct checkpoint *k = context;
     double over = k->time > 0 ? os_wall_seconds() - k->begun - k->time : -1;
     return interrupt_caught() != 0 || over >= 0.5 ? ASBDPT_STOP : over >= 0 ? ASBDPT_END_BLOCK : ASBDPT_CONTINUE;
 }
 
-void keep_progress(void *context, double learnt, double done)
+void checkpoint_progress(void *context, double learnt, double done)
 {
-    struct keep *k = context;
+    struct checkpoint *k = context;
     (void)learnt;
-    if (keep_cancel(k) == ASBDPT_STOP) /* the bar is gone */
+    if (checkpoint_cancel(k) == ASBDPT_STOP) /* the bar is gone */
         return;
     show(k, done);
-    if (k->checkpoint != NULL && os_wall_seconds() - k->saved >= k->interval)
+    if (k->file != NULL && os_wall_seconds() - k->saved >= k->interval)
         save(k);
     if (k->preview > 0 && film_samples(&k->of->film) > 0 && os_wall_seconds() - k->begun >= k->preview_due)
         preview(k);
 }
 
-bool keep_begin(struct keep *k, struct asbdpt *of, const struct outputs *pictures, struct error *err)
+bool checkpoint_begin(struct checkpoint *k, struct asbdpt *of, const struct outputs *pictures, struct error *err)
 {
     k->of = of;
     k->pictures = pictures;
@@ -128,7 +128,7 @@ bool keep_begin(struct keep *k, struct asbdpt *of, const struct outputs *picture
     return true;
 }
 
-static void say_noise(const struct keep *k)
+static void say_noise(const struct checkpoint *k)
 {
     const struct film *f = &k->of->film;
     const struct noise_estimate *relative = &f->noise[NOISE_RELATIVE], *levels = &f->noise[NOISE_8_BIT];
@@ -141,7 +141,7 @@ static void say_noise(const struct keep *k)
         say_line("asbdpt: the noise is unknown: it is estimated every %ld samples per pixel", every);
 }
 
-bool keep_end(struct keep *k, bool ok, struct error *err)
+bool checkpoint_end(struct checkpoint *k, bool ok, struct error *err)
 {
     const struct film *f = &k->of->film;
     int signal = interrupt_caught();
@@ -159,5 +159,5 @@ bool keep_end(struct keep *k, bool ok, struct error *err)
                  late(k, 1) ? ", when the samples that had begun were complete" : "", f->iterations, wanted, more);
     if (ok && k->bar.shown && f->half != NULL)
         say_noise(k);
-    return ok && (k->checkpoint == NULL || state_save(k->of, k->checkpoint, err));
+    return ok && (k->file == NULL || state_save(k->of, k->file, err));
 }

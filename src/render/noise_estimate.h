@@ -1,4 +1,4 @@
-/* halves.h: how noisy is an image? The estimate is from the difference of two halves of its samples.
+/* noise_estimate.h: how noisy is an image? The estimate is from the difference of two halves of its samples.
  *
  * The film sums every other run of iterations on its own. Of the halves A and B the picture is the mean, and (A - B)/2
  * would have its variance were they independent. As points of the same nets they are not: the mean errs less. Nothing
@@ -14,18 +14,18 @@
  * picture is large enough, since pixels of a tile may share light sub-paths: from half the squared difference of each
  * block from the one before. Where blocks differ by more than chance it is too large.
  *
- * Tests: test_halves.c.
+ * Tests: test_noise.c.
  */
-#ifndef ASBDPT_HALVES_H
-#define ASBDPT_HALVES_H
+#ifndef ASBDPT_NOISE_ESTIMATE_H
+#define ASBDPT_NOISE_ESTIMATE_H
 
 #include "scene/film.h"
 
-/* halves_run: iterations of a run where tile passes have blocks of so many. */
-int halves_run(int block);
+/* noise_run: iterations of a run where tile passes have blocks of so many. */
+int noise_run(int block);
 
-/* halves_noise: set film->noise, for the picture at this scale, if the film keeps halves and they are of one size and
+/* noise_measure: set film->noise, for the picture at this scale, if the film keeps halves and they are of one size and
  * not empty. Returns whether it has. */
-bool halves_noise(struct film *film, double scale);
+bool noise_measure(struct film *film, double scale);
 
 #endif

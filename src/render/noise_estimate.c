@@ -1,5 +1,5 @@
-/* halves.c: see halves.h. */
-#include "render/halves.h"
+/* noise_estimate.c: see noise_estimate.h. */
+#include "render/noise_estimate.h"
 
 #include "base/maths.h"
 #include "base/number.h"
@@ -54,9 +54,9 @@ static int block_count(int pixels)
     return n < pixels ? n : pixels;
 }
 
-int halves_run(int block) { return block * ((LONGEST_BLOCK - 1) / block + 1); }
+int noise_run(int block) { return block * ((LONGEST_BLOCK - 1) / block + 1); }
 
-bool halves_noise(struct film *f, double scale)
+bool noise_measure(struct film *f, double scale)
 {
     if (f->half == NULL || f->passes > 0 || f->iterations == 0 || f->iterations % (2L * f->run) != 0)
         return false;
