@@ -116,8 +116,8 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
     const struct drawn drawn = {e->vertex, 1, e->length, pmf}; /* no factor makes up for pmf */
 
     for (int t = 2; t <= n; t++) {
-        sample_hit(&sample, eye, t);
-        sample_direct(&sample, &eye[t - 1], t);
+        sample_s0(&sample, eye, t);
+        sample_s1(&sample, &eye[t - 1], t);
         sample_pairs(&sample, &drawn, &eye[t - 1], t, 1);
     }
     sample_lens(&sample, e->vertex, e->length, 1);

@@ -31,7 +31,7 @@ struct group {
     double L; /* sum of their L */
 };
 
-struct index {
+struct cache {
     const struct vertex **candidate; /* [n], sorted by region */
     double *before;              /* [n], sum of L of the candidates before it in its group */
     struct group *group;         /* [n_groups], in the order of their regions */
@@ -43,7 +43,7 @@ struct index {
 
 /* Make the groups: they have places for their members, but no members yet.
  *   group_of  out, [n_regions], number of the region's group, if it has one */
-static void make_groups(struct index *v, struct pool *pool, int *group_of, int n_regions)
+static void make_groups(struct cache *v, struct pool *pool, int *group_of, int n_regions)
 {
     memset(group_of, 0, (size_t)n_regions * sizeof *group_of);
     for (int i = 0; i < pool->n_candidates; i++)
@@ -60,12 +60,12 @@ static void make_groups(struct index *v, struct pool *pool, int *group_of, int n
     }
 }
 
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
     struct arena *arena = &pool->arena;
     int n_regions = p->tables->regions.n;
-    struct index *v = arena_alloc(arena, sizeof *v);
+    struct cache *v = arena_alloc(arena, sizeof *v);
     int *group_of = arena_alloc(arena, (size_t)n_regions * sizeof *group_of);
     (void)iteration;
     pool_find_candidates(pool);
@@ -91,7 +91,7 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
 /* --- drawing ----------------------------------------------------------------------------------------- */
 
 /* The cumulative sums of an eye region, made at the first draw from it. */
-static const double *row_of_region(const struct index *v, struct arena *arena, const struct table *pairs, int e)
+static const double *row_of_region(const struct cache *v, struct arena *arena, const struct table *pairs, int e)
 {
     if (v->row[e] != NULL)
         return v->row[e];
@@ -103,7 +103,7 @@ static const double *row_of_region(const struct index *v, struct arena *arena, c
 }
 
 /* Draw a region, then a vertex; stratified over both. */
-static bool draw(const struct prepared *p, const struct index *v, struct sample *sample, const struct vertex *z, int i,
+static bool draw(const struct prepared *p, const struct cache *v, struct sample *sample, const struct vertex *z, int i,
                  int n, struct drawn *out)
 {
     if (v->n_groups == 0)
@@ -127,7 +127,7 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
     struct vertex *eye = pass->work->eye;
     loop_fill(p, pass, iteration); /* K light sub-paths, and their vertices by region */
     const int K = pass->work->pool.n;
-    const struct index *index = K > 0 ? p->method->build(p, pass, iteration) : NULL;
+    const struct cache *cache = K > 0 ? p->method->build(p, pass, iteration) : NULL;
     const double every = numbers_every(&p->numbers);
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
         struct sample sample;
@@ -138,10 +138,10 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
             const bool joins = K > 0 && t <= pass->job->max_depth && vertex_connectible(z);
             const int C = joins ? p->numbers.draws[z->eye_end] : 0;
             struct drawn drawn;
-            sample_hit(&sample, eye, t);  /* s = 0 */
-            sample_direct(&sample, z, t); /* s = 1 */
+            sample_s0(&sample, eye, t);  /* s = 0 */
+            sample_s1(&sample, z, t); /* s = 1 */
             for (int j = 0; j < C; j++)   /* s >= 2 */
-                if (p->method->draw(p, index, &sample, z, j, C, &drawn))
+                if (p->method->draw(p, cache, &sample, z, j, C, &drawn))
                     sample_pairs(&sample, &drawn, z, t, every / (C * K) / drawn.pmf);
         }
         loop_splat(p, &sample); /* t = 1 */

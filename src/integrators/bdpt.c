@@ -24,8 +24,8 @@ static void render_pixel(const struct prepared *p, const struct tile_pass *pass,
     }
     for (int t = 2; t <= n_eye; t++) {
         const struct vertex *z = &eye[t - 1];
-        sample_hit(&sample, eye, t);        /* s = 0 */
-        sample_direct(&sample, z, t);       /* s = 1 */
+        sample_s0(&sample, eye, t);        /* s = 0 */
+        sample_s1(&sample, z, t);       /* s = 1 */
         if (numbers->draws[z->eye_end] > 0 && vertex_connectible(z)) /* s >= 2 */
             sample_pairs(&sample, &(struct drawn){light, 1, n_light, 1}, z, t, 1);
     }

@@ -1,7 +1,7 @@
 /* loop.h: the loop over the samples of a tile pass whose pixels share light sub-paths, and its steps.
  *
  *     pool  = light sub-paths of the tile, one for every path_pixels of its pixels
- *     index = build(pool)
+ *     cache = build(pool)
  *     for each pixel, and each vertex z of its eye sub-path:
  *         add s = 0 and s = 1                                                 hit, direct
  *         C times: draw light vertices y with probability P, and add

@@ -105,7 +105,7 @@ struct prepared {
 };
 
 /* What a method has made of a pool, in the pool's arena; each has a struct of its own. */
-struct index;
+struct cache;
 
 struct method {
     const char *name;   /* --integrator NAME */
@@ -120,11 +120,11 @@ struct method {
     bool vertices;                  /* a draw is a light vertex, not a sub-path */
     bool learns_use, learns_pairs;  /* see tables.h */
 
-    /* How eye vertices choose among the light sub-paths that the pixels of a tile share. First, an index of the pool of
+    /* How eye vertices choose among the light sub-paths that the pixels of a tile share. First, a cache of the pool of
      * an iteration, or NULL. `build` is NULL if the pixels share none. */
-    struct index *(*build)(const struct prepared *p, const struct tile_pass *pass, long iteration);
+    struct cache *(*build)(const struct prepared *p, const struct tile_pass *pass, long iteration);
     /* Choice number i of n for eye vertex z. False if there is none. */
-    bool (*draw)(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+    bool (*draw)(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
                  int i, int n, struct drawn *out);
 
     /* Each parameter is valid by itself. Check that they fit each other and the scene; false with a message if not. May

@@ -17,11 +17,11 @@ static void learn_for(const struct render_job *job, struct prepared *p, int runn
     bool few = runner >= RUNNER_PATH_TRACER && p->method->learns_pairs;
     const struct learn_options options = {
         .use = light && (p->method->learns_use || q->emission < 1), .pairs = !few && p->method->learns_pairs,
-        .direct = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
+        .guide = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
         .emission = q->emission, .delta = q->delta, .count = light && p->method->vertices, .few = few};
     tables_free(p->tables);
     *p->tables = NO_TABLES;
-    bool learns = options.use || options.pairs || options.direct || options.count;
+    bool learns = options.use || options.pairs || options.guide || options.count;
     if (learns)
         learn(job, &options, p->tables);
     for (int end = 0; end < EYE_ENDS; end++) /* of single vertices, a draw is one of so many of a light sub-path */

@@ -22,7 +22,7 @@ enum metric { METRIC_CONSTANT, METRIC_THROUGHPUT, METRIC_USE };
 static const char *const METRICS[] = {"constant", "throughput", "importance", NULL};
 
 /* What each pixel of the tile has drawn. */
-struct pool_index {
+struct pool_cache {
     struct drawn drawn[MAX_TILE_SIZE * MAX_TILE_SIZE];
 };
 
@@ -33,10 +33,10 @@ static double importance_of(const struct prepared *p, const struct vertex *path,
                                                        : path_use(p->tables, path, n);
 }
 
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
-    struct pool_index *index = arena_alloc(&pool->arena, sizeof *index);
+    struct pool_cache *cache = arena_alloc(&pool->arena, sizeof *cache);
     double *q = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *q), sum = 0;
     int *order = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *order);
     for (int k = 0; k < pool->n; k++) {
@@ -52,16 +52,16 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
         struct sampler choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
         double pmf, u = sampler_number(&choice, DRAW_LIGHT_END);
         int k = alias_sample_bin(&pool->alias, order[i % pool->n], u, &pmf, NULL);
-        index->drawn[i] = (struct drawn){pool_path(pool, k), 1, pool->length[k], pmf};
+        cache->drawn[i] = (struct drawn){pool_path(pool, k), 1, pool->length[k], pmf};
     }
-    return (struct index *)index;
+    return (struct cache *)cache;
 }
 
-static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+static bool draw(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
                  int i, int n, struct drawn *out)
 {
     (void)p, (void)z, (void)i, (void)n;
-    *out = ((const struct pool_index *)index)->drawn[sample->number];
+    *out = ((const struct pool_cache *)cache)->drawn[sample->number];
     return true;
 }
 

@@ -18,7 +18,7 @@
 #include "integrators/loop.h"
 
 /* A vertex without a usable weight is never drawn. */
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
     (void)iteration;
@@ -35,11 +35,11 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     return NULL;
 }
 
-static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+static bool draw(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
                  int i, int n, struct drawn *out)
 {
     const struct pool *pool = &sample->pass->work->pool;
-    (void)p, (void)index, (void)z;
+    (void)p, (void)cache, (void)z;
     if (pool->alias.n == 0)
         return false;
     double pmf, u = (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n; /* stratified over the table */

@@ -98,11 +98,11 @@ static void trace_uses(struct learning *l, struct workspace *work, long i, struc
         double beta = rgb_luminance(z->beta);
         uint64_t key = regions_key(&l->tables->regions, z->p, vertex_side(z));
         lessons_add(out, (struct lesson){VISIT, key, 0, 0, beta});
-        for (int j = 0; l->options->direct && j < LIGHTS_PER_VERTEX; j++) {
+        for (int j = 0; l->options->guide && j < LIGHTS_PER_VERTEX; j++) {
             struct vertex y;
-            struct connection c = connect_direct(l->job->scene, &l->counts, z, &sampler, j, LIGHTS_PER_VERTEX, &y);
+            struct connection c = connect_s1(l->job->scene, &l->counts, z, &sampler, j, LIGHTS_PER_VERTEX, &y);
             if (y.light >= 0)
-                lessons_add(out, (struct lesson){DIRECT, key, y.place, rgb_luminance(c.value) / beta, beta});
+                lessons_add(out, (struct lesson){GUIDE, key, y.place, rgb_luminance(c.value) / beta, beta});
         }
     }
 }
@@ -162,12 +162,12 @@ static void trace_trials(struct learning *l, struct workspace *work, long i, str
 static void take(struct learning *l, const struct lesson *lesson)
 {
     struct tables *t = l->tables;
-    const struct axis one = {1, NULL, NULL}, cells = {t->direct.columns, NULL, NULL};
+    const struct axis one = {1, NULL, NULL}, cells = {t->guide.columns, NULL, NULL};
     switch ((enum lesson_kind)lesson->kind) {
     case VISIT: t->use[regions_add(&t->regions, lesson->row)] += lesson->w; break;
-    case DIRECT: {
+    case GUIDE: {
         int region = regions_add(&t->regions, lesson->row);
-        table_add(&t->direct, regions_axis(&t->regions), cells, region, lesson->column, lesson->x, lesson->w);
+        table_add(&t->guide, regions_axis(&t->regions), cells, region, lesson->column, lesson->x, lesson->w);
         break;
     }
     case RAY:
@@ -185,7 +185,7 @@ static void take(struct learning *l, const struct lesson *lesson)
 
 /* --- rounds, and the tables that they fill ------------------------------------------------------------ */
 
-static const double DIRECT_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
+static const double GUIDE_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
 
 static void learn_uses(struct learning *l, long n)
 {
@@ -193,8 +193,8 @@ static void learn_uses(struct learning *l, long n)
     find_box(l, &low, &high);
     regions_init(&l->tables->regions, low, high, REGION_CUBES, REGIONS);
     l->tables->use = mem_alloc(REGIONS, sizeof *l->tables->use);
-    if (l->options->direct)
-        l->tables->direct = table_learn(REGIONS, l->job->scene->lights.n_cells);
+    if (l->options->guide)
+        l->tables->guide = table_learn(REGIONS, l->job->scene->lights.n_cells);
     lessons_learn(l, trace_uses, &NO_TABLES, 0, n);
 }
 
@@ -235,14 +235,14 @@ static void learn_light_paths(struct learning *l, long n)
 }
 
 /* After the last round that adds regions. */
-static void build_direct(struct learning *l)
+static void build_guide(struct learning *l)
 {
     const struct light_set *lights = &l->job->scene->lights;
     const struct axis cells = {lights->n_cells, NULL, NULL};
     double *base = mem_alloc((size_t)lights->n_cells, sizeof *base);
     for (int cell = 0; cell < lights->n_cells; cell++)
         base[cell] = alias_pmf(&lights->choice, cell);
-    table_build(&l->tables->direct, regions_axis(&l->tables->regions), cells, base, DIRECT_DELTA, false, true);
+    table_build(&l->tables->guide, regions_axis(&l->tables->regions), cells, base, GUIDE_DELTA, false, true);
     free(base);
 }
 
@@ -262,19 +262,19 @@ void learn(const struct render_job *job, const struct learn_options *options, st
     struct learning l = {.job = job, .options = options, .tables = out,
                          .work = workspaces_new(job->n_threads, job->max_depth), .take = take,
                          .counts = {.tables = &NO_TABLES}};
-    bool few = options->few || (options->direct && !options->use && !options->pairs);
+    bool few = options->few || (options->guide && !options->use && !options->pairs);
     double pixels = (double)rect_pixels(job->film_rect);
-    long n = few ? int_within(pixels / DIRECT_PIXELS, DIRECT_LEAST, LEARN_MOST)
+    long n = few ? int_within(pixels / FEW_PIXELS, FEW_LEAST, LEARN_MOST)
                  : int_within(pixels * LEARN_PER_PIXEL, LEARN_LEAST, LEARN_MOST);
     long n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT, half = n / 2 / CHUNK * CHUNK;
-    bool regions = options->use || options->direct || options->pairs;
+    bool regions = options->use || options->guide || options->pairs;
     l.budget = (regions ? (double)n : 0) + (double)(options->use ? n_light : options->count ? LIGHT_COUNTED : 0);
     if (regions)
         learn_uses(&l, options->pairs ? half : n);
     if (options->use || options->count)
         learn_light_paths(&l, options->use ? n_light : LIGHT_COUNTED);
-    if (options->direct)
-        build_direct(&l);
+    if (options->guide)
+        build_guide(&l);
     if (options->pairs)
         learn_pairs(&l, half, n);
     workspaces_free(l.work, job->n_threads);

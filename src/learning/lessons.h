@@ -14,7 +14,7 @@ struct learn_options; /* learn.h */
 /* What a lesson is about. Those of an eye vertex, and where they go: */
 enum lesson_kind {
     VISIT,         /* it was there                                  use */
-    DIRECT,        /* what it receives from a light cell            direct */
+    GUIDE,        /* what it receives from a light cell            direct */
     TRIAL,         /* what it receives from a light vertex          pairs */
     RAY,           /* of a light sub-path: what its ray was worth   emission */
     SUBPATH_VERTEX /* of a light sub-path: where it has a vertex    vertices, light_vertices */

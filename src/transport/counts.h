@@ -55,8 +55,8 @@ static inline int numbers_every(const struct numbers *n) { return n->every > 1 ?
  * only at its last vertex if the lens is next (connect.c: light_side). Between any other first hit and the lens there
  * are delta lobes, where no strategy ends. */
 struct counts {
-    double hit[EYE_ENDS];    /* t >= 3; by the kind of z_{t-2} */
-    double direct[EYE_ENDS]; /* times the ratio of tables->direct */
+    double s0[EYE_ENDS];    /* t >= 3; by the kind of z_{t-2} */
+    double s1[EYE_ENDS]; /* times the ratio of tables->guide */
     double pair[EYE_ENDS];   /* times the ratio of tables->pairs: x of n_pair */
     double lens;             /* light sub-paths, those of all pixels of the film */
     const struct tables *tables;
@@ -71,11 +71,11 @@ struct counts counts_of(struct numbers n, double direct, double pair, double pix
 
 /* n_of: n of the strategy that connects light vertex y and eye vertex z. It is a function of both alone.
  * n_if: the same as if z were of the kind `end`.
- * n_direct: n of s = 1, of an eye vertex in a region and a point of a light cell.
+ * n_s1: n of s = 1, of an eye vertex in a region and a point of a light cell.
  * n_pair: n of s >= 2, t >= 2, of an eye vertex in region e and a light vertex in region l: x / (1 + x / M). */
-static inline double n_direct(const struct counts *c, int region, enum eye_end end, int cell)
+static inline double n_s1(const struct counts *c, int region, enum eye_end end, int cell)
 {
-    return c->direct[end] * table_ratio(&c->tables->direct, region, cell);
+    return c->s1[end] * table_ratio(&c->tables->guide, region, cell);
 }
 static inline double n_pair(const struct counts *c, int e, enum eye_end end, int l)
 {
@@ -85,7 +85,7 @@ static inline double n_pair(const struct counts *c, int e, enum eye_end end, int
 static inline double n_if(const struct counts *c, const struct vertex *y, const struct vertex *z, enum eye_end end)
 {
     return z->kind == VERTEX_LENS    ? c->lens
-           : y->kind == VERTEX_LIGHT ? n_direct(c, z->place, end, y->place)
+           : y->kind == VERTEX_LIGHT ? n_s1(c, z->place, end, y->place)
                                      : n_pair(c, z->place, end, y->place);
 }
 static inline double n_of(const struct counts *c, const struct vertex *y, const struct vertex *z)

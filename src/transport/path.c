@@ -10,10 +10,10 @@
 void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                   double d2)
 {
-    bool parallel = vertex_at_infinity(w->scene, prev); /* rays of a light at infinity do not spread */
-    double spread = prev->kind == VERTEX_LENS ? camera_spread(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
-    v->g = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * spread;
-    v->pdf_fwd = from->pdf * vertex_cosine(v, from->ray.d) * spread;
+    bool parallel = vertex_at_infinity(w->scene, prev); /* a light at infinity has parallel rays */
+    double falloff = prev->kind == VERTEX_LENS ? camera_falloff(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
+    v->g = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * falloff;
+    v->pdf_fwd = from->pdf * vertex_cosine(v, from->ray.d) * falloff;
     v->mis = mis_step(from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, v->g);
 }
 
@@ -199,7 +199,7 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices, int 
         *column = ray_column;
     if (max_vertices < 1 || !(from.pdf > 0) || rgb_is_black(emitted))
         return 0;
-    vertex_light(w->scene, &at, light_Le(&w->scene->lights, &at, from.ray.d), w->counts->hit[LATER_HIT], &path[0]);
+    vertex_light(w->scene, &at, light_Le(&w->scene->lights, &at, from.ray.d), w->counts->s0[LATER_HIT], &path[0]);
     from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf)); /* alpha_2 of [V97 eq. 10.6] */
     from.ray.tmin = ray_margin(from.ray.o) * (at.prim_id != 0 ? -GRAZING : 1);
     return walk_on(w, from, path, 1, max_vertices, IMPORTANCE);

@@ -9,7 +9,7 @@ enum { MAX_TILE_SIZE = 32, POOL_PATHS = MAX_TILE_SIZE * MAX_TILE_SIZE };
 
 /* Vertices of a light sub-path: those of numbers [first, end). */
 struct drawn {
-    const struct vertex *light; /* the sub-path, from y_0 on */
+    const struct vertex *path; /* the light sub-path, from y_0 on */
     int first, end;
     double pmf; /* probability of their choice; 1: there was no choice */
 };

@@ -50,11 +50,11 @@ struct sampler sample_stream(const struct tile_pass *pass, enum rng_purpose purp
 
 /* --- sums of connections ----------------------------------------------------------------------------- */
 
-/* sample_hit: s = 0, for the first t vertices of the eye sub-path.
- * sample_direct: s = 1, for its vertex z = z_{t-1}.
+/* sample_s0: s = 0, for the first t vertices of the eye sub-path.
+ * sample_s1: s = 1, for its vertex z = z_{t-1}.
  * Both add nothing that the method's counts leave out, except lights that the camera sees directly (t = 2). */
-void sample_hit(struct sample *sample, const struct vertex *eye, int t);
-void sample_direct(struct sample *sample, const struct vertex *z, int t);
+void sample_s0(struct sample *sample, const struct vertex *eye, int t);
+void sample_s1(struct sample *sample, const struct vertex *z, int t);
 
 /* sample_pairs: s >= 2: join z = z_{t-1} to all of them, times `scale`, if the path is not too long. */
 void sample_pairs(struct sample *sample, const struct drawn *drawn, const struct vertex *z, int t, double scale);
@@ -67,7 +67,7 @@ void sample_lens(struct sample *sample, const struct vertex *light, int n_light,
 /* One strategy (s,t) that was tried: a path, or nothing if the value is black. */
 struct joined {
     int s, t;
-    const struct vertex *light;  /* [s] the light sub-path, or the light point that was drawn; NULL: there is none */
+    const struct vertex *path;  /* [s] the light sub-path, or the light point that was drawn; NULL: there is none */
     const struct vertex *z;      /* z_{t-1}; the vertices before it are in front of it in memory. NULL if t = 1, or if
                                   * it is not the sample's own vertex */
     const struct connection *c;  /* value C*, weight, light */

@@ -46,7 +46,7 @@ enum vertex_kind {
  * A see-through light is an area light without a material (scene.h). Walks may start on it, and pass it without a
  * vertex. The first such light that an eye walk passes on an edge is the `lamp` of the vertex at the edge's end. It is
  * the last vertex of a path of its own, and no vertex of the sub-path. Its kind is SURFACE. It has only the fields that
- * connect_hit needs. The path's last edge ends at the light: densities and throughput have the media as far as that.
+ * connect_s0 needs. The path's last edge ends at the light: densities and throughput have the media as far as that.
  */
 struct vertex {
     enum vertex_kind kind;
@@ -67,9 +67,9 @@ struct vertex {
 };
 
 /* vertex_light: the y_0 of a point of a light (light.h).
- *   hit  count of s = 0, which a delta light does not have
+ *   n_s0  count of s = 0, which a delta light does not have
  * vertex_lens: the z_0 of a point of the lens. */
-void vertex_light(const struct scene *scene, const struct light_point *at, rgb beta, double hit, struct vertex *out);
+void vertex_light(const struct scene *scene, const struct light_point *at, rgb beta, double n_s0, struct vertex *out);
 void vertex_lens(const struct camera *camera, vec3 p, rgb beta, struct vertex *out);
 
 /* vertex_light_point: the point of a y_0, or where an eye sub-path ends on an area light or the sky. Its pdf is the

@@ -17,14 +17,14 @@
  */
 #include "integrators/loop.h"
 
-struct index {
+struct cache {
     int order[POOL_PATHS]; /* pi */
 };
 
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
-    struct index *index = arena_alloc(&pool->arena, sizeof *index);
+    struct cache *index = arena_alloc(&pool->arena, sizeof *index);
     pool_shuffle(pool, pass, iteration, index->order);
     for (int k = 0; p->numbers.draws[FIRST_HIT] == 1 && k < pool->n; k++)
         index->order[k] = k;
@@ -32,7 +32,7 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
 }
 
 /* The loop divides by n K times the probability: by the number of sub-paths that the pixel takes, n or all K. */
-static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+static bool draw(const struct prepared *p, const struct cache *index, struct sample *sample, const struct vertex *z,
                  int i, int n, struct drawn *out)
 {
     const struct pool *pool = &sample->pass->work->pool;

@@ -38,7 +38,7 @@ struct mbdpt {
 };
 enum { PIXEL_BLOCK = 16 }; /* iterations that a pixel's matrix has */
 
-struct index {
+struct cache {
     struct ranked **column; /* [max_depth + 1][K]; from 2 on */
 };
 
@@ -64,10 +64,10 @@ static void rank(struct ranked *r, int i, const struct vertex *path, int n, int 
     r[i].number = i;
 }
 
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
-    struct index *index = arena_alloc(&pool->arena, sizeof *index);
+    struct cache *index = arena_alloc(&pool->arena, sizeof *index);
     bool throughput = ((const struct mbdpt *)p->own)->throughput;
     (void)iteration;
     index->column = arena_alloc(&pool->arena, (size_t)(pass->job->max_depth + 1) * sizeof *index->column);
@@ -84,7 +84,7 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
 }
 
 /* All strategies of eye sub-paths of t vertices, each with a shift of its own. */
-static void connect_length(const struct prepared *p, const struct pool *pool, const struct index *index,
+static void connect_length(const struct prepared *p, const struct pool *pool, const struct cache *index,
                            struct pixel *pixel, int n, struct ranked *row, int t, const double *shift)
 {
     int64_t step = lattice_step(n);
@@ -111,7 +111,7 @@ static void splat(const struct prepared *p, struct sample *sample, int i, int n)
         sample_lens(sample, pool_path(pool, k), pool->length[k], n / ((double)pool->n * each));
 }
 
-static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct cache *index,
                         struct pixel *pixel, int n)
 {
     const struct pool *pool = &pass->work->pool;
@@ -138,7 +138,7 @@ static void render_pixel(const struct prepared *p, const struct tile_pass *pass,
         struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
         pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)i, &pool->arena, path));
     }
-    const struct index *index = build(p, pass, pass->first);
+    const struct cache *index = build(p, pass, pass->first);
     arena_reset(&pass->work->arena);
     struct pixel *sample = arena_alloc(&pass->work->arena, (size_t)n * sizeof *sample);
     for (int i = 0; i < n; i++)

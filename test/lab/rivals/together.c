@@ -20,7 +20,7 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
                              long iteration)
 {
     struct arena *arena = &pass->work->arena;
-    const struct index *index = NULL;
+    const struct cache *index = NULL;
     int n = 0;
     if (p->method->build != NULL) {
         loop_fill(p, pass, iteration);
@@ -103,7 +103,7 @@ struct connection reuse_hit(const struct sample *sample, const struct vertex *pr
     struct vertex at = z->lamp != NULL ? *z->lamp : *z;
     at.lamp = NULL;
     at.beta = beta;
-    return connect_hit(sample->pass->job->scene, sample->counts, prev, &at);
+    return connect_s0(sample->pass->job->scene, sample->counts, prev, &at);
 }
 
 void reuse_prepare(const struct render_job *job, struct prepared *p)
