@@ -7,10 +7,13 @@
 static const double BOUND = 0.25; /* M of counts.h for each light sub-path of a full tile */
 
 const char *const OFF_ON[] = {"off", "on", NULL};
-const char RUNNER_NUMBERS[RUNNERS][24] = {"race_all", "race_quarter", "race_path_tracer", "race_one_point"};
-enum { NAME = sizeof "race_" - 1 }; /* where a runner's own name begins */
-const char *const RACES[] = {"off", "on", &RUNNER_NUMBERS[0][NAME], &RUNNER_NUMBERS[1][NAME], &RUNNER_NUMBERS[2][NAME],
-                             &RUNNER_NUMBERS[3][NAME], NULL};
+const char *const RACES[] = {"off", "on", "all", "quarter", "path_tracer", "one_point", NULL};
+const char *const RUNNER_NUMBERS[RUNNERS] = {"race_all", "race_quarter", "race_path_tracer", "race_one_point"};
+const char *const runner_helps[RUNNERS] = {
+    "as the parameters say: pathpixels, connections, later, lightpoints",
+    "a light sub-path for four times as many pixels",
+    "light sub-paths in one of 32 iterations of a tile; none where all is diffuse",
+    "so, too; one light point for each eye vertex"};
 
 const struct field *method_has(const struct method *m, const char *name)
 {

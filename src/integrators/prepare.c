@@ -9,30 +9,41 @@
 
 enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
 
-/* What a runner needs, for light sub-paths or without them. A path tracer of a method that learns much has few: it
- * learns less, from fewer. */
-static void learn_for(const struct render_job *job, struct prepared *p, int runner, bool light)
+static bool has_light(const struct prepared *p) { return p->runner[p->winner].numbers.path_pixels > 0; }
+
+/* What to learn. A path tracer of a method that learns much needs little of it, and has it from `few` sub-paths.
+ *   light  for light sub-paths, too */
+static struct learn_options what_to_learn(const struct render_job *job, const struct prepared *p, bool few, bool light)
 {
+    const struct method *m = p->method;
     const struct parameters *q = &p->parameters;
-    bool few = runner >= RUNNER_PATH_TRACER && p->method->learns_pairs;
-    const struct learn_options options = {
-        .use = light && (p->method->learns_use || q->emission < 1), .pairs = !few && p->method->learns_pairs,
+    few = few && m->learns_pairs;
+    return (struct learn_options){
+        .use = light && (m->learns_use || q->emission < 1), .pairs = !few && m->learns_pairs,
         .guide = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
-        .emission = q->emission, .delta = q->delta, .count = light && p->method->vertices, .few = few};
+        .emission = q->emission, .delta = q->delta, .count = light && m->vertices, .few = few};
+}
+
+/* Of single vertices, a draw is one of so many of a light sub-path. */
+static void find_draw_worth(struct prepared *p)
+{
+    double n = p->method->vertices ? p->tables->light_vertices : 0;
+    for (int end = 0; end < EYE_ENDS; end++)
+        p->draw_worth[end] = n > 0 ? 1 / n : 1;
+}
+
+/* Learn tables, and make of them what samples need. */
+static void learn_for(const struct render_job *job, struct prepared *p, bool few, bool light)
+{
+    const struct learn_options options = what_to_learn(job, p, few, light);
     tables_free(p->tables);
     *p->tables = NO_TABLES;
-    bool learns = options.use || options.pairs || options.guide || options.count;
-    if (learns)
-        learn(job, &options, p->tables);
-    for (int end = 0; end < EYE_ENDS; end++) /* of single vertices, a draw is one of so many of a light sub-path */
-        p->draw_worth[end] = p->method->vertices && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
+    learn(job, &options, p->tables);
+    find_draw_worth(p);
     if (p->method->prepare != NULL)
         p->method->prepare(job, p);
     method_counts(job, p);
-    p->hasty = (p->hasty || learns || p->method->prepare != NULL) && job_cancelled(job) != CANCEL_NOT;
 }
-
-static bool has_light(const struct prepared *p) { return p->runner[p->winner].numbers.path_pixels > 0; }
 
 /* Where there is much to learn, a first race finds out whether it may pay. */
 static void learn_and_race(const struct render_job *job, struct prepared *p)
@@ -41,22 +52,27 @@ static void learn_and_race(const struct render_job *job, struct prepared *p)
     int asked = p->numbers.path_pixels == 0 || (small && p->parameters.race == RACE_ON) ? RACE_OFF : p->parameters.race;
     race_begin(job->scene, p);
     if (asked == RACE_ON && p->method->learns_pairs) {
-        learn_for(job, p, RUNNER_PATH_TRACER, true);
-        bool early = race_early(job, p);
-        p->hasty = job_cancelled(job) != CANCEL_NOT;
-        if (early) {
+        learn_for(job, p, true, true);
+        if (race_early(job, p)) {
             if (!has_light(p)) /* light sub-paths of a rival have had their tables */
-                learn_for(job, p, p->winner, false);
+                learn_for(job, p, true, false);
             return;
         }
     }
     p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
-    learn_for(job, p, p->winner, p->winner < RUNNER_PATH_TRACER || has_light(p));
+    bool path_tracer = p->winner >= RUNNER_PATH_TRACER;
+    learn_for(job, p, path_tracer, !path_tracer || has_light(p));
     race_begin(job->scene, p); /* `prepare` may have changed the numbers */
-    if (asked == RACE_ON) {
+    if (asked == RACE_ON)
         race(job, p);
-        p->hasty = job_cancelled(job) != CANCEL_NOT;
-    }
+}
+
+/* Was the job cancelled before all was learnt and raced? A race is of methods that learn. */
+static bool is_hasty(const struct render_job *job, const struct prepared *p)
+{
+    const struct learn_options o = what_to_learn(job, p, p->winner >= RUNNER_PATH_TRACER, has_light(p));
+    bool learns = o.use || o.pairs || o.guide || o.count;
+    return (learns || p->method->prepare != NULL) && job_cancelled(job) != CANCEL_NOT;
 }
 
 void method_prepare(const struct render_job *job, struct prepared *p)
@@ -70,6 +86,7 @@ void method_prepare(const struct render_job *job, struct prepared *p)
     p->numbers = p->runner[p->winner].numbers;
     p->size = method_size(p);
     method_counts(job, p);
+    p->hasty = is_hasty(job, p);
 }
 
 void method_numbers(const struct prepared *p, struct method_number out[METHOD_NUMBERS])
@@ -86,8 +103,7 @@ void method_numbers(const struct prepared *p, struct method_number out[METHOD_NU
     memcpy(out, numbers, sizeof numbers);
     for (int i = 0; i < RUNNERS; i++)
         if (p->runner[i].price > 0 && winner->price > 0) /* unless the race was cancelled */
-            out[used++] = (struct method_number){RUNNER_NUMBERS[i], p->runner[i].variance * p->runner[i].price /
-                                                                        (winner->variance * winner->price)};
+            out[used++] = (struct method_number){RUNNER_NUMBERS[i], runner_cost(&p->runner[i]) / runner_cost(winner)};
 }
 
 void method_release(struct prepared *p)
