@@ -41,13 +41,13 @@ struct cache {
 
 /* --- the pool's vertices by region ------------------------------------------------------------------- */
 
-/* Make the groups: they have places for their members, but no members yet.
+/* The groups, with places for their members, but no members yet.
  *   group_of  out, [n_regions], number of the region's group, if it has one */
 static void make_groups(struct cache *v, struct pool *pool, int *group_of, int n_regions)
 {
     memset(group_of, 0, (size_t)n_regions * sizeof *group_of);
     for (int i = 0; i < pool->n_candidates; i++)
-        group_of[pool->candidate[i]->place] += rgb_luminance(pool->candidate[i]->beta) > 0;
+        group_of[pool->candidate[i]->place]++;
     v->group = arena_alloc(&pool->arena, (size_t)n_regions * sizeof *v->group);
     v->n_groups = 0;
     for (int region = 0, first = 0; region < n_regions; region++) {
@@ -74,13 +74,10 @@ static struct cache *build(const struct prepared *p, const struct tile_pass *pas
     v->before = arena_alloc(arena, (size_t)pool->n_candidates * sizeof *v->before);
     for (int i = 0; i < pool->n_candidates; i++) {
         const struct vertex *y = pool->candidate[i];
-        double L = rgb_luminance(y->beta);
-        if (!(L > 0))
-            continue;
         struct group *g = &v->group[group_of[y->place]];
         v->candidate[g->first + g->n] = y;
         v->before[g->first + g->n++] = g->L;
-        g->L += L;
+        g->L += rgb_luminance(y->beta);
     }
     v->row = arena_alloc(arena, (size_t)n_regions * sizeof *v->row);
     for (int e = 0; e < n_regions; e++)

@@ -21,22 +21,18 @@
 enum metric { METRIC_CONSTANT, METRIC_THROUGHPUT, METRIC_USE };
 static const char *const METRICS[] = {"constant", "throughput", "importance", NULL};
 
-/* What each pixel of the tile has drawn. */
-struct pool_cache {
-    struct drawn drawn[MAX_TILE_SIZE * MAX_TILE_SIZE];
-};
-
 static double importance_of(const struct prepared *p, const struct vertex *path, int n)
 {
     return p->parameters.metric == METRIC_CONSTANT     ? 1
            : p->parameters.metric == METRIC_THROUGHPUT ? path_throughput(path, n)
-                                                       : path_use(p->tables, path, n);
+                                                       : path_use(p->tables, path, 1, n);
 }
 
+/* What each pixel of the tile has drawn. */
 static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
-    struct pool_cache *cache = arena_alloc(&pool->arena, sizeof *cache);
+    struct drawn *drawn = arena_alloc(&pool->arena, (size_t)pass->tile->n_pixels * sizeof *drawn);
     double *q = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *q), sum = 0;
     int *order = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *order);
     for (int k = 0; k < pool->n; k++) {
@@ -52,16 +48,16 @@ static struct cache *build(const struct prepared *p, const struct tile_pass *pas
         struct sampler choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
         double pmf, u = sampler_number(&choice, DRAW_LIGHT_END);
         int k = alias_sample_bin(&pool->alias, order[i % pool->n], u, &pmf, NULL);
-        cache->drawn[i] = (struct drawn){pool_path(pool, k), 1, pool->length[k], pmf};
+        drawn[i] = (struct drawn){pool_path(pool, k), 1, pool->length[k], pmf};
     }
-    return (struct cache *)cache;
+    return (struct cache *)drawn;
 }
 
 static bool draw(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
                  int i, int n, struct drawn *out)
 {
     (void)p, (void)z, (void)i, (void)n;
-    *out = ((const struct pool_cache *)cache)->drawn[sample->number];
+    *out = ((const struct drawn *)cache)[sample->number];
     return true;
 }
 

@@ -17,7 +17,6 @@
 #include "base/number.h"
 #include "integrators/loop.h"
 
-/* A vertex without a usable weight is never drawn. */
 static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
@@ -26,10 +25,7 @@ static struct cache *build(const struct prepared *p, const struct tile_pass *pas
     double *weight = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *weight);
     for (int i = 0; i < pool->n_candidates; i++) {
         const struct vertex *y = pool->candidate[i];
-        double q = rgb_luminance(y->beta) * table_ratio(&p->tables->pairs, 0, y->place);
-        bool usable = q >= 0 && isfinite(q);
-        weight[i] = usable ? q : 0;
-        pass->tile->nonfinite += !usable;
+        weight[i] = rgb_luminance(y->beta) * table_ratio(&p->tables->pairs, 0, y->place);
     }
     alias_build(&pool->alias, weight, pool->n_candidates);
     return NULL;

@@ -205,11 +205,11 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices, int 
     return walk_on(w, from, path, 1, max_vertices, IMPORTANCE);
 }
 
-double path_use(const struct tables *tables, const struct vertex *light, int n)
+double path_use(const struct tables *tables, const struct vertex *path, int first, int end)
 {
     double sum = 0;
-    for (int i = 1; i < n; i++)
-        if (vertex_connectible(&light[i]))
-            sum += rgb_luminance(light[i].beta) * tables->use[light[i].place];
+    for (const struct vertex *y = path + first; y < path + end; y++)
+        if (vertex_connectible(y))
+            sum += rgb_luminance(y->beta) * tables->use[y->place];
     return sum;
 }

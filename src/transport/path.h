@@ -52,14 +52,14 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices, int 
 
 /* path_throughput: beta of [S24]: mean over RGB of beta at the last vertex of a light sub-path; 0 if it is empty. If
  * y_0 is its only vertex, that is the emitted radiance, as in pbrt-v3, where [S24] was implemented. */
-static inline double path_throughput(const struct vertex *light, int n)
+static inline double path_throughput(const struct vertex *path, int n)
 {
-    return n < 1 ? 0 : rgb_mean(light[n - 1].beta);
+    return n < 1 ? 0 : rgb_mean(path[n - 1].beta);
 }
 
-/* path_use: the sum of luminance(beta) times `use` of the place (tables.h) over the connectible vertices y_1 .. of a
- * light sub-path: how much of it the camera can use. */
-double path_use(const struct tables *tables, const struct vertex *light, int n);
+/* path_use: how much the camera can use of vertices [first, end) of a light sub-path: the sum of luminance(beta) times
+ * `use` of the place (tables.h) over those that can be connected to. */
+double path_use(const struct tables *tables, const struct vertex *path, int first, int end);
 
 /* n_before: c_e of mis.h (3) for vertex v of a walk, and prev, the vertex before: n of the strategy that connects
  * these two; 0 if prev was left by a delta lobe. */
