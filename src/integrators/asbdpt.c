@@ -1,20 +1,19 @@
 /* asbdpt.c: the default, `select = subspaces`: eye vertices draw light vertices by their worth to the eye's region.
  *
- * A light vertex y_{s-1} represents the sub-path y_0 ... y_{s-1} that ends there. An eye vertex draws C of the light
- * vertices that the K sub-paths of a tile and iteration have, with a probability that depends on both ends. Let
- * ratio(e,l) tell what a light vertex in region l is worth to an eye vertex in region e (table.h), and L_v the
- * luminance of beta_v. Then
+ * A light vertex y_{s-1} represents the sub-path y_0 ... y_{s-1} that ends there. An eye vertex z draws C of the light
+ * vertices v that the K sub-paths of a tile and iteration have. Let ratio(e,l) tell what a light vertex in region l is
+ * worth to an eye vertex in region e (table.h), and L_v the luminance of beta_v. Then
  *     P(v|z) = ratio(e(z), l(v)) L_v / sum over the pool.
- * It draws by bisection of cumulative sums, not from alias tables: first the region, then the vertex. Bisection keeps
- * the C strata of an eye vertex apart. Alias tables cost 3 to 9 % more instructions, because a region draws from its
- * table too rarely to pay for building it. `select = pool` and `vertices` have one alias table for a whole tile.
+ * It draws by bisection of cumulative sums, first the region, then the vertex: that keeps the C strata of an eye vertex
+ * apart. Alias tables cost 3 to 9 % more instructions, because a region draws from its table too rarely to pay for
+ * building it.
  *
- * The MIS weights take this into account: the strategies count as
+ * The strategies count in the MIS weights as
  *     n = x / (1 + x / M),      x = 2 C ratio(e(z), l(y)) / N,      M = K / 4
- * samples, where N is the mean number of connectible vertices of a light sub-path (1/N: prepare.c), and K the number of
- * light sub-paths of a full tile. 2 is the credit of a draw, and M a bound (counts.h). A draw takes y in proportion to
- * L_v, too. The other strategies cannot know L_v of a walk that they have not made, so n has its mean. Any n that is a
- * function of the path alone keeps the weights valid.
+ * samples, where N is the mean number of connectible vertices of a light sub-path (1/N: prepare.c), and K that of light
+ * sub-paths of a full tile. 2 is the credit of a draw, and M a bound (counts.h). The other strategies cannot know L_v
+ * of a walk that they have not made, so n has its mean. Any n that is a function of the path alone keeps the weights
+ * valid.
  *
  * [Su 2022] has subspaces of eye and light sub-paths and a matrix of probabilities between them. Here the regions are
  * cubes, and the table is learnt from trial connections.

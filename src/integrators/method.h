@@ -1,10 +1,8 @@
 /* method.h: a method is a row, and a file if it has code of its own. Methods differ in how many samples they take of
- * each kind, and in how they choose light vertices for an eye vertex.
+ * each kind, and in how they choose light vertices for an eye vertex. The table of all rows is render/rows.c.
  *
- * A row has all of a method: fallbacks of parameters, and numbers that have none. The table of all rows is
- * render/rows.c. Before the first sample, a method reads its parameters and is prepared: tables are learnt, a race may
- * decide on the numbers of samples, and the counts in the weights follow. Then it renders tile passes (tile_pass.h) on
- * all threads.
+ * A method reads its parameters (method_read), is prepared (prepare.h), and renders tile passes (tile_pass.h) on all
+ * threads.
  *
  * doc/add-a-method.md adds one. Tests: test_render.c, test_options.c, test/run/add_method.sh.
  */
@@ -19,8 +17,8 @@
 
 #define DEFAULT_RR_THRESHOLD 0.5
 
-/* Parameters of several methods. What makes any choice of light sub-paths better, whichever it is, has one
- * implementation that all methods share, and a switch, so that one can measure the choice alone:
+/* Parameters of several methods. What makes any choice of light sub-paths better has one implementation that all
+ * methods share, and a switch, so that one can measure the choice alone:
  *
  *   guide         s = 1 chooses lights by what they are worth to a region
  *   emission      light sub-paths start in directions that the camera can use (emission.h)
@@ -122,8 +120,8 @@ struct method {
     bool vertices;                  /* a draw is a light vertex, not a sub-path */
     bool learns_use, learns_pairs;  /* see tables.h */
 
-    /* How eye vertices choose among the light sub-paths that the pixels of a tile share. First, a cache of the pool of
-     * an iteration, or NULL. `build` is NULL if the pixels share none. */
+    /* How eye vertices choose among the light sub-paths that the pixels of a tile share. First, make a cache of the
+     * pool of an iteration, or NULL. `build` is NULL if the pixels share none. */
     struct cache *(*build)(const struct prepared *p, const struct tile_pass *pass, long iteration);
     /* Choice number i of n for eye vertex z. False if there is none. */
     bool (*draw)(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,

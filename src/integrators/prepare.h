@@ -1,5 +1,5 @@
-/* prepare.h: what happens between a row of a method and its first sample: tables are learnt (learn.h), a race may
- * decide on the numbers of samples (race.h), and the counts in the weights follow (counts.h).
+/* prepare.h: from a row of a method to its first sample: tables are learnt (learn.h), a race may decide on the numbers
+ * of samples (race.h), and the counts in the weights follow (counts.h).
  *
  * Tests: test_render.c, test_asbdpt.c, test_race.c.
  */

@@ -1,15 +1,14 @@
 /* select_pool.c: `select = pool`: the smallest unbiased repair of the dissertation's estimator.
  *
  * The tile traces K light sub-paths in an iteration, as many as BDPT. They have importances I_k and probabilities
- *     q_k = (1 - delta) I_k / sum I + delta / K.                                               [Hesterberg 1995]
- * This is a defensive mixture: every sub-path that can contribute has a chance.
- * Vose's alias table [Vose 1991] over q has K bins of at most two sub-paths, like the dissertation's bins. Each pixel
- * visits exactly one bin, in random order, and draws one of its two sub-paths. It connects the sub-path as in BDPT and
- * multiplies the strategies s >= 2, t >= 2 by
+ *     q_k = (1 - delta) I_k / sum I + delta / K,                                               [Hesterberg 1995]
+ * a defensive mixture: every sub-path that can contribute has a chance. Vose's alias table [Vose 1991] over q has K
+ * bins of at most two sub-paths, like the dissertation's bins. Each pixel visits exactly one bin, in random order, and
+ * draws one of its two sub-paths. It connects the sub-path as in BDPT and multiplies the strategies s >= 2, t >= 2 by
  *     W = 1 / (K q_k).
- * For a fixed pool, the expectation of a pixel is sum_k q_k F(k) / (K q_k), the mean over the pool. So the estimate is
- * unbiased for any I that does not depend on the eye sub-path. If I is constant, every bin has one sub-path, and this
- * is BDPT with the pixels' sub-paths permuted.
+ * For a fixed pool, the expectation of a pixel is the mean over the pool, so the estimate is unbiased for any I that
+ * does not depend on the eye sub-path. If I is constant, every bin has one sub-path, and this is BDPT with the pixels'
+ * sub-paths permuted.
  *
  * Tests: test_asbdpt.c.
  */

@@ -67,7 +67,7 @@ rgb emission_sample(const struct table *t, const struct light_set *lights, const
         *column = emission_column(cell, direction);
     } else {
         cell = table_draw(t, 0, 1, lights->n_cells, NODES, u[0], &pmf, &in_cell[0]);
-        int leaf = 1 + cell * NODES + FIRST_LEAF; /* then the leaf's row, then its column, each by a number of its own */
+        int leaf = 1 + cell * NODES + FIRST_LEAF; /* its row, then its column, each by a number of its own */
         for (int i = 0, each = SIDE; i < 2; i++, each = 1) {
             int part = table_draw(t, 0, leaf, SIDE, each, direction[i], &pmf, &in_square[i]);
             in_square[i] = below_one((part + in_square[i]) / SIDE);

@@ -1,11 +1,11 @@
-/* emission.h: how light sub-paths leave lights: by power, or by a table, in directions that lead to places where the
- * camera can use light.
+/* emission.h: how light sub-paths leave lights: by power, or by a table, towards places where the camera can use light.
  *
  * Emission by power chooses a light cell c with probability base(c), a point of the cell, and with a point of the unit
  * square the ray: its direction, or for lights at infinity its origin on a disk. The square is cut into SIDE x SIDE
- * leaves. A table (table.h) has one row and a column for each leaf of each cell, whose base is base(c) / LEAVES. Above the
- * leaves are 4 x 4 and 2 x 2 wider ones, the cell, and all cells. Learning traces rays, and squares the worth of each
- * [Rath 2020]: probabilities in proportion to the root of the mean square minimise the variance of the sum of worths.
+ * leaves. A table (table.h) has one row and a column for each leaf of each cell, whose base is base(c) / LEAVES. Above
+ * the leaves are 4 x 4 and 2 x 2 wider ones, the cell, and all cells. Learning traces rays, and squares the worth of
+ * each [Rath 2020]: probabilities in proportion to the root of the mean square minimise the variance of the sum of
+ * worths.
  *
  * A ray of the table has `ratio` times the density of light.h. The density of y_0 stays as it is. So p_i has the factor
  * `ratio` for every i >= 2, but not for i = 0 and i = 1, and the recursions of mis.h need no other change. The ratio is

@@ -1,8 +1,6 @@
 /* path.c: see path.h. */
 #include "transport/path.h"
 
-#include <string.h>
-
 #include "tables/emission.h"
 
 /* The density per area is F_e of mis.h: the density per steradian times the cosine over distance^2 [PBRT3 5.5.3]. The
@@ -37,12 +35,8 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
     const struct light_set *lights = &w->scene->lights;
     if (lights->n_layers == 0 && lamp == NULL)
         return false;
-    memset(v, 0, sizeof *v);
-    v->kind = VERTEX_ESCAPED;
-    v->light = lights->n_layers > 0 ? lights->sky : -1;
-    v->lamp = lamp;
-    v->prev_delta = from->delta;
-    v->wo = neg(from->ray.d);
+    *v = (struct vertex){.kind = VERTEX_ESCAPED, .prev_delta = from->delta, .wo = neg(from->ray.d), .lamp = lamp,
+                         .light = lights->n_layers > 0 ? lights->sky : -1};
     measure(w, v, prev, from, edge, 1); /* per steradian, as if at distance 1 */
     return true;
 }
@@ -54,13 +48,9 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     double d2 = length2(sub(at->p, from->ray.o));
     if (d2 == 0 || (dot(at->ng, from->ray.d) == 0 && at->prim_id != WITHIN_MEDIUM))
         return false;
-    v->kind = at->prim_id == WITHIN_MEDIUM ? VERTEX_MEDIUM : VERTEX_SURFACE;
-    v->ng = at->ng;
-    v->prev_delta = from->delta;
-    v->light = at->light;
-    v->p = at->p;
-    v->prim_id = at->prim_id;
-    v->wo = neg(from->ray.d);
+    *v = (struct vertex){.kind = at->prim_id == WITHIN_MEDIUM ? VERTEX_MEDIUM : VERTEX_SURFACE, .light = at->light,
+                         .p = at->p, .ng = at->ng, .prim_id = at->prim_id, .prev_delta = from->delta,
+                         .wo = neg(from->ray.d)};
     measure(w, v, prev, from, edge, d2);
     return true;
 }
@@ -79,7 +69,6 @@ static const struct vertex *meet_lamp(const struct walk *w, const struct vertex 
     ray.to = at.prim_id;
     scene_pass(w->scene, &ray, vertex_medium(w->scene, prev, ray.d), &edge);
     struct vertex *v = arena_alloc(w->arena, sizeof *v);
-    memset(v, 0, sizeof *v);
     return meet(w, v, prev, from, &edge, &at) ? v : NULL;
 }
 

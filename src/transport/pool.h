@@ -35,8 +35,8 @@ struct pool {
     struct alias_table alias;    /* for those who draw by one; owned */
 };
 
-/* pool_clear: begin an iteration. pool_room: room for one more sub-path of at most so many vertices at the end of
- * pool->vertex. pool_add: so many have become a sub-path. */
+/* pool_clear: begin an iteration.
+ * pool_room: room for one more sub-path of at most so many vertices. pool_add: so many of them have become one. */
 void pool_clear(struct pool *p);
 struct vertex *pool_room(struct pool *p, size_t max_vertices);
 void pool_add(struct pool *p, int n);
@@ -44,9 +44,9 @@ void pool_free(struct pool *p);
 
 static inline const struct vertex *pool_path(const struct pool *p, int k) { return &p->vertex[p->start[k]]; }
 
-/* pool_find_candidates: all light vertices y_1, y_2 ... that can be connected to, in the order of tracing. Whoever draws
- * by the luminance of beta, or by products with it, gets sums that are finite and not 0: this is where a vertex of
- * another beta is left out. No sub-path may be added afterwards. */
+/* pool_find_candidates: all light vertices y_1, y_2 ... that can be connected to, in the order of tracing. Whoever
+ * draws by the luminance of beta, or by products with it, gets sums that are finite and not 0: this is where a vertex
+ * of another beta is left out. No sub-path may be added afterwards. */
 void pool_find_candidates(struct pool *p);
 
 #endif

@@ -1,5 +1,4 @@
-/* vertex.h: a vertex of a sub-path, with all that a connection to it needs. After the walk (path.h) nobody changes it,
- * so any number of connections may share it.
+/* vertex.h: a vertex of a sub-path, with all that a connection to it needs. After the walk (path.h) nobody changes it.
  */
 #ifndef ASBDPT_VERTEX_H
 #define ASBDPT_VERTEX_H
@@ -7,8 +6,7 @@
 #include "material/bsdf.h"
 #include "scene/scene.h"
 
-/* Where an eye sub-path ends: at a vertex that the camera sees directly or through delta lobes alone, or at a later
- * one. */
+/* What an eye sub-path ends at: a vertex that the camera sees directly or by delta lobes alone, or a later one. */
 enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
 
 enum vertex_kind {
@@ -101,11 +99,10 @@ static inline double vertex_cosine(const struct vertex *v, vec3 w)
     return length2(v->ng) > 0 ? abs_dot(v->ng, w) : 1;
 }
 
-/* vertex_side: the normal that decides the region of a surface point: ng, on the side where its walk came from. The
- * other walk through the same points comes from the other neighbour. It must find the same region, or the two would
- * count differently in the weights. If no lobe transmits, both neighbours lie on the same side of ng (bsdf.h), so both
- * walks find the same. Otherwise ng stays as it is. It is 0 within a medium. (Delta lobes may transmit, since nothing
- * is connected there.) */
+/* vertex_side: the normal that decides the region of a surface point: ng, on the side where its walk came from; 0
+ * within a medium. The other walk through the same points comes from the other neighbour. It must find the same region,
+ * or the two would count differently in the weights. If no lobe transmits, both neighbours lie on the same side of ng
+ * (bsdf.h). Otherwise ng stays as it is. (Delta lobes may transmit, since nothing is connected there.) */
 static inline vec3 vertex_side(const struct vertex *v)
 {
     return v->bsdf.transmits || dot(v->ng, v->wo) >= 0 ? v->ng : neg(v->ng);
