@@ -37,7 +37,7 @@ struct drawer {
     int number; /* of the pixel */
 };
 
-/* How many of the light vertices that an index of ris.h has are y, and their factors u. */
+/* How many of the light vertices that a cache of ris.h has are y, and their factors u. */
 static int copies(const struct cache *r, const struct vertex *y, double *u)
 {
     int n = 0;
@@ -51,37 +51,37 @@ static int copies(const struct cache *r, const struct vertex *y, double *u)
 
 /* The probability that is stated. Methods that draw by ris_draw state it of one copy, relative to u and to a sub-path
  * of the whole pool. */
-static double stated(const struct drawer *d, const struct cache *index, const struct drawn *drawn)
+static double stated(const struct drawer *d, const struct cache *cache, const struct drawn *drawn)
 {
     double u = 1;
     return d->b.prepared.method->draw != ris_draw ? drawn->pmf
-        : drawn->pmf * copies(index, &drawn->path[drawn->first], &u) * u * d->b.work->pool.n / index->K;
+        : drawn->pmf * copies(cache, &drawn->path[drawn->first], &u) * u * d->b.work->pool.n / cache->K;
 }
 
-static struct drawn draw_one(const struct drawer *d, const struct cache *index, const struct vertex *z, uint64_t k,
+static struct drawn draw_one(const struct drawer *d, const struct cache *cache, const struct vertex *z, uint64_t k,
                              int i, int n)
 {
     struct sample sample = d->sample;
     struct drawn out = {.end = 0};
     sample.choice = sampler_start(d->b.job.seed, RNG_TEST, k, 4 + (uint64_t)z->eye_end);
     sample.number = d->number;
-    d->b.prepared.method->draw(&d->b.prepared, index, &sample, z, i, n, &out);
+    d->b.prepared.method->draw(&d->b.prepared, cache, &sample, z, i, n, &out);
     return out;
 }
 
-/* Do numbers of the sample decide? Else all is decided when the index is built. */
-static bool draws_by_sample(const struct drawer *d, const struct cache *index, const struct vertex *z)
+/* Do numbers of the sample decide? Else all is decided when the cache is built. */
+static bool draws_by_sample(const struct drawer *d, const struct cache *cache, const struct vertex *z)
 {
-    const struct drawn first = draw_one(d, index, z, 0, 0, 1);
+    const struct drawn first = draw_one(d, cache, z, 0, 0, 1);
     for (uint64_t k = 1; k < 100; k++) {
-        struct drawn other = draw_one(d, index, z, k, 0, 1);
+        struct drawn other = draw_one(d, cache, z, k, 0, 1);
         if (other.path + other.first != first.path + first.first)
             return true;
     }
     return false;
 }
 
-/* An index of the same pool. The arena is emptied from time to time: the pool is then traced again, by the same
+/* A cache of the same pool. The arena is emptied from time to time: the pool is then traced again, by the same
  * numbers. */
 static const struct cache *build_again(struct drawer *d, uint64_t k)
 {
@@ -97,15 +97,15 @@ static size_t thing_of(const struct drawer *d, const struct drawn *drawn)
 }
 
 /* 10^5 draws by an eye vertex, in turn in all of its strata. */
-static void check_vertex(struct test *t, struct drawer *d, const struct cache *index, const struct vertex *z,
+static void check_vertex(struct test *t, struct drawer *d, const struct cache *cache, const struct vertex *z,
                          const char *name)
 {
     int C = d->b.prepared.numbers.draws[z->eye_end];
     struct tally c = tally_new(WAYS, d->b.work->pool.used + 1);
     for (uint64_t k = 0; k < 2 * DRAWS; k++) {
-        struct drawn drawn = draw_one(d, index, z, k, (int)(k % (uint64_t)C), C);
+        struct drawn drawn = draw_one(d, cache, z, k, (int)(k % (uint64_t)C), C);
         c.collects = k < DRAWS;
-        tally_note(&c, thing_of(d, &drawn), stated(d, index, &drawn));
+        tally_note(&c, thing_of(d, &drawn), stated(d, cache, &drawn));
     }
     tally_judge(t, &c, DRAWS, 1, name, z->eye_end == FIRST_HIT ? "first hit" : "later hit");
     tally_free(&c);
@@ -117,11 +117,11 @@ static void check_indices(struct test *t, struct drawer *d, const struct vertex 
     int n = d->b.tile.n_pixels, C = d->b.prepared.numbers.draws[z->eye_end], own = d->number;
     struct tally one = tally_new(WAYS, d->b.work->pool.used + 1), all = tally_new(WAYS, d->b.work->pool.used + 1);
     for (uint64_t k = 0; k < 2 * DRAWS; k++) {
-        const struct cache *index = build_again(d, k);
+        const struct cache *cache = build_again(d, k);
         one.collects = all.collects = k < DRAWS;
         for (int i = 0; i < n * C; i++) {
             d->number = i / C;
-            struct drawn drawn = draw_one(d, index, z, k, i % C, C);
+            struct drawn drawn = draw_one(d, cache, z, k, i % C, C);
             tally_note(&all, thing_of(d, &drawn), drawn.pmf);
             if (i == own * C + (int)(k % (uint64_t)C))
                 tally_note(&one, thing_of(d, &drawn), drawn.pmf);
@@ -149,10 +149,10 @@ static void check_draws(struct test *t, struct drawer *d, const char *name)
 {
     if (!see(t, d, name))
         return;
-    const struct cache *index = build_again(d, 0);
-    if (draws_by_sample(d, index, &d->eye[1])) {
-        check_vertex(t, d, index, &d->eye[1], name);
-        check_vertex(t, d, index, &d->eye[2], name);
+    const struct cache *cache = build_again(d, 0);
+    if (draws_by_sample(d, cache, &d->eye[1])) {
+        check_vertex(t, d, cache, &d->eye[1], name);
+        check_vertex(t, d, cache, &d->eye[2], name);
     } else {
         check_indices(t, d, &d->eye[1], name);
     }

@@ -104,19 +104,19 @@ static void fill_pool(const struct prepared *p, const struct tile_pass *pass, st
     }
 }
 
-static void join(const struct prepared *p, const struct cache *index, struct sample *sample, const struct vertex *z,
+static void join(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
                  int t)
 {
     int C = p->numbers.draws[z->eye_end];
     for (int i = 0; i < C && t <= sample->pass->job->max_depth && vertex_connectible(z); i++) {
         struct drawn drawn;
-        if (p->method->draw(p, index, sample, z, i, C, &drawn))
+        if (p->method->draw(p, cache, sample, z, i, C, &drawn))
             sample_pairs(sample, &drawn, z, t, 1 / (C * sample->pass->work->pool.n * drawn.pmf));
     }
 }
 
 static void render_pixel(const struct prepared *p, const struct one_more *more, const struct tile_pass *pass,
-                         const struct cache *index, int number, int x, int y, long iteration)
+                         const struct cache *cache, int number, int x, int y, long iteration)
 {
     struct vertex *eye = pass->work->eye;
     struct pool *pool = &pass->work->pool;
@@ -135,7 +135,7 @@ static void render_pixel(const struct prepared *p, const struct one_more *more, 
     one_more_sum_eye(&sample, more, eye, n);
     for (int t = 2; t <= n && each > 0; t++)
         if (shared)
-            join(p, index, &sample, &eye[t - 1], t);
+            join(p, cache, &sample, &eye[t - 1], t);
         else if (p->numbers.draws[FIRST_HIT] > 0 && vertex_connectible(&eye[t - 1]))
             sample_pairs(&sample, &(struct drawn){pool_path(pool, 0), 1, pool->length[0], 1}, &eye[t - 1], t, 1);
     if (each > 0 && number % each == 0) {
@@ -149,13 +149,13 @@ void one_more_render(const struct prepared *p, const struct one_more *more, cons
 {
     bool shared = p->method->build != NULL && p->numbers.path_pixels > 0;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
-        const struct cache *index = NULL;
+        const struct cache *cache = NULL;
         if (shared) {
             fill_pool(p, pass, pass->tile->pixels, iteration);
-            index = p->method->build(p, pass, iteration);
+            cache = p->method->build(p, pass, iteration);
         }
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
-            render_pixel(p, more, pass, index, i, x, y, iteration);
+            render_pixel(p, more, pass, cache, i, x, y, iteration);
     }
 }
 

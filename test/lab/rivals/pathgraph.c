@@ -235,14 +235,14 @@ static void add_pixel(struct pixel *p, const struct node *first)
     sample_add(sample, (struct joined){.t = 2, .z = z, .c = &c, .pmf = 1, .scale = 1});
 }
 
-static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct cache *index,
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct cache *cache,
                         struct pixel *pixel, int n)
 {
     const struct pathgraph *s = p->own;
     struct arena *arena = &pass->work->arena;
     struct node **of = arena_alloc(arena, (size_t)n * sizeof *of);
     int longest = 0;
-    (void)index;
+    (void)cache;
     for (int i = 0; i < n; i++) {
         if (pass_cancelled(pass))
             return;

@@ -106,12 +106,12 @@ static void join_own(const struct prepared *p, struct pixel *pixel)
     sample_lens(sample, light, n, 1);
 }
 
-static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct cache *index,
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct cache *cache,
                         struct pixel *pixel, int n)
 {
     const struct restir *own = p->own;
     struct reservoir *all = arena_alloc(&pass->work->arena, (size_t)n * sizeof *all);
-    (void)index;
+    (void)cache;
     for (int i = 0; i < n; i++) {
         all[i] = resample(&pixel[i], own->candidates);
         for (int t = 2; t <= pixel[i].n; t++) {

@@ -218,7 +218,7 @@ static void reuse(struct pixel *pixel, const struct reservoir *all, const int *n
         add_made(c, x, &kept, offered / others * sum / own);
 }
 
-static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct cache *index,
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct cache *cache,
                         struct pixel *pixel, int n)
 {
     const struct restirgi *own = p->own;
@@ -226,7 +226,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
     struct reservoir *all = arena_alloc(arena, (size_t)n * sizeof *all);
     int *near = arena_alloc(arena, (size_t)n * (size_t)(own->neighbours + 1) * sizeof *near);
     int *found = arena_alloc(arena, (size_t)n * sizeof *found);
-    (void)index;
+    (void)cache;
     for (int i = 0; i < n; i++) {
         if (pass_cancelled(pass))
             return;

@@ -363,7 +363,7 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
     int each = p->numbers.path_pixels;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         loop_fill(p, pass, iteration);
-        const struct cache *index = build(p, pass, iteration);
+        const struct cache *cache = build(p, pass, iteration);
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);
@@ -376,7 +376,7 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
                 sample_s0(&sample, eye, t);
                 sample_s1(&sample, z, t);
                 for (int j = 0; j < C; j++)
-                    if (draw(p, index, &sample, z, j, C, &light))
+                    if (draw(p, cache, &sample, z, j, C, &light))
                         sample_pairs(&sample, &light, z, t, 1 / ((double)C * pool->n) / light.pmf);
             }
             if (i % each == 0)
