@@ -134,9 +134,9 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
             const bool joins = K > 0 && t <= pass->job->max_depth && vertex_connectible(z);
             const int C = joins ? p->numbers.draws[z->eye_end] : 0;
             struct drawn drawn;
-            sample_s0(&sample, eye, t);  /* s = 0 */
-            sample_s1(&sample, z, t); /* s = 1 */
-            for (int j = 0; j < C; j++)   /* s >= 2 */
+            sample_s0(&sample, eye, t);
+            sample_s1(&sample, z, t);
+            for (int j = 0; j < C; j++) /* s >= 2 */
                 if (p->method->draw(p, cache, &sample, z, j, C, &drawn))
                     sample_pairs(&sample, &drawn, z, t, every / (C * K) / drawn.pmf);
         }

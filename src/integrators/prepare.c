@@ -9,19 +9,20 @@
 
 enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
 
-static bool has_light(const struct prepared *p) { return p->runner[p->winner].numbers.path_pixels > 0; }
+static bool has_light_paths(const struct prepared *p) { return p->runner[p->winner].numbers.path_pixels > 0; }
 
-/* What to learn. A path tracer of a method that learns much needs little of it, and has it from `few` sub-paths.
- *   light  for light sub-paths, too */
-static struct learn_options what_to_learn(const struct render_job *job, const struct prepared *p, bool few, bool light)
+/* What to learn for a runner. A path tracer of a method that learns much needs little, and has it from few sub-paths.
+ *   light_paths  for light sub-paths, too */
+static struct learn_options what_to_learn(const struct render_job *job, const struct prepared *p, int runner,
+                                          bool light_paths)
 {
     const struct method *m = p->method;
     const struct parameters *q = &p->parameters;
-    few = few && m->learns_pairs;
+    bool few = runner >= RUNNER_PATH_TRACER && m->learns_pairs;
     return (struct learn_options){
-        .use = light && (m->learns_use || q->emission < 1), .pairs = !few && m->learns_pairs,
+        .use = light_paths && (m->learns_use || q->emission < 1), .pairs = !few && m->learns_pairs,
         .guide = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
-        .emission = q->emission, .delta = q->delta, .count = light && m->vertices, .few = few};
+        .emission = q->emission, .delta = q->delta, .count = light_paths && m->vertices, .few = few};
 }
 
 /* Of single vertices, a draw is one of so many of a light sub-path. */
@@ -33,9 +34,9 @@ static void find_draw_worth(struct prepared *p)
 }
 
 /* Learn tables, and make of them what samples need. */
-static void learn_for(const struct render_job *job, struct prepared *p, bool few, bool light)
+static void learn_for(const struct render_job *job, struct prepared *p, int runner, bool light_paths)
 {
-    const struct learn_options options = what_to_learn(job, p, few, light);
+    const struct learn_options options = what_to_learn(job, p, runner, light_paths);
     tables_free(p->tables);
     *p->tables = NO_TABLES;
     learn(job, &options, p->tables);
@@ -52,16 +53,15 @@ static void learn_and_race(const struct render_job *job, struct prepared *p)
     int asked = p->numbers.path_pixels == 0 || (small && p->parameters.race == RACE_ON) ? RACE_OFF : p->parameters.race;
     race_begin(job->scene, p);
     if (asked == RACE_ON && p->method->learns_pairs) {
-        learn_for(job, p, true, true);
+        learn_for(job, p, RUNNER_PATH_TRACER, true);
         if (race_early(job, p)) {
-            if (!has_light(p)) /* light sub-paths of a rival have had their tables */
-                learn_for(job, p, true, false);
+            if (!has_light_paths(p)) /* light sub-paths of a rival have had their tables */
+                learn_for(job, p, p->winner, false);
             return;
         }
     }
     p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
-    bool path_tracer = p->winner >= RUNNER_PATH_TRACER;
-    learn_for(job, p, path_tracer, !path_tracer || has_light(p));
+    learn_for(job, p, p->winner, p->winner < RUNNER_PATH_TRACER || has_light_paths(p));
     race_begin(job->scene, p); /* `prepare` may have changed the numbers */
     if (asked == RACE_ON)
         race(job, p);
@@ -70,7 +70,7 @@ static void learn_and_race(const struct render_job *job, struct prepared *p)
 /* Was the job cancelled before all was learnt and raced? A race is of methods that learn. */
 static bool is_hasty(const struct render_job *job, const struct prepared *p)
 {
-    const struct learn_options o = what_to_learn(job, p, p->winner >= RUNNER_PATH_TRACER, has_light(p));
+    const struct learn_options o = what_to_learn(job, p, p->winner, has_light_paths(p));
     bool learns = o.use || o.pairs || o.guide || o.count;
     return (learns || p->method->prepare != NULL) && job_cancelled(job) != CANCEL_NOT;
 }

@@ -121,14 +121,14 @@ void sample_splat(struct sample *sample, struct joined j)
     }
 }
 
-void sample_lens(struct sample *sample, const struct vertex *light, int n_light, double scale)
+void sample_lens(struct sample *sample, const struct vertex *path, int n, double scale)
 {
     const struct render_job *job = sample->pass->job;
-    tell_walked(sample, IMPORTANCE, light, n_light);
-    for (int s = 2; s <= n_light && s <= job->max_depth + 1; s++) {
+    tell_walked(sample, IMPORTANCE, path, n);
+    for (int s = 2; s <= n && s <= job->max_depth + 1; s++) {
         double raster[2];
-        struct connection c = connect_lens(job->scene, sample->counts, &light[s - 1], &sample->sampler, raster);
-        sample_splat(sample, (struct joined){.s = s, .t = 1, .path = light, .c = &c, .px = raster[0], .py = raster[1],
+        struct connection c = connect_lens(job->scene, sample->counts, &path[s - 1], &sample->sampler, raster);
+        sample_splat(sample, (struct joined){.s = s, .t = 1, .path = path, .c = &c, .px = raster[0], .py = raster[1],
                                              .pmf = 1, .scale = scale / sample->counts->lens});
     }
 }

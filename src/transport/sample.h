@@ -53,7 +53,7 @@ void sample_s1(struct sample *sample, const struct vertex *z, int t);
 void sample_pairs(struct sample *sample, const struct drawn *drawn, const struct vertex *z, int t, double scale);
 
 /* sample_lens: s >= 2, t = 1 for every vertex of a light sub-path, times `scale`, to the splats of the tile. */
-void sample_lens(struct sample *sample, const struct vertex *light, int n_light, double scale);
+void sample_lens(struct sample *sample, const struct vertex *path, int n, double scale);
 
 /* --- observers --------------------------------------------------------------------------------------- */
 
