@@ -60,7 +60,7 @@ void sample_lens(struct sample *sample, const struct vertex *path, int n, double
 /* One strategy (s,t) that was tried: a path, or nothing if the value is black. */
 struct joined {
     int s, t;
-    const struct vertex *path;  /* [s] the light sub-path, or the light point that was drawn; NULL: there is none */
+    const struct vertex *path;   /* [s] the light sub-path, or the light point that was drawn; NULL: there is none */
     const struct vertex *z;      /* z_{t-1}; the vertices before it are in front of it in memory. NULL if t = 1, or if
                                   * it is not the sample's own vertex */
     const struct connection *c;  /* value C*, weight, light */
