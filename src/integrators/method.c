@@ -8,12 +8,6 @@ static const double BOUND = 0.25; /* M of counts.h for each light sub-path of a 
 
 const char *const OFF_ON[] = {"off", "on", NULL};
 const char *const RACES[] = {"off", "on", "all", "quarter", "path_tracer", "one_point", NULL};
-const char *const RUNNER_NUMBERS[RUNNERS] = {"race_all", "race_quarter", "race_path_tracer", "race_one_point"};
-const char *const runner_helps[RUNNERS] = {
-    "as the parameters say: pathpixels, connections, later, lightpoints",
-    "a light sub-path for four times as many pixels",
-    "light sub-paths in one of 32 iterations of a tile; none where all is diffuse",
-    "so, too; one light point for each eye vertex"};
 
 const struct field *method_has(const struct method *m, const char *name)
 {

@@ -82,10 +82,8 @@ struct runner {
 };
 enum runner_number { RUNNER_ALL, RUNNER_QUARTER, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
 
-/* runner_name: as -P race= has it. RUNNER_NUMBERS: as --stats names what the race has found. runner_helps: what each is
- * for users. runner_cost: what a race minimises. */
+/* runner_name: as -P race= has it. runner_cost: what a race minimises. */
 static inline const char *runner_name(int runner) { return RACES[RACE_RUNNERS + runner]; }
-extern const char *const RUNNER_NUMBERS[RUNNERS], *const runner_helps[RUNNERS];
 static inline double runner_cost(const struct runner *k) { return k->variance * k->price; }
 
 /* A method that is ready to render. It does not change while it renders. */

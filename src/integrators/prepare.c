@@ -2,7 +2,6 @@
 #include "integrators/prepare.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "integrators/race.h"
 #include "learning/learn.h"
@@ -87,23 +86,6 @@ void method_prepare(const struct render_job *job, struct prepared *p)
     p->size = method_size(p);
     method_counts(job, p);
     p->hasty = is_hasty(job, p);
-}
-
-void method_numbers(const struct prepared *p, struct method_number out[METHOD_NUMBERS])
-{
-    const struct numbers *n = &p->numbers;
-    const struct runner *winner = &p->runner[p->winner];
-    int draws = n->path_pixels > 0;
-    const struct method_number numbers[] = {
-        {"draws_first_hit", draws * n->draws[FIRST_HIT]}, {"draws_after", draws * n->draws[LATER_HIT]},
-        {"light_points_first_hit", n->light_points}, {"pixels_per_light_path", n->path_pixels},
-        {"iterations_per_light_path", numbers_every(n)}, {"regions", p->tables->regions.n}};
-    int used = (int)(sizeof numbers / sizeof *numbers);
-    memset(out, 0, METHOD_NUMBERS * sizeof *out); /* a NULL name ends the list */
-    memcpy(out, numbers, sizeof numbers);
-    for (int i = 0; i < RUNNERS; i++)
-        if (p->runner[i].price > 0 && winner->price > 0) /* unless the race was cancelled */
-            out[used++] = (struct method_number){RUNNER_NUMBERS[i], runner_cost(&p->runner[i]) / runner_cost(winner)};
 }
 
 void method_release(struct prepared *p)

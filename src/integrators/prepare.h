@@ -13,14 +13,4 @@
 void method_prepare(const struct render_job *job, struct prepared *p);
 void method_release(struct prepared *p);
 
-/* What a method has chosen for itself. */
-enum { METHOD_NUMBERS = 16 };
-struct method_number {
-    const char *name; /* static; NULL: the one before was the last */
-    double value;
-};
-
-/* method_numbers: what was chosen for this scene, for --stats; runners with variance times price over the winner's. */
-void method_numbers(const struct prepared *p, struct method_number out[METHOD_NUMBERS]);
-
 #endif

@@ -240,7 +240,7 @@ void trace_sample(const struct render_job *job, const struct prepared *prepared,
     bool chooses = prepared->method->build == NULL || prepared->numbers.path_pixels > 0;
     trace->why = chooses ? method_why(prepared->method) : NULL;
     trace->race = race_result(prepared);
-    method_numbers(prepared, trace->number);
+    chosen_numbers(prepared, trace->number);
 }
 
 /* The sample that contributes most to the pixel. */
