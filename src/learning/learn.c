@@ -264,13 +264,13 @@ void learn(const struct render_job *job, const struct learn_options *options, st
     struct learning l = {.job = job, .options = options, .tables = out,
                          .work = workspaces_new(job->n_threads, job->max_depth), .take = take,
                          .counts = {.tables = &NO_TABLES}};
+    bool regions = options->use || options->guide || options->pairs;
     bool few = options->few || (options->guide && !options->use && !options->pairs);
     double pixels = (double)rect_pixels(job->film_rect);
     long n = few ? int_within(pixels / FEW_PIXELS, FEW_LEAST, LEARN_MOST)
                  : int_within(pixels * LEARN_PER_PIXEL, LEARN_LEAST, LEARN_MOST);
     long n_light = options->use ? (n < LEARN_LIGHT ? n : LEARN_LIGHT) : options->count ? LIGHT_COUNTED : 0;
     long half = options->pairs ? n / 2 / CHUNK * CHUNK : n;
-    bool regions = options->use || options->guide || options->pairs;
     l.budget = (double)(regions ? n : 0) + (double)n_light;
     if (regions)
         learn_eye_paths(&l, half);
