@@ -157,7 +157,7 @@ static int path_eye(int x, int y, struct vertex *path, uint64_t *rng)
 
 /* ---- What a strategy contributes (src/transport/connect.c) ---------------------------------------------------------
  * The last of t eye vertices is on the light. */
-static rgb connect_hit(const struct vertex *eye, int t)
+static rgb connect_s0(const struct vertex *eye, int t)
 {
     const struct vertex *z = &eye[t - 1];
     return z->shape == LAMP && dot(lamp_normal(), z->wo) > 0 ? tint(z->beta, LAMP->emission) : vec(0, 0, 0);
@@ -168,7 +168,7 @@ static rgb sum_eye(const struct vertex *eye, int n_eye)
 {
     rgb sum = BLACK;
     for (int t = 2; t <= n_eye; t++) {
-        sum = add(sum, connect_hit(eye, t));
+        sum = add(sum, connect_s0(eye, t));
     }
     return sum;
 }

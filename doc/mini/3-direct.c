@@ -192,7 +192,7 @@ static rgb connect(const struct vertex *y, const struct vertex *z)
 }
 
 /* The last of t eye vertices is on the light: it counts if the one before could not be connected to the light. */
-static rgb connect_hit(const struct vertex *eye, int t)
+static rgb connect_s0(const struct vertex *eye, int t)
 {
     const struct vertex *z = &eye[t - 1];
     bool counts = z->shape == LAMP && dot(lamp_normal(), z->wo) > 0 && (t == 2 || !connectible(&eye[t - 2]));
@@ -205,7 +205,7 @@ static rgb sum_eye(const struct vertex *eye, int n_eye, uint64_t *rng)
     rgb sum = BLACK;
     for (int t = 2; t <= n_eye; t++) {
         struct vertex y = light_point(rng);
-        sum = add(sum, connect_hit(eye, t));
+        sum = add(sum, connect_s0(eye, t));
         sum = t <= DEPTH + 1 ? add(sum, connect(&y, &eye[t - 1])) : sum;
     }
     return sum;

@@ -219,7 +219,7 @@ static rgb connect(const struct vertex *y, const struct vertex *z)
 }
 
 /* The last of t eye vertices is on the light: it counts if the one before could not be connected to the light. */
-static rgb connect_hit(const struct vertex *eye, int t)
+static rgb connect_s0(const struct vertex *eye, int t)
 {
     const struct vertex *z = &eye[t - 1];
     bool counts = z->shape == LAMP && dot(lamp_normal(), z->wo) > 0 && (t == 2 || !connectible(&eye[t - 2]));
@@ -232,7 +232,7 @@ static rgb sum_eye(const struct vertex *eye, int n_eye, uint64_t *rng)
     rgb sum = BLACK;
     for (int t = 2; t <= n_eye; t++) {
         struct vertex y = light_point(rng);
-        sum = add(sum, connect_hit(eye, t));
+        sum = add(sum, connect_s0(eye, t));
         sum = t <= DEPTH + 1 ? add(sum, connect(&y, &eye[t - 1])) : sum;
     }
     return sum;
@@ -262,7 +262,7 @@ static void render(rgb *image, enum method method, int spp, uint64_t *rng)
             struct vertex eye[EYE_VERTICES];
             struct light_path light;
             int n_eye = path_eye(i % SIZE, i / SIZE, eye, rng);
-            rgb sum = method == PT ? sum_eye(eye, n_eye, rng) : n_eye > 1 ? connect_hit(eye, 2) : vec(0, 0, 0);
+            rgb sum = method == PT ? sum_eye(eye, n_eye, rng) : n_eye > 1 ? connect_s0(eye, 2) : vec(0, 0, 0);
             image[i] = add(image[i], sum);
             if (method == LT) {
                 path_light(&light, rng);

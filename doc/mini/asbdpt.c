@@ -211,8 +211,8 @@ static vec3 cosine_hemisphere(vec3 n, uint64_t *rng)
  * A walk can add this up, except R_e and R_(e-1), which depend on the connection at e. So it stores the rest, mis_e,
  * and a one-line function finishes it: a weight costs O(1), however long the path. */
 struct counts { /* the number n of samples per pixel; 0: the method does not use the strategy */
-    double hit;          /* s = 0: the eye sub-path hits the light */
-    double direct;       /* s = 1: it is connected to a fresh point on the light */
+    double s0;           /* s = 0: the eye sub-path hits the light */
+    double s1;           /* s = 1: it is connected to a fresh point on the light */
     double connect;      /* s > 1, t > 1: it is connected to a light sub-path */
     double splat;        /* t = 1: all light sub-paths of the image are connected to the lens */
     const double *worth; /* of the light end's cell: `connect` is times this; NULL: 1 */
@@ -233,7 +233,7 @@ static double count(const struct counts *n, const struct vertex *y, const struct
 {
     if (!connectible(y) || !connectible(z))
         return 0;
-    return z->kind == LENS ? n->splat : y->kind == LIGHT ? n->direct : n->connect * worth_of(n, y, z);
+    return z->kind == LENS ? n->splat : y->kind == LIGHT ? n->s1 : n->connect * worth_of(n, y, z);
 }
 
 /* A_e = R_e * this, of vertex v = x_e, and mis_(e+1) = g * this, where g converts a density per steradian at x_(e+1)
@@ -274,7 +274,7 @@ static struct vertex light_point(const struct counts *n, uint64_t *rng)
 {
     double area = lamp_area(), u = next(rng), v = next(rng);
     vec3 p = add(LAMP->p, add(mul(LAMP->a, u), mul(LAMP->b, v)));
-    return (struct vertex){LIGHT, LAMP, p, unit(lamp_normal()), BLACK, {area, area, area}, 1 / area, n->hit, 0};
+    return (struct vertex){LIGHT, LAMP, p, unit(lamp_normal()), BLACK, {area, area, area}, 1 / area, n->s0, 0};
 }
 
 struct light_path {
@@ -317,14 +317,14 @@ static rgb connect(const struct counts *n, const struct vertex *y, const struct 
 }
 
 /* s = 0: the last of t eye vertices is on the light. If it is seen directly (t = 2), no other strategy finds it. */
-static rgb connect_hit(const struct counts *n, const struct vertex *eye, int t)
+static rgb connect_s0(const struct counts *n, const struct vertex *eye, int t)
 {
     struct vertex z = eye[t - 1];
     if (z.shape != LAMP || dot(lamp_normal(), z.wo) <= 0)
         return vec(0, 0, 0);
-    z.c = connectible(&eye[t - 2]) ? n->direct : 0; /* here z is the end of s = 1, not a surface */
+    z.c = connectible(&eye[t - 2]) ? n->s1 : 0; /* here z is the end of s = 1, not a surface */
     double eye_side = t == 2 ? 0 : sum_over_F(&z, dot(z.n, z.wo) / PI) / lamp_area();
-    return mul(tint(z.beta, LAMP->emission), n->hit / (n->hit + eye_side));
+    return mul(tint(z.beta, LAMP->emission), n->s0 / (n->s0 + eye_side));
 }
 
 /* ---- Sums over strategies (src/transport/pixel_sample.c) --------------------------------------------------------- */
@@ -333,7 +333,7 @@ static rgb sum_eye(const struct counts *n, const struct vertex *eye, int n_eye, 
     rgb sum = BLACK;
     for (int t = 2; t <= n_eye; t++) {
         struct vertex y = light_point(n, rng);
-        sum = add(sum, connect_hit(n, eye, t));
+        sum = add(sum, connect_s0(n, eye, t));
         sum = t <= DEPTH + 1 ? add(sum, connect(n, &y, &eye[t - 1])) : sum;
     }
     return sum;

@@ -13,10 +13,7 @@
  * empty sub-path has beta 0, and two zeros give 1/2. The method visits bins in the order of the van der Corput
  * sequence, from a random start for each pixel and block.
  *
- * This estimator is BIASED. Every sub-path that is used counts once, whatever its probability of being used was. The
- * sub-paths that grow too old, are discarded at a restart or are left over at the end mostly have low beta. So the
- * sub-paths that are used have another distribution than those that are traced. If high beta means "escaped after one
- * bounce", the image is too dark. doc/dissertation.md measures the bias; select = pool is the smallest repair.
+ * This estimator is BIASED: sub-paths of low beta, which are rarely used, are often discarded (doc/dissertation.md).
  *
  * Tests: test_asbdpt.c (must be rejected by the test that accepts BDPT), test_bins.c (the predicted bias).
  */
@@ -116,8 +113,8 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
     const struct drawn drawn = {e->vertex, 1, e->length, pmf}; /* no factor makes up for pmf */
 
     for (int t = 2; t <= n; t++) {
-        sample_hit(&sample, eye, t);
-        sample_direct(&sample, &eye[t - 1], t);
+        sample_s0(&sample, eye, t);
+        sample_s1(&sample, &eye[t - 1], t);
         sample_pairs(&sample, &drawn, &eye[t - 1], t, 1);
     }
     sample_lens(&sample, e->vertex, e->length, 1);

@@ -11,7 +11,7 @@
 #include "base/mem.h"
 #include "base/near.h"
 #include "base/version.h"
-#include "integrators/race.h"
+#include "integrators/method.h"
 #include "render/job.h"
 
 /* --- messages ----------------------------------------------------------------------------------------- */
@@ -67,9 +67,14 @@ static void print_runners(void)
     print_wrapped("Runners: ways to render. With race=on each takes a few samples that no image uses, and the one with "
                   "the least variance times price renders. None gives light up. asbdpt-lab info --race SCENE.pbrt shows "
                   "what was found.", 0, 0);
+    static const char *const HELPS[RUNNERS] = {
+        "as the parameters say: pathpixels, connections, later, lightpoints",
+        "a light sub-path for four times as many pixels",
+        "light sub-paths in one of 32 iterations of a tile; none where all is diffuse",
+        "so, too; one light point for each eye vertex"};
     for (int i = 0; i < RUNNERS; i++) {
         printf("    %-20s ", runner_name(i));
-        print_wrapped(runner_helps[i], 25, 25);
+        print_wrapped(HELPS[i], 25, 25);
     }
 }
 

@@ -1,20 +1,19 @@
 /* asbdpt.c: the default, `select = subspaces`: eye vertices draw light vertices by their worth to the eye's region.
  *
- * A light vertex y_{s-1} represents the sub-path y_0 ... y_{s-1} that ends there. An eye vertex draws C of the light
- * vertices that the K sub-paths of a tile and iteration have, with a probability that depends on both ends. Let
- * ratio(e,l) tell what a light vertex in region l is worth to an eye vertex in region e (table.h), and L_v the
- * luminance of beta_v. Then
+ * A light vertex y_{s-1} represents the sub-path y_0 ... y_{s-1} that ends there. An eye vertex z draws C of the light
+ * vertices v that the K sub-paths of a tile and iteration have. Let ratio(e,l) tell what a light vertex in region l is
+ * worth to an eye vertex in region e (table.h), and L_v the luminance of beta_v. Then
  *     P(v|z) = ratio(e(z), l(v)) L_v / sum over the pool.
- * It draws by bisection of cumulative sums, not from alias tables: first the region, then the vertex. Bisection keeps
- * the C strata of an eye vertex apart. Alias tables cost 3 to 9 % more instructions, because a region draws from its
- * table too rarely to pay for building it. `select = pool` and `vertices` have one alias table for a whole tile.
+ * It draws by bisection of cumulative sums, first the region, then the vertex: that keeps the C strata of an eye vertex
+ * apart. Alias tables cost 3 to 9 % more instructions, because a region draws from its table too rarely to pay for
+ * building it.
  *
- * The MIS weights take this into account: the strategies count as
+ * The strategies count in the MIS weights as
  *     n = x / (1 + x / M),      x = 2 C ratio(e(z), l(y)) / N,      M = K / 4
- * samples, where N is the mean number of connectible vertices of a light sub-path (1/N: prepare.c), and K the number of
- * light sub-paths of a full tile. 2 is the credit of a draw, and M a bound (counts.h). A draw takes y in proportion to
- * L_v, too. The other strategies cannot know L_v of a walk that they have not made, so n has its mean. Any n that is a
- * function of the path alone keeps the weights valid.
+ * samples, where N is the mean number of connectible vertices of a light sub-path (1/N: prepare.c), and K that of light
+ * sub-paths of a full tile. 2 is the credit of a draw, and M a bound (counts.h). The other strategies cannot know L_v
+ * of a walk that they have not made, so n has its mean. Any n that is a function of the path alone keeps the weights
+ * valid.
  *
  * [Su 2022] has subspaces of eye and light sub-paths and a matrix of probabilities between them. Here the regions are
  * cubes, and the table is learnt from trial connections.
@@ -31,7 +30,7 @@ struct group {
     double L; /* sum of their L */
 };
 
-struct index {
+struct cache {
     const struct vertex **candidate; /* [n], sorted by region */
     double *before;              /* [n], sum of L of the candidates before it in its group */
     struct group *group;         /* [n_groups], in the order of their regions */
@@ -41,13 +40,13 @@ struct index {
 
 /* --- the pool's vertices by region ------------------------------------------------------------------- */
 
-/* Make the groups: they have places for their members, but no members yet.
+/* The groups, with places for their members, but no members yet.
  *   group_of  out, [n_regions], number of the region's group, if it has one */
-static void make_groups(struct index *v, struct pool *pool, int *group_of, int n_regions)
+static void make_groups(struct cache *v, struct pool *pool, int *group_of, int n_regions)
 {
     memset(group_of, 0, (size_t)n_regions * sizeof *group_of);
     for (int i = 0; i < pool->n_candidates; i++)
-        group_of[pool->candidate[i]->place] += rgb_luminance(pool->candidate[i]->beta) > 0;
+        group_of[pool->candidate[i]->place]++;
     v->group = arena_alloc(&pool->arena, (size_t)n_regions * sizeof *v->group);
     v->n_groups = 0;
     for (int region = 0, first = 0; region < n_regions; region++) {
@@ -60,12 +59,12 @@ static void make_groups(struct index *v, struct pool *pool, int *group_of, int n
     }
 }
 
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
     struct arena *arena = &pool->arena;
     int n_regions = p->tables->regions.n;
-    struct index *v = arena_alloc(arena, sizeof *v);
+    struct cache *v = arena_alloc(arena, sizeof *v);
     int *group_of = arena_alloc(arena, (size_t)n_regions * sizeof *group_of);
     (void)iteration;
     pool_find_candidates(pool);
@@ -74,13 +73,10 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     v->before = arena_alloc(arena, (size_t)pool->n_candidates * sizeof *v->before);
     for (int i = 0; i < pool->n_candidates; i++) {
         const struct vertex *y = pool->candidate[i];
-        double L = rgb_luminance(y->beta);
-        if (!(L > 0))
-            continue;
         struct group *g = &v->group[group_of[y->place]];
         v->candidate[g->first + g->n] = y;
         v->before[g->first + g->n++] = g->L;
-        g->L += L;
+        g->L += rgb_luminance(y->beta);
     }
     v->row = arena_alloc(arena, (size_t)n_regions * sizeof *v->row);
     for (int e = 0; e < n_regions; e++)
@@ -91,7 +87,7 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
 /* --- drawing ----------------------------------------------------------------------------------------- */
 
 /* The cumulative sums of an eye region, made at the first draw from it. */
-static const double *row_of_region(const struct index *v, struct arena *arena, const struct table *pairs, int e)
+static const double *row_of_region(const struct cache *v, struct arena *arena, const struct table *pairs, int e)
 {
     if (v->row[e] != NULL)
         return v->row[e];
@@ -103,7 +99,7 @@ static const double *row_of_region(const struct index *v, struct arena *arena, c
 }
 
 /* Draw a region, then a vertex; stratified over both. */
-static bool draw(const struct prepared *p, const struct index *v, struct sample *sample, const struct vertex *z, int i,
+static bool draw(const struct prepared *p, const struct cache *v, struct sample *sample, const struct vertex *z, int i,
                  int n, struct drawn *out)
 {
     if (v->n_groups == 0)
@@ -127,7 +123,7 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
     struct vertex *eye = pass->work->eye;
     loop_fill(p, pass, iteration); /* K light sub-paths, and their vertices by region */
     const int K = pass->work->pool.n;
-    const struct index *index = K > 0 ? p->method->build(p, pass, iteration) : NULL;
+    const struct cache *cache = K > 0 ? p->method->build(p, pass, iteration) : NULL;
     const double every = numbers_every(&p->numbers);
     for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
         struct sample sample;
@@ -138,10 +134,10 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
             const bool joins = K > 0 && t <= pass->job->max_depth && vertex_connectible(z);
             const int C = joins ? p->numbers.draws[z->eye_end] : 0;
             struct drawn drawn;
-            sample_hit(&sample, eye, t);  /* s = 0 */
-            sample_direct(&sample, z, t); /* s = 1 */
-            for (int j = 0; j < C; j++)   /* s >= 2 */
-                if (p->method->draw(p, index, &sample, z, j, C, &drawn))
+            sample_s0(&sample, eye, t);
+            sample_s1(&sample, z, t);
+            for (int j = 0; j < C; j++) /* s >= 2 */
+                if (p->method->draw(p, cache, &sample, z, j, C, &drawn))
                     sample_pairs(&sample, &drawn, z, t, every / (C * K) / drawn.pmf);
         }
         loop_splat(p, &sample); /* t = 1 */

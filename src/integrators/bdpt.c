@@ -14,23 +14,23 @@ static void render_pixel(const struct prepared *p, const struct tile_pass *pass,
     const struct numbers *numbers = &p->numbers;
     const int max_vertices = pass->job->max_depth + 1; /* vertices of a light sub-path */
     struct arena *arena = &pass->work->arena;
-    struct vertex *eye = pass->work->eye, *light = NULL;
+    struct vertex *eye = pass->work->eye, *light_path = NULL;
     arena_reset(arena);
     struct sample sample = sample_begin(pass, &p->counts, numbers->light_points, x, y, iteration);
     int n_eye = sample_eye_path(&sample, eye, numbers->light_points > 0 ? max_vertices + 1 : 2), n_light = 0;
     if (numbers->path_pixels > 0) {
-        light = arena_alloc(arena, (size_t)max_vertices * sizeof *light);
-        n_light = sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, arena, light);
+        light_path = arena_alloc(arena, (size_t)max_vertices * sizeof *light_path);
+        n_light = sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, arena, light_path);
     }
     for (int t = 2; t <= n_eye; t++) {
         const struct vertex *z = &eye[t - 1];
-        sample_hit(&sample, eye, t);        /* s = 0 */
-        sample_direct(&sample, z, t);       /* s = 1 */
+        sample_s0(&sample, eye, t);
+        sample_s1(&sample, z, t);
         if (numbers->draws[z->eye_end] > 0 && vertex_connectible(z)) /* s >= 2 */
-            sample_pairs(&sample, &(struct drawn){light, 1, n_light, 1}, z, t, 1);
+            sample_pairs(&sample, &(struct drawn){light_path, 1, n_light, 1}, z, t, 1);
     }
     if (numbers->path_pixels > 0) /* t = 1 */
-        sample_lens(&sample, light, n_light, 1);
+        sample_lens(&sample, light_path, n_light, 1);
     sample_end(&sample);
 }
 

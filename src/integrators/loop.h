@@ -1,16 +1,7 @@
-/* loop.h: the loop over the samples of a tile pass whose pixels share light sub-paths, and its steps.
- *
- *     pool  = light sub-paths of the tile, one for every path_pixels of its pixels
- *     index = build(pool)
- *     for each pixel, and each vertex z of its eye sub-path:
- *         add s = 0 and s = 1                                                 hit, direct
- *         C times: draw light vertices y with probability P, and add
- *             the connections of z to them, divided by C K P / every          pair
- *     for each light sub-path: add its connections to the lens                lens
- *
- * K is the number of sub-paths of the pool; of `every`, see struct numbers. For a given pool, the expectation of what z
- * draws is the mean over the K sub-paths, whatever P is, as long as every vertex that can contribute has a chance. So
- * the estimate is unbiased.
+/* loop.h: the loop over the samples of a tile pass whose pixels share light sub-paths (asbdpt.c: render_iteration), and
+ * its steps. An eye vertex takes C draws. What it draws with probability P from a pool of K sub-paths is divided by C K
+ * P / every (struct numbers). So for a given pool, the expectation of the draws is the mean over the K sub-paths,
+ * whatever P is, as long as every vertex that can contribute has a chance, and the estimate is unbiased.
  *
  * Tests: test_render.c, test_asbdpt.c.
  */
@@ -19,10 +10,7 @@
 
 #include "integrators/method.h"
 
-/* selection_render: the `render` of such methods. It is in asbdpt.c, with the choice of the default. */
-void selection_render(const struct prepared *p, const struct tile_pass *pass);
-
-/* Its steps.
+/* selection_render: the `render` of such methods. It is in asbdpt.c, with the choice of the default. Its steps:
  *
  *   loop_turn   does the iteration have light sub-paths?
  *   loop_fill   trace the light sub-paths of an iteration, if it has any, into the workspace's pool; K may be 0
@@ -30,6 +18,7 @@ void selection_render(const struct prepared *p, const struct tile_pass *pass);
  *               [max_depth + 2]; returns the number of vertices
  *   loop_splat  connect to the lens the light sub-path of the pixel, if it is one of those that have one
  */
+void selection_render(const struct prepared *p, const struct tile_pass *pass);
 bool loop_turn(const struct prepared *p, const struct tile_pass *pass, long iteration);
 void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration);
 int loop_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y, long iteration,

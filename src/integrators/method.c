@@ -7,10 +7,7 @@
 static const double BOUND = 0.25; /* M of counts.h for each light sub-path of a full tile */
 
 const char *const OFF_ON[] = {"off", "on", NULL};
-const char RUNNER_NUMBERS[RUNNERS][24] = {"race_all", "race_quarter", "race_path_tracer", "race_one_point"};
-enum { NAME = sizeof "race_" - 1 }; /* where a runner's own name begins */
-const char *const RACES[] = {"off", "on", &RUNNER_NUMBERS[0][NAME], &RUNNER_NUMBERS[1][NAME], &RUNNER_NUMBERS[2][NAME],
-                             &RUNNER_NUMBERS[3][NAME], NULL};
+const char *const RACES[] = {"off", "on", "all", "quarter", "path_tracer", "one_point", NULL};
 
 const struct field *method_has(const struct method *m, const char *name)
 {

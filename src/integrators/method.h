@@ -1,10 +1,8 @@
 /* method.h: a method is a row, and a file if it has code of its own. Methods differ in how many samples they take of
- * each kind, and in how they choose light vertices for an eye vertex.
+ * each kind, and in how they choose light vertices for an eye vertex. The table of all rows is render/rows.c.
  *
- * A row has all of a method: fallbacks of parameters, and numbers that have none. The table of all rows is
- * render/rows.c. Before the first sample, a method reads its parameters and is prepared: tables are learnt, a race may
- * decide on the numbers of samples, and the counts in the weights follow. Then it renders tile passes (tile_pass.h) on
- * all threads.
+ * A method reads its parameters (method_read), is prepared (prepare.h), and renders tile passes (tile_pass.h) on all
+ * threads.
  *
  * doc/add-a-method.md adds one. Tests: test_render.c, test_options.c, test/run/add_method.sh.
  */
@@ -19,8 +17,8 @@
 
 #define DEFAULT_RR_THRESHOLD 0.5
 
-/* Parameters of several methods. What makes any choice of light sub-paths better, whichever it is, has one
- * implementation that all methods share, and a switch, so that one can measure the choice alone:
+/* Parameters of several methods. What makes any choice of light sub-paths better has one implementation that all
+ * methods share, and a switch, so that one can measure the choice alone:
  *
  *   guide         s = 1 chooses lights by what they are worth to a region
  *   emission      light sub-paths start in directions that the camera can use (emission.h)
@@ -84,9 +82,9 @@ struct runner {
 };
 enum runner_number { RUNNER_ALL, RUNNER_QUARTER, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
 
-/* runner_name: as -P race= has it. RUNNER_NUMBERS: as --stats names what the race has found. */
+/* runner_name: as -P race= has it. runner_cost: what a race minimises. */
 static inline const char *runner_name(int runner) { return RACES[RACE_RUNNERS + runner]; }
-extern const char RUNNER_NUMBERS[RUNNERS][24];
+static inline double runner_cost(const struct runner *k) { return k->variance * k->price; }
 
 /* A method that is ready to render. It does not change while it renders. */
 struct prepared {
@@ -105,7 +103,7 @@ struct prepared {
 };
 
 /* What a method has made of a pool, in the pool's arena; each has a struct of its own. */
-struct index;
+struct cache;
 
 struct method {
     const char *name;   /* --integrator NAME */
@@ -120,11 +118,11 @@ struct method {
     bool vertices;                  /* a draw is a light vertex, not a sub-path */
     bool learns_use, learns_pairs;  /* see tables.h */
 
-    /* How eye vertices choose among the light sub-paths that the pixels of a tile share. First, an index of the pool of
-     * an iteration, or NULL. `build` is NULL if the pixels share none. */
-    struct index *(*build)(const struct prepared *p, const struct tile_pass *pass, long iteration);
+    /* How eye vertices choose among the light sub-paths that the pixels of a tile share. First, make a cache of the
+     * pool of an iteration, or NULL. `build` is NULL if the pixels share none. */
+    struct cache *(*build)(const struct prepared *p, const struct tile_pass *pass, long iteration);
     /* Choice number i of n for eye vertex z. False if there is none. */
-    bool (*draw)(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+    bool (*draw)(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
                  int i, int n, struct drawn *out);
 
     /* Each parameter is valid by itself. Check that they fit each other and the scene; false with a message if not. May

@@ -2,37 +2,48 @@
 #include "integrators/prepare.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "integrators/race.h"
 #include "learning/learn.h"
 
 enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
 
-/* What a runner needs, for light sub-paths or without them. A path tracer of a method that learns much has few: it
- * learns less, from fewer. */
-static void learn_for(const struct render_job *job, struct prepared *p, int runner, bool light)
+static bool has_light_paths(const struct prepared *p) { return p->runner[p->winner].numbers.path_pixels > 0; }
+
+/* What to learn for a runner. A path tracer of a method that learns much needs little, and has it from few sub-paths.
+ *   light_paths  for light sub-paths, too */
+static struct learn_options what_to_learn(const struct render_job *job, const struct prepared *p, int runner,
+                                          bool light_paths)
 {
+    const struct method *m = p->method;
     const struct parameters *q = &p->parameters;
-    bool few = runner >= RUNNER_PATH_TRACER && p->method->learns_pairs;
-    const struct learn_options options = {
-        .use = light && (p->method->learns_use || q->emission < 1), .pairs = !few && p->method->learns_pairs,
-        .direct = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
-        .emission = q->emission, .delta = q->delta, .count = light && p->method->vertices, .few = few};
+    bool few = runner >= RUNNER_PATH_TRACER && m->learns_pairs;
+    return (struct learn_options){
+        .use = light_paths && (m->learns_use || q->emission < 1), .pairs = !few && m->learns_pairs,
+        .guide = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
+        .emission = q->emission, .delta = q->delta, .count = light_paths && m->vertices, .few = few};
+}
+
+/* Of single vertices, a draw is one of so many of a light sub-path. */
+static void find_draw_worth(struct prepared *p)
+{
+    double n = p->method->vertices ? p->tables->light_vertices : 0;
+    for (int end = 0; end < EYE_ENDS; end++)
+        p->draw_worth[end] = n > 0 ? 1 / n : 1;
+}
+
+/* Learn tables, and make of them what samples need. */
+static void learn_for(const struct render_job *job, struct prepared *p, int runner, bool light_paths)
+{
+    const struct learn_options options = what_to_learn(job, p, runner, light_paths);
     tables_free(p->tables);
     *p->tables = NO_TABLES;
-    bool learns = options.use || options.pairs || options.direct || options.count;
-    if (learns)
-        learn(job, &options, p->tables);
-    for (int end = 0; end < EYE_ENDS; end++) /* of single vertices, a draw is one of so many of a light sub-path */
-        p->draw_worth[end] = p->method->vertices && p->tables->light_vertices > 0 ? 1 / p->tables->light_vertices : 1;
+    learn(job, &options, p->tables);
+    find_draw_worth(p);
     if (p->method->prepare != NULL)
         p->method->prepare(job, p);
     method_counts(job, p);
-    p->hasty = (p->hasty || learns || p->method->prepare != NULL) && job_cancelled(job) != CANCEL_NOT;
 }
-
-static bool has_light(const struct prepared *p) { return p->runner[p->winner].numbers.path_pixels > 0; }
 
 /* Where there is much to learn, a first race finds out whether it may pay. */
 static void learn_and_race(const struct render_job *job, struct prepared *p)
@@ -42,21 +53,25 @@ static void learn_and_race(const struct render_job *job, struct prepared *p)
     race_begin(job->scene, p);
     if (asked == RACE_ON && p->method->learns_pairs) {
         learn_for(job, p, RUNNER_PATH_TRACER, true);
-        bool early = race_early(job, p);
-        p->hasty = job_cancelled(job) != CANCEL_NOT;
-        if (early) {
-            if (!has_light(p)) /* light sub-paths of a rival have had their tables */
+        if (race_early(job, p)) {
+            if (!has_light_paths(p)) /* light sub-paths of a rival have had their tables */
                 learn_for(job, p, p->winner, false);
             return;
         }
     }
     p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
-    learn_for(job, p, p->winner, p->winner < RUNNER_PATH_TRACER || has_light(p));
+    learn_for(job, p, p->winner, p->winner < RUNNER_PATH_TRACER || has_light_paths(p));
     race_begin(job->scene, p); /* `prepare` may have changed the numbers */
-    if (asked == RACE_ON) {
+    if (asked == RACE_ON)
         race(job, p);
-        p->hasty = job_cancelled(job) != CANCEL_NOT;
-    }
+}
+
+/* Was the job cancelled before all was learnt and raced? A race is of methods that learn. */
+static bool is_hasty(const struct render_job *job, const struct prepared *p)
+{
+    const struct learn_options o = what_to_learn(job, p, p->winner, has_light_paths(p));
+    bool learns = o.use || o.pairs || o.guide || o.count;
+    return (learns || p->method->prepare != NULL) && job_cancelled(job) != CANCEL_NOT;
 }
 
 void method_prepare(const struct render_job *job, struct prepared *p)
@@ -70,24 +85,7 @@ void method_prepare(const struct render_job *job, struct prepared *p)
     p->numbers = p->runner[p->winner].numbers;
     p->size = method_size(p);
     method_counts(job, p);
-}
-
-void method_numbers(const struct prepared *p, struct method_number out[METHOD_NUMBERS])
-{
-    const struct numbers *n = &p->numbers;
-    const struct runner *winner = &p->runner[p->winner];
-    int draws = n->path_pixels > 0;
-    const struct method_number numbers[] = {
-        {"draws_first_hit", draws * n->draws[FIRST_HIT]}, {"draws_after", draws * n->draws[LATER_HIT]},
-        {"light_points_first_hit", n->light_points}, {"pixels_per_light_path", n->path_pixels},
-        {"iterations_per_light_path", numbers_every(n)}, {"regions", p->tables->regions.n}};
-    int used = (int)(sizeof numbers / sizeof *numbers);
-    memset(out, 0, METHOD_NUMBERS * sizeof *out); /* a NULL name ends the list */
-    memcpy(out, numbers, sizeof numbers);
-    for (int i = 0; i < RUNNERS; i++)
-        if (p->runner[i].price > 0 && winner->price > 0) /* unless the race was cancelled */
-            out[used++] = (struct method_number){RUNNER_NUMBERS[i], p->runner[i].variance * p->runner[i].price /
-                                                                        (winner->variance * winner->price)};
+    p->hasty = is_hasty(job, p);
 }
 
 void method_release(struct prepared *p)

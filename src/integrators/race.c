@@ -13,15 +13,16 @@ static const double NOTHING = 1e-30, BLIND = 1e30; /* not 0 and infinity: others
 /* Prices, fitted to CPU times; a sample costs 1, an eye vertex, too. That of a light vertex includes its splat. */
 enum { PRICE_CONNECTION = 2, PRICE_LIGHT_VERTEX = 3 };
 
-/* Samples of a runner. */
+/* Samples of a runner. What the render makes in one of `every` iterations, a lap makes in each, and counts it as in the
+ * render: `every` times. */
 struct lap {
     struct render_job job; /* with random numbers of its own */
     struct prepared by;    /* how the runner samples; shares all that it points to */
-    int every;             /* of the runner; `by` has light sub-paths in each iteration */
+    int every;
     struct tile_pixels pixels;
-    /* Luminance of a pixel, and of the splats in its cell: the mean, direct light at first hits, what is made in each
-     * iteration, and by iteration what the render makes in one of `every`. */
-    double mean[MOST_PIXELS], direct[MOST_PIXELS], often[MOST_PIXELS], rare[SAMPLES][MOST_PIXELS];
+    /* Sums of the luminance of a pixel, and of the splats in its cell: direct light at first hits; all that the render
+     * makes in each iteration; and the rest, by iteration of the lap. */
+    double direct[MOST_PIXELS], often[MOST_PIXELS], rare[SAMPLES][MOST_PIXELS];
     double price, samples;
 };
 
@@ -38,10 +39,9 @@ static void joined(void *context, const struct sample *sample, const struct join
     if (p->t > 1 && p->s > 0)
         l->price += (double)PRICE_CONNECTION / every;
     if (p->s + p->t == 2 || !fits_float(value) || !(x >= film.x0 && x < film.x1 && y >= film.y0 && y < film.y1))
-        return;
+        return; /* all runners have the same of light that the camera sees directly */
     int cell = pixels_cell(l->pixels, (int)x, (int)y);
     value *= p->t == 1 ? 1 : every; /* splats are divided by the count in the weights */
-    l->mean[cell] += value / every / SAMPLES;
     l->direct[cell] += p->s < 2 && first ? value : 0;
     *(every > 1 ? &l->rare[sample->iteration][cell] : &l->often[cell]) += value;
 }
@@ -52,6 +52,20 @@ static void walked(void *context, const struct sample *sample, enum transport mo
     (void)sample, (void)path;
     l->price += mode == RADIANCE ? 1 + n : (double)n * PRICE_LIGHT_VERTEX / l->every;
     l->samples += mode == RADIANCE;
+}
+
+static void start_lap(const struct render_job *job, const struct prepared *p, const struct runner *k, uint64_t number,
+                      struct lap *l)
+{
+    struct pixel_rect film = job->film_rect;
+    int side = int_within(sqrt((double)rect_pixels(film) / (2 * SAMPLES)), 1, SIDE); /* at most a sample of each */
+    int nx = (rect_width(film) + side - 1) / side, ny = (rect_height(film) + side - 1) / side;
+    *l = (struct lap){.job = *job, .by = *p, .every = numbers_every(&k->numbers), .pixels = {film, nx, ny, 0, 0}};
+    l->job.seed = l->job.eye_seed = hash_combine(hash_combine(job->seed, 0x3c6ef372fe94f82bu), number);
+    l->by.numbers = k->numbers;
+    l->by.size = method_size(&l->by);
+    method_counts(job, &l->by);
+    l->by.numbers.every = 1;
 }
 
 static void run_lap(void *context, int64_t number, int slot, int thread)
@@ -71,34 +85,17 @@ static void run_lap(void *context, int64_t number, int slot, int thread)
 
 static bool count_lap(void *context, int64_t number, int slot)
 {
-    struct lap *l = (struct lap *)context + number;
-    (void)slot;
-    return job_cancelled(&l->job) == CANCEL_NOT;
+    (void)number, (void)slot;
+    return job_cancelled(&((struct lap *)context)->job) == CANCEL_NOT;
 }
 
 /* --- runners compete --------------------------------------------------------------------------------- */
 
-static void start_lap(const struct render_job *job, const struct prepared *p, const struct runner *k, uint64_t other,
-                      struct lap *l)
-{
-    struct pixel_rect film = job->film_rect;
-    int side = int_within(sqrt((double)rect_pixels(film) / (2 * SAMPLES)), 1, SIDE); /* at most a sample of each */
-    *l = (struct lap){.job = *job, .by = *p};
-    l->pixels = (struct tile_pixels){film, (rect_width(film) + side - 1) / side, (rect_height(film) + side - 1) / side,
-                                     0, 0};
-    l->job.seed = l->job.eye_seed = hash_combine(hash_combine(job->seed, 0x3c6ef372fe94f82bu), other);
-    l->by.numbers = k->numbers;
-    l->by.size = method_size(&l->by);
-    method_counts(job, &l->by);
-    l->every = numbers_every(&k->numbers);
-    l->by.numbers.every = 1;
-}
-
 /* The square of x >= 0, continued by its tangent above FIREFLY. */
 static double huber(double x) { return x < FIREFLY ? x * x : 2 * FIREFLY * x - FIREFLY * FIREFLY; }
 
-/* The variance of a sample, from two sums of samples. */
-static double variance(double a, double b) { return huber(fabs(a - b) / sqrt(2.0 * SAMPLES)); }
+/* The variance of a sample, from two sums of samples, relative to a unit of brightness. */
+static double variance(double a, double b, double unit) { return huber(fabs(a - b) / unit / sqrt(2.0 * SAMPLES)); }
 
 /* The number of pixels in which a runner has met light in one of its two laps. */
 static int pixels_lit(const struct lap *a)
@@ -117,14 +114,32 @@ static double judge(struct runner *k, const struct lap *a, const double *unit, i
     k->price = (a->price + b->price) / (a->samples + b->samples);
     k->variance = NOTHING;
     for (int i = 0; i < n; i++) {
-        direct += variance(a->direct[i] / unit[i], b->direct[i] / unit[i]) / n;
-        k->variance += variance(a->often[i] / unit[i], b->often[i] / unit[i]) / n;
+        direct += variance(a->direct[i], b->direct[i], unit[i]) / n;
+        k->variance += variance(a->often[i], b->often[i], unit[i]) / n;
         for (int j = 0; j < SAMPLES; j++)
             k->variance += (huber(a->rare[j][i] / unit[i]) + huber(b->rare[j][i] / unit[i])) / parts;
     }
     if (2 * pixels_lit(a) < most)
         k->variance = BLIND;
     return direct;
+}
+
+/* The brightness that noise is relative to: the mean of the pixel's and the picture's, over n laps. */
+static void find_units(const struct lap *lap, int n, double *unit)
+{
+    int pixels = pixels_count(lap->pixels);
+    double picture = 0;
+    for (int i = 0; i < pixels; i++) {
+        unit[i] = 1e-30; /* not 0 */
+        for (const struct lap *l = lap; l < lap + n; l++) {
+            unit[i] += l->often[i] / (n * SAMPLES);
+            for (int j = 0; j < SAMPLES; j++)
+                unit[i] += l->rare[j][i] / (n * SAMPLES * l->every);
+        }
+        picture += unit[i] / pixels;
+    }
+    for (int i = 0; i < pixels; i++)
+        unit[i] = (unit[i] + picture) / 2;
 }
 
 /* Let n runners compete. Returns the variance of direct light of the last one; -1 if the job is cancelled. */
@@ -134,21 +149,14 @@ static double compete(const struct render_job *job, const struct prepared *p, st
     for (int i = 0; i < 2 * n; i++)
         start_lap(job, p, &first[i / 2], (uint64_t)i % 2, &lap[i]);
     struct parallel_jobs jobs = {2 * n, job->n_threads, 2 * n, lap, run_lap, count_lap, NULL};
-    double unit[MOST_PIXELS], picture = 0, direct = -1;
+    double unit[MOST_PIXELS], direct = -1;
     bool all = job->scene->lights.n > 0 && parallel_run(&jobs) == 2 * n && job_cancelled(job) == CANCEL_NOT;
     int most = 0;
     for (int i = 0; i < n; i++) {
         int lit = pixels_lit(&lap[2 * i]);
         most = lit > most ? lit : most;
     }
-    for (int i = 0; i < pixels_count(lap->pixels); i++) {
-        unit[i] = NOTHING;
-        for (int j = 0; j < 2 * n; j++)
-            unit[i] += lap[j].mean[i] / (2 * n);
-        picture += unit[i] / pixels_count(lap->pixels);
-    }
-    for (int i = 0; i < pixels_count(lap->pixels); i++)
-        unit[i] = (unit[i] + picture) / 2;
+    find_units(lap, 2 * n, unit);
     for (int i = 0; i < n && all; i++)
         direct = judge(&first[i], &lap[2 * i], unit, most);
     free(lap);
@@ -166,12 +174,6 @@ static bool is_diffuse(const struct scene *scene)
     return diffuse;
 }
 
-const char *const runner_helps[RUNNERS] = {
-    [RUNNER_ALL] = "as the parameters say: pathpixels, connections, later, lightpoints",
-    [RUNNER_QUARTER] = "a light sub-path for four times as many pixels",
-    [RUNNER_PATH_TRACER] = "light sub-paths in one of 32 iterations of a tile; none where all is diffuse",
-    [RUNNER_ONE_POINT] = "so, too; one light point for each eye vertex"};
-
 void race_begin(const struct scene *scene, struct prepared *p)
 {
     struct numbers *all = &p->runner[RUNNER_ALL].numbers, *quarter = &p->runner[RUNNER_QUARTER].numbers;
@@ -185,13 +187,12 @@ void race_begin(const struct scene *scene, struct prepared *p)
     one->light_points = 1;
 }
 
-static double cost(const struct runner *k) { return k->variance * k->price; }
-
+/* The cheapest of the runners from number `first` on. */
 static int find_winner(const struct prepared *p, int first)
 {
     int winner = first;
     for (int i = first; i < RUNNERS; i++)
-        winner = cost(&p->runner[i]) < cost(&p->runner[winner]) ? i : winner;
+        winner = runner_cost(&p->runner[i]) < runner_cost(&p->runner[winner]) ? i : winner;
     return winner;
 }
 

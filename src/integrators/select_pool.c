@@ -1,15 +1,14 @@
 /* select_pool.c: `select = pool`: the smallest unbiased repair of the dissertation's estimator.
  *
  * The tile traces K light sub-paths in an iteration, as many as BDPT. They have importances I_k and probabilities
- *     q_k = (1 - delta) I_k / sum I + delta / K.                                               [Hesterberg 1995]
- * This is a defensive mixture: every sub-path that can contribute has a chance.
- * Vose's alias table [Vose 1991] over q has K bins of at most two sub-paths, like the dissertation's bins. Each pixel
- * visits exactly one bin, in random order, and draws one of its two sub-paths. It connects the sub-path as in BDPT and
- * multiplies the strategies s >= 2, t >= 2 by
+ *     q_k = (1 - delta) I_k / sum I + delta / K,                                               [Hesterberg 1995]
+ * a defensive mixture: every sub-path that can contribute has a chance. Vose's alias table [Vose 1991] over q has K
+ * bins of at most two sub-paths, like the dissertation's bins. Each pixel visits exactly one bin, in random order, and
+ * draws one of its two sub-paths. It connects the sub-path as in BDPT and multiplies the strategies s >= 2, t >= 2 by
  *     W = 1 / (K q_k).
- * For a fixed pool, the expectation of a pixel is sum_k q_k F(k) / (K q_k), the mean over the pool. So the estimate is
- * unbiased for any I that does not depend on the eye sub-path. If I is constant, every bin has one sub-path, and this
- * is BDPT with the pixels' sub-paths permuted.
+ * For a fixed pool, the expectation of a pixel is the mean over the pool, so the estimate is unbiased for any I that
+ * does not depend on the eye sub-path. If I is constant, every bin has one sub-path, and this is BDPT with the pixels'
+ * sub-paths permuted.
  *
  * Tests: test_asbdpt.c.
  */
@@ -21,22 +20,18 @@
 enum metric { METRIC_CONSTANT, METRIC_THROUGHPUT, METRIC_USE };
 static const char *const METRICS[] = {"constant", "throughput", "importance", NULL};
 
-/* What each pixel of the tile has drawn. */
-struct pool_index {
-    struct drawn drawn[MAX_TILE_SIZE * MAX_TILE_SIZE];
-};
-
 static double importance_of(const struct prepared *p, const struct vertex *path, int n)
 {
     return p->parameters.metric == METRIC_CONSTANT     ? 1
            : p->parameters.metric == METRIC_THROUGHPUT ? path_throughput(path, n)
-                                                       : path_use(p->tables, path, n);
+                                                       : path_use(p->tables, path, 1, n);
 }
 
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+/* What each pixel of the tile has drawn. */
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
-    struct pool_index *index = arena_alloc(&pool->arena, sizeof *index);
+    struct drawn *drawn = arena_alloc(&pool->arena, (size_t)pass->tile->n_pixels * sizeof *drawn);
     double *q = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *q), sum = 0;
     int *order = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *order);
     for (int k = 0; k < pool->n; k++) {
@@ -52,16 +47,16 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
         struct sampler choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
         double pmf, u = sampler_number(&choice, DRAW_LIGHT_END);
         int k = alias_sample_bin(&pool->alias, order[i % pool->n], u, &pmf, NULL);
-        index->drawn[i] = (struct drawn){pool_path(pool, k), 1, pool->length[k], pmf};
+        drawn[i] = (struct drawn){pool_path(pool, k), 1, pool->length[k], pmf};
     }
-    return (struct index *)index;
+    return (struct cache *)drawn;
 }
 
-static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+static bool draw(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
                  int i, int n, struct drawn *out)
 {
     (void)p, (void)z, (void)i, (void)n;
-    *out = ((const struct pool_index *)index)->drawn[sample->number];
+    *out = ((const struct drawn *)cache)[sample->number];
     return true;
 }
 

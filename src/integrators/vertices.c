@@ -1,24 +1,20 @@
 /* vertices.c: `select = vertices`: every eye vertex draws light vertices from one table over a tile's pool.
  *
- * A light vertex y_{s-1} represents the sub-path y_0 ... y_{s-1} that ends there. So a pool of sub-paths is a pool of
- * vertices, as in the light vertex cache [Davidovic 2014], which draws uniformly. A tile traces K sub-paths in an
- * iteration, one for every `path_pixels` pixels. One alias table has all their connectible vertices, with
+ * As in the light vertex cache [Davidovic 2014], which draws uniformly, a pool of sub-paths is a pool of vertices. A
+ * tile traces K sub-paths in an iteration. One alias table has all their connectible vertices, with
  *     q_v = L_v ratio(x_v) / sum,      L_v = luminance(beta_v).
- * The ratio (table.h) is large at places of which the camera can use much. Each eye vertex draws C vertices. BDPT
- * estimates, with one sub-path, the sum over all vertices of all K sub-paths divided by K. A draw of v with probability
- * q_v and factor 1/q_v estimates the same sum.
+ * The ratio (table.h) is large at places of which the camera can use much. Each eye vertex draws C vertices.
  *
- * The MIS weights take this into account: strategies s >= 2, t >= 2 with their light end at x take about
- * n(x) = 2 C ratio(x) / N samples, where N is the mean number of vertices of a light sub-path. n is a function of the
- * surface point alone, so all strategies of a path compute the same n. The factor 2 is the credit of stratified draws.
+ * The strategies s >= 2, t >= 2 with their light end at x count as about n(x) = 2 C ratio(x) / N samples in the MIS
+ * weights, where N is the mean number of vertices of a light sub-path, and 2 the credit of a stratified draw. n is a
+ * function of the surface point alone, so all strategies of a path compute the same n.
  *
  * Tests: test_asbdpt.c.
  */
 #include "base/number.h"
 #include "integrators/loop.h"
 
-/* A vertex without a usable weight is never drawn. */
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
     (void)iteration;
@@ -26,20 +22,17 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     double *weight = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *weight);
     for (int i = 0; i < pool->n_candidates; i++) {
         const struct vertex *y = pool->candidate[i];
-        double q = rgb_luminance(y->beta) * table_ratio(&p->tables->pairs, 0, y->place);
-        bool usable = q >= 0 && isfinite(q);
-        weight[i] = usable ? q : 0;
-        pass->tile->nonfinite += !usable;
+        weight[i] = rgb_luminance(y->beta) * table_ratio(&p->tables->pairs, 0, y->place);
     }
     alias_build(&pool->alias, weight, pool->n_candidates);
     return NULL;
 }
 
-static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+static bool draw(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
                  int i, int n, struct drawn *out)
 {
     const struct pool *pool = &sample->pass->work->pool;
-    (void)p, (void)index, (void)z;
+    (void)p, (void)cache, (void)z;
     if (pool->alias.n == 0)
         return false;
     double pmf, u = (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n; /* stratified over the table */

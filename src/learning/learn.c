@@ -1,4 +1,4 @@
-/* learn.c: see learn.h. What is traced, and what is made of it; below that the rounds in their order. */
+/* learn.c: see learn.h. Where each lesson goes; then the three rounds, each with its samples and the tables of them. */
 #include "learning/learn.h"
 
 #include <stdlib.h>
@@ -41,7 +41,38 @@ static int trace_light(const struct learning *l, struct arena *arena, long i, en
     return path_light(&w, path, l->job->max_depth + 1, column);
 }
 
-/* --- the box of the eye vertices --------------------------------------------------------------------- */
+/* --- where lessons go -------------------------------------------------------------------------------- */
+
+static const struct axis ONE = {1, NULL, NULL};
+
+static void take(struct learning *l, const struct lesson *lesson)
+{
+    struct tables *t = l->tables;
+    const struct axis cells = {t->guide.columns, NULL, NULL};
+    switch ((enum lesson_kind)lesson->kind) {
+    case VISIT: t->use[regions_add(&t->regions, lesson->row)] += lesson->w; break;
+    case GUIDE: {
+        int region = regions_add(&t->regions, lesson->row);
+        table_add(&t->guide, regions_axis(&t->regions), cells, region, lesson->column, lesson->x, lesson->w);
+        break;
+    }
+    case RAY:
+        l->n_light++;
+        if (l->rays.n > 0)
+            table_add(&t->emission, ONE, l->rays, 0, lesson->column, lesson->x, lesson->w);
+        break;
+    case LIGHT_VERTEX: lessons_add(&l->light_vertices, *lesson); break; /* others look regions up: add none yet */
+    case TRIAL:
+        table_add(&t->pairs, regions_axis(&t->regions), regions_axis(&t->regions), (int)lesson->row, lesson->column,
+                  lesson->x, lesson->w);
+        break;
+    }
+}
+
+/* --- eye sub-paths: regions, use, guide --------------------------------------------------------------- */
+
+enum { LIGHTS_PER_VERTEX = 2 }; /* light points that each eye vertex tries */
+static const double GUIDE_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
 
 static int by_size(const void *a, const void *b)
 {
@@ -79,16 +110,7 @@ static void find_box(const struct learning *l, vec3 *low, vec3 *high)
     }
 }
 
-/* --- what is traced: samples, as lessons -------------------------------------------------------------- */
-
-static const double FIRST_VERTEX = 0.2; /* factor of y_1 in the worth of a ray: s = 1 finds the same light */
-enum { LIGHTS_PER_VERTEX = 2 }; /* light points that each eye vertex tries */
-enum {
-    POOL = 64, /* number of light sub-paths of a chunk */
-    TRIALS = 4 /* number of trial connections of each eye vertex */
-};
-
-static void trace_uses(struct learning *l, struct workspace *work, long i, struct lessons *out)
+static void trace_eye_path(struct learning *l, struct workspace *work, long i, struct lessons *out)
 {
     struct sampler sampler;
     int n = trace_eye(l, work, i, STREAM_EYE, &sampler);
@@ -98,27 +120,96 @@ static void trace_uses(struct learning *l, struct workspace *work, long i, struc
         double beta = rgb_luminance(z->beta);
         uint64_t key = regions_key(&l->tables->regions, z->p, vertex_side(z));
         lessons_add(out, (struct lesson){VISIT, key, 0, 0, beta});
-        for (int j = 0; l->options->direct && j < LIGHTS_PER_VERTEX; j++) {
+        for (int j = 0; l->options->guide && j < LIGHTS_PER_VERTEX; j++) {
             struct vertex y;
-            struct connection c = connect_direct(l->job->scene, &l->counts, z, &sampler, j, LIGHTS_PER_VERTEX, &y);
+            struct connection c = connect_s1(l->job->scene, &l->counts, z, &sampler, j, LIGHTS_PER_VERTEX, &y);
             if (y.light >= 0)
-                lessons_add(out, (struct lesson){DIRECT, key, y.place, rgb_luminance(c.value) / beta, beta});
+                lessons_add(out, (struct lesson){GUIDE, key, y.place, rgb_luminance(c.value) / beta, beta});
         }
     }
 }
+
+static void learn_eye_paths(struct learning *l, long n)
+{
+    vec3 low, high;
+    find_box(l, &low, &high);
+    regions_init(&l->tables->regions, low, high, REGION_CUBES, REGIONS);
+    l->tables->use = mem_alloc(REGIONS, sizeof *l->tables->use);
+    if (l->options->guide)
+        l->tables->guide = table_learn(REGIONS, l->job->scene->lights.n_cells);
+    lessons_learn(l, trace_eye_path, &NO_TABLES, 0, n);
+}
+
+/* After the last round that adds regions. */
+static void build_guide(struct learning *l)
+{
+    const struct light_set *lights = &l->job->scene->lights;
+    const struct axis cells = {lights->n_cells, NULL, NULL};
+    double *base = mem_alloc((size_t)lights->n_cells, sizeof *base);
+    for (int cell = 0; cell < lights->n_cells; cell++)
+        base[cell] = alias_pmf(&lights->choice, cell);
+    table_build(&l->tables->guide, regions_axis(&l->tables->regions), cells, base, GUIDE_DELTA, false, true);
+    free(base);
+}
+
+/* --- light sub-paths: emission, vertices --------------------------------------------------------------- */
+
+static const double FIRST_VERTEX = 0.2; /* factor of y_1 in the worth of a ray: s = 1 finds the same light */
 
 static void trace_light_path(struct learning *l, struct workspace *work, long i, struct lessons *out)
 {
     const struct tables *t = l->tables;
     struct vertex *path = arena_alloc(&work->arena, ((size_t)l->job->max_depth + 1) * sizeof *path);
     int column, n = trace_light(l, &work->arena, i, STREAM_LIGHT, path, &column);
-    double worth = n > 1 && t->use != NULL ? FIRST_VERTEX * path_use(t, path, 2) + path_use(t, path + 1, n - 1) : 0;
+    double worth = n > 1 && t->use != NULL ? FIRST_VERTEX * path_use(t, path, 1, 2) + path_use(t, path, 2, n) : 0;
     lessons_add(out, (struct lesson){RAY, 0, column, sqr(worth), 1});
     for (const struct vertex *y = path + 1; y < path + n; y++)
         if (vertex_connectible(y))
             lessons_add(out,
-                        (struct lesson){SUBPATH_VERTEX, regions_key(&t->regions, y->p, vertex_side(y)), column, 0, 1});
+                        (struct lesson){LIGHT_VERTEX, regions_key(&t->regions, y->p, vertex_side(y)), column, 0, 1});
 }
+
+/* The sub-paths were traced by power. When rays leave by the table of emission, one of them is met `ratio` times as
+ * often. */
+static void count_light_vertices(struct learning *l)
+{
+    struct tables *t = l->tables;
+    const struct lessons *seen = &l->light_vertices;
+    t->vertices = t->use != NULL ? mem_alloc(REGIONS, sizeof *t->vertices) : NULL;
+    for (const struct lesson *y = seen->item; y < seen->item + seen->n; y++) {
+        double times = table_ratio(&t->emission, 0, y->column);
+        t->light_vertices += times;
+        if (t->vertices != NULL)
+            t->vertices[regions_add(&t->regions, y->row)] += times;
+    }
+    for (int i = 0; t->vertices != NULL && t->light_vertices > 0 && i < t->regions.n; i++)
+        t->vertices[i] /= t->light_vertices;
+    t->light_vertices /= most_of(l->n_light, 1);
+    free(seen->item);
+}
+
+static void learn_light_paths(struct learning *l, long n)
+{
+    const struct light_set *lights = &l->job->scene->lights;
+    bool emission = l->options->use && l->options->emission < 1 && lights->choice.n > 0;
+    double *base = NULL;
+    if (emission) {
+        l->rays = emission_axis_new(lights, &base);
+        l->tables->emission = table_learn(1, l->rays.n);
+    }
+    lessons_learn(l, trace_light_path, l->tables, 0, n);
+    if (emission)
+        table_build(&l->tables->emission, ONE, l->rays, base, l->options->emission, true, true);
+    emission_axis_free(&l->rays, base);
+    count_light_vertices(l);
+}
+
+/* --- trial connections: pairs ------------------------------------------------------------------------- */
+
+enum {
+    POOL = 64, /* number of light sub-paths of a chunk */
+    TRIALS = 4 /* number of trial connections of each eye vertex */
+};
 
 /* Trace the light sub-paths of the chunk that eye sub-path number i begins, into the workspace's pool. */
 static void fill_pool(struct learning *l, struct pool *pool, long i)
@@ -130,10 +221,8 @@ static void fill_pool(struct learning *l, struct pool *pool, long i)
     }
     pool_find_candidates(pool);
     double *L = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *L);
-    for (int k = 0; k < pool->n_candidates; k++) {
-        double luminance = rgb_luminance(pool->candidate[k]->beta);
-        L[k] = luminance < 1e100 ? luminance : 0; /* false for NaN */
-    }
+    for (int k = 0; k < pool->n_candidates; k++)
+        L[k] = rgb_luminance(pool->candidate[k]->beta);
     alias_build(&pool->alias, L, pool->n_candidates);
 }
 
@@ -157,95 +246,6 @@ static void trace_trials(struct learning *l, struct workspace *work, long i, str
         }
 }
 
-/* --- what is made of it: sums ------------------------------------------------------------------------ */
-
-static void take(struct learning *l, const struct lesson *lesson)
-{
-    struct tables *t = l->tables;
-    const struct axis one = {1, NULL, NULL}, cells = {t->direct.columns, NULL, NULL};
-    switch ((enum lesson_kind)lesson->kind) {
-    case VISIT: t->use[regions_add(&t->regions, lesson->row)] += lesson->w; break;
-    case DIRECT: {
-        int region = regions_add(&t->regions, lesson->row);
-        table_add(&t->direct, regions_axis(&t->regions), cells, region, lesson->column, lesson->x, lesson->w);
-        break;
-    }
-    case RAY:
-        l->n_light++;
-        if (l->rays.n > 0)
-            table_add(&t->emission, one, l->rays, 0, lesson->column, lesson->x, lesson->w);
-        break;
-    case SUBPATH_VERTEX: lessons_add(&l->light_vertices, *lesson); break; /* others look regions up: add none yet */
-    case TRIAL:
-        table_add(&t->pairs, regions_axis(&t->regions), regions_axis(&t->regions), (int)lesson->row, lesson->column,
-                  lesson->x, lesson->w);
-        break;
-    }
-}
-
-/* --- rounds, and the tables that they fill ------------------------------------------------------------ */
-
-static const double DIRECT_DELTA = 0.2; /* share of s = 1 samples that choose lights by power */
-
-static void learn_uses(struct learning *l, long n)
-{
-    vec3 low, high;
-    find_box(l, &low, &high);
-    regions_init(&l->tables->regions, low, high, REGION_CUBES, REGIONS);
-    l->tables->use = mem_alloc(REGIONS, sizeof *l->tables->use);
-    if (l->options->direct)
-        l->tables->direct = table_learn(REGIONS, l->job->scene->lights.n_cells);
-    lessons_learn(l, trace_uses, &NO_TABLES, 0, n);
-}
-
-/* Count the light vertices. They were traced by power. When rays leave by the table of emission, one of them is met
- * `ratio` times as often. */
-static void count_light_vertices(struct learning *l)
-{
-    struct tables *t = l->tables;
-    const struct lessons *seen = &l->light_vertices;
-    t->vertices = t->use != NULL ? mem_alloc(REGIONS, sizeof *t->vertices) : NULL;
-    for (const struct lesson *y = seen->item; y < seen->item + seen->n; y++) {
-        double times = table_ratio(&t->emission, 0, y->column);
-        t->light_vertices += times;
-        if (t->vertices != NULL)
-            t->vertices[regions_add(&t->regions, y->row)] += times;
-    }
-    for (int i = 0; t->vertices != NULL && t->light_vertices > 0 && i < t->regions.n; i++)
-        t->vertices[i] /= t->light_vertices;
-    t->light_vertices /= most_of(l->n_light, 1);
-    free(seen->item);
-}
-
-static void learn_light_paths(struct learning *l, long n)
-{
-    const struct light_set *lights = &l->job->scene->lights;
-    const struct axis one = {1, NULL, NULL};
-    bool emission = l->options->use && l->options->emission < 1 && lights->choice.n > 0;
-    double *base = NULL;
-    if (emission) {
-        l->rays = emission_axis_new(lights, &base);
-        l->tables->emission = table_learn(1, l->rays.n);
-    }
-    lessons_learn(l, trace_light_path, l->tables, 0, n);
-    if (emission)
-        table_build(&l->tables->emission, one, l->rays, base, l->options->emission, true, true);
-    emission_axis_free(&l->rays, base);
-    count_light_vertices(l);
-}
-
-/* After the last round that adds regions. */
-static void build_direct(struct learning *l)
-{
-    const struct light_set *lights = &l->job->scene->lights;
-    const struct axis cells = {lights->n_cells, NULL, NULL};
-    double *base = mem_alloc((size_t)lights->n_cells, sizeof *base);
-    for (int cell = 0; cell < lights->n_cells; cell++)
-        base[cell] = alias_pmf(&lights->choice, cell);
-    table_build(&l->tables->direct, regions_axis(&l->tables->regions), cells, base, DIRECT_DELTA, false, true);
-    free(base);
-}
-
 static void learn_pairs(struct learning *l, long first, long end)
 {
     struct tables *t = l->tables;
@@ -255,6 +255,8 @@ static void learn_pairs(struct learning *l, long first, long end)
     table_build(&t->pairs, axis, axis, t->vertices, l->options->delta, false, false);
 }
 
+/* --- all rounds -------------------------------------------------------------------------------------- */
+
 enum { LIGHT_COUNTED = 4 * 1024 }; /* light sub-paths if only the mean number of their vertices is needed */
 
 void learn(const struct render_job *job, const struct learn_options *options, struct tables *out)
@@ -262,19 +264,20 @@ void learn(const struct render_job *job, const struct learn_options *options, st
     struct learning l = {.job = job, .options = options, .tables = out,
                          .work = workspaces_new(job->n_threads, job->max_depth), .take = take,
                          .counts = {.tables = &NO_TABLES}};
-    bool few = options->few || (options->direct && !options->use && !options->pairs);
+    bool regions = options->use || options->guide || options->pairs;
+    bool few = options->few || (options->guide && !options->use && !options->pairs);
     double pixels = (double)rect_pixels(job->film_rect);
-    long n = few ? int_within(pixels / DIRECT_PIXELS, DIRECT_LEAST, LEARN_MOST)
+    long n = few ? int_within(pixels / FEW_PIXELS, FEW_LEAST, LEARN_MOST)
                  : int_within(pixels * LEARN_PER_PIXEL, LEARN_LEAST, LEARN_MOST);
-    long n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT, half = n / 2 / CHUNK * CHUNK;
-    bool regions = options->use || options->direct || options->pairs;
-    l.budget = (regions ? (double)n : 0) + (double)(options->use ? n_light : options->count ? LIGHT_COUNTED : 0);
+    long n_light = options->use ? (n < LEARN_LIGHT ? n : LEARN_LIGHT) : options->count ? LIGHT_COUNTED : 0;
+    long half = options->pairs ? n / 2 / CHUNK * CHUNK : n;
+    l.budget = (double)(regions ? n : 0) + (double)n_light;
     if (regions)
-        learn_uses(&l, options->pairs ? half : n);
-    if (options->use || options->count)
-        learn_light_paths(&l, options->use ? n_light : LIGHT_COUNTED);
-    if (options->direct)
-        build_direct(&l);
+        learn_eye_paths(&l, half);
+    if (n_light > 0)
+        learn_light_paths(&l, n_light);
+    if (options->guide)
+        build_guide(&l);
     if (options->pairs)
         learn_pairs(&l, half, n);
     workspaces_free(l.work, job->n_threads);

@@ -46,7 +46,7 @@ void lessons_learn(struct learning *l, void (*trace)(struct learning *, struct w
     struct parallel_jobs jobs = {(end - first + CHUNK - 1) / CHUNK, n_threads, n_slots, l, trace_chunk, take_chunk,
                                  NULL};
     l->trace = trace;
-    l->counts = (struct counts){.direct = {1, 1}, .tables = known};
+    l->counts = (struct counts){.s1 = {1, 1}, .tables = known};
     l->first = first;
     l->end = end;
     l->list = mem_alloc((size_t)n_slots, sizeof *l->list);

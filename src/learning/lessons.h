@@ -11,16 +11,16 @@
 
 struct learn_options; /* learn.h */
 
-/* What a lesson is about. Those of an eye vertex, and where they go: */
+/* What a lesson is about, and the member of struct tables that it is for. */
 enum lesson_kind {
-    VISIT,         /* it was there                                  use */
-    DIRECT,        /* what it receives from a light cell            direct */
-    TRIAL,         /* what it receives from a light vertex          pairs */
-    RAY,           /* of a light sub-path: what its ray was worth   emission */
-    SUBPATH_VERTEX /* of a light sub-path: where it has a vertex    vertices, light_vertices */
+    VISIT,       /* an eye vertex was there                           use */
+    GUIDE,       /* what an eye vertex receives from a light cell     guide */
+    TRIAL,       /* what an eye vertex receives from a light vertex   pairs */
+    RAY,         /* what the ray of a light sub-path was worth        emission */
+    LIGHT_VERTEX /* a light sub-path has a vertex there               vertices, light_vertices */
 };
 
-/* A sample for a table: its row and column, worth and weight. */
+/* A sample for a table: its row and column, worth x and weight w (table.h). */
 struct lesson {
     int kind;
     uint64_t row; /* a region, or the key of one that may be new */

@@ -286,9 +286,9 @@ static void joined(void *context, const struct sample *sample, const struct join
         told.px = j->px;
         told.py = j->py;
     }
-    if ((j->s == 0 || j->light != NULL) && (j->t == 1 || j->z != NULL)) {
+    if ((j->s == 0 || j->path != NULL) && (j->t == 1 || j->z != NULL)) {
         for (int i = 0; i < j->s; i++)
-            vertex[told.n++] = tell(scene, &j->light[i]);
+            vertex[told.n++] = tell(scene, &j->path[i]);
         for (int i = 0; i < j->t && j->t > 1; i++)
             vertex[told.n++] = tell(scene, j->z - i);
         if (j->t == 1) {

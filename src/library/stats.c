@@ -5,6 +5,7 @@
 #include "base/os.h"
 #include "base/version.h"
 #include "library/state.h"
+#include "render/chosen.h"
 
 double stats_us_per_path(const struct asbdpt *r)
 {
@@ -72,8 +73,8 @@ static void put_parameters(struct growing *f, const struct render_job *job, cons
 void stats_add(struct growing *f, const struct asbdpt *r, const struct texts *files, const char *checkpoint)
 {
     const struct film *film = &r->film;
-    struct method_number chosen[METHOD_NUMBERS];
-    method_numbers(&r->prepared, chosen);
+    struct chosen_number chosen[CHOSEN_NUMBERS];
+    chosen_numbers(&r->prepared, chosen);
     growing_add(f, "{\n\"version\": \"%s\"", VERSION);
     put_text(f, "scene", r->job.scene_path);
     growing_add(f, "%s", ",\n\"files\": [");
@@ -101,7 +102,7 @@ void stats_add(struct growing *f, const struct asbdpt *r, const struct texts *fi
     put_number(f, "peak_memory", os_peak_memory());
     put_number(f, "nonfinite", (double)film->nonfinite);
     growing_add(f, ",\n\"chosen\": {\n\"%s\": %.17g", chosen->name, chosen->value);
-    for (const struct method_number *n = chosen + 1; n->name != NULL; n++)
+    for (const struct chosen_number *n = chosen + 1; n->name != NULL; n++)
         put_number(f, n->name, n->value);
     growing_add(f, "%s", "}\n}\n");
 }

@@ -65,8 +65,8 @@ struct ray camera_ray(const struct camera *c, double px, double py, double u1, d
  * without a lens; on the plane of a parallel camera. */
 vec3 camera_sample_lens(const struct camera *c, vec3 p, double u1, double u2);
 
-/* camera_spread: what turns J into raster area per area across w at distance^2 d2. */
-static inline double camera_spread(const struct camera *c, double d2) { return c->parallel ? 1 : 1 / d2; }
+/* camera_falloff: what turns J into raster area per area across w at distance^2 d2. */
+static inline double camera_falloff(const struct camera *c, double d2) { return c->parallel ? 1 : 1 / d2; }
 
 /* camera_project: the raster point that a ray from lens point `lens` in unit direction w (away from the camera)
  * belongs to.

@@ -7,10 +7,10 @@
 #include "base/mem.h"
 #include "base/number.h"
 
-enum { SIDE = 8, BINS = SIDE * SIDE };
+enum { SIDE = 8, LEAVES = SIDE * SIDE };
 
 /* Nodes of a cell: the cell, 2 x 2, 4 x 4 and 8 x 8 parts, one level behind the other. */
-enum { LEVELS = 4, NODES = 1 + 4 + 16 + BINS, FIRST_BIN = NODES - BINS };
+enum { LEVELS = 4, NODES = 1 + 4 + 16 + LEAVES, FIRST_LEAF = NODES - LEAVES };
 
 struct axis emission_axis_new(const struct light_set *lights, double **base)
 {
@@ -23,7 +23,7 @@ struct axis emission_axis_new(const struct light_set *lights, double **base)
             for (int i = 0; i < side * side; i++) {
                 a.above[node + i] = side == 1 ? 0 : wider + i / side / 2 * (side / 2) + i % side / 2;
                 a.level[node + i] = level;
-                (*base)[node + i] = side == SIDE ? alias_pmf(&lights->choice, cell) / BINS : 0;
+                (*base)[node + i] = side == SIDE ? alias_pmf(&lights->choice, cell) / LEAVES : 0;
             }
             wider = node;
             node += side * side;
@@ -42,7 +42,7 @@ void emission_axis_free(struct axis *a, double *base)
 int emission_column(int cell, const double square[2])
 {
     int row = int_within(square[0] * SIDE, 0, SIDE - 1), column = int_within(square[1] * SIDE, 0, SIDE - 1);
-    return 1 + cell * NODES + FIRST_BIN + row * SIDE + column;
+    return 1 + cell * NODES + FIRST_LEAF + row * SIDE + column;
 }
 
 int emission_column_of(const struct light_set *lights, const struct light_point *y0, vec3 p, vec3 w)
@@ -67,13 +67,13 @@ rgb emission_sample(const struct table *t, const struct light_set *lights, const
         *column = emission_column(cell, direction);
     } else {
         cell = table_draw(t, 0, 1, lights->n_cells, NODES, u[0], &pmf, &in_cell[0]);
-        int bin = 1 + cell * NODES + FIRST_BIN; /* then the bin's row, then its column, each by a number of its own */
+        int leaf = 1 + cell * NODES + FIRST_LEAF; /* its row, then its column, each by a number of its own */
         for (int i = 0, each = SIDE; i < 2; i++, each = 1) {
-            int part = table_draw(t, 0, bin, SIDE, each, direction[i], &pmf, &in_square[i]);
+            int part = table_draw(t, 0, leaf, SIDE, each, direction[i], &pmf, &in_square[i]);
             in_square[i] = below_one((part + in_square[i]) / SIDE);
-            bin += part * each;
+            leaf += part * each;
         }
-        *column = bin;
+        *column = leaf;
     }
     if (!light_sample_cell(lights, geo, cell, in_cell, at))
         return rgb_black();

@@ -11,7 +11,7 @@ void tables_free(struct tables *t)
     regions_free(&t->regions);
     free(t->use);
     free(t->vertices);
-    table_free(&t->direct);
+    table_free(&t->guide);
     table_free(&t->pairs);
     table_free(&t->emission);
     memset(t, 0, sizeof *t);

@@ -4,7 +4,7 @@
 #include "base/alias.h"
 #include "tables/emission.h"
 
-struct connection connect_hit(const struct scene *scene, const struct counts *counts, const struct vertex *prev,
+struct connection connect_s0(const struct scene *scene, const struct counts *counts, const struct vertex *prev,
                               const struct vertex *z)
 {
     const struct light_set *lights = &scene->lights;
@@ -21,12 +21,12 @@ struct connection connect_hit(const struct scene *scene, const struct counts *co
     if (rgb_is_black(c.value) || seen)
         return c;
     /* n of s = 1, which connects prev to z; z->mis_c is n of s >= 2 */
-    double c_e = z->prev_delta ? 0 : n_direct(counts, prev->place, prev->eye_end, at.cell);
+    double c_e = z->prev_delta ? 0 : n_s1(counts, prev->place, prev->eye_end, at.cell);
     /* density of the direction of the light sub-path's first ray; at infinity, of its origin */
     const vec3 start = z->kind == VERTEX_ESCAPED ? prev->p : z->p;
     double pdf_emit = emission_pdf(&counts->tables->emission, lights, &at, start, z->wo);
     double eye_side = mis_side(at.pdf, z->pdf_fwd, c_e, pdf_emit, z->mis); /* mis.h (5) */
-    c.weight = mis_weight(counts->hit[prev->eye_end], 0, eye_side); /* mis.h (7), A_light being 0 */
+    c.weight = mis_weight(counts->s0[prev->eye_end], 0, eye_side); /* mis.h (7), A_light being 0 */
     return c;
 }
 
@@ -34,18 +34,18 @@ struct connection connect_hit(const struct scene *scene, const struct counts *co
 
 /* The unit direction from z to y.
  *   length  out: infinite if y is at infinity
- *   spread  out, of rays: area across w at one end per steradian at the other, 1/length^2; parallel rays: 1 */
+ *   falloff  out, of rays: area across w at one end per steradian at the other, 1/length^2; parallel rays: 1 */
 static inline vec3 line_between(const struct scene *scene, const struct vertex *y, const struct vertex *z,
-                                double *length, double *spread)
+                                double *length, double *falloff)
 {
     *length = INFINITY;
-    *spread = 1;
+    *falloff = 1;
     if (vertex_at_infinity(scene, y))
         return y->wo;
     vec3 d = sub(y->p, z->p);
     double d2 = length2(d);
     *length = sqrt(d2);
-    *spread = z->kind == VERTEX_LENS ? camera_spread(&scene->camera, d2) : 1 / d2;
+    *falloff = z->kind == VERTEX_LENS ? camera_falloff(&scene->camera, d2) : 1 / d2;
     return mul(d, 1 / *length);
 }
 
@@ -91,7 +91,7 @@ static double light_side(const struct scene *scene, const struct counts *counts,
         const struct vertex *prev = y - 1;
         c_e = y->prev_delta ? 0 : n_if(counts, prev, y, FIRST_HIT);
         if (prev->kind == VERTEX_LIGHT && !light_is_delta(&scene->lights.light[prev->light]))
-            mis = mis_step(counts->hit[FIRST_HIT], 0, 0, prev->pdf_fwd, y->g);
+            mis = mis_step(counts->s0[FIRST_HIT], 0, 0, prev->pdf_fwd, y->g);
     }
     return mis_side(R, y->pdf_fwd, c_e, pdf_rev, mis);
 }
@@ -100,8 +100,8 @@ struct connection connect_vertices(const struct scene *scene, const struct count
                                    const struct vertex *z)
 {
     struct connection c = {.light = y->kind == VERTEX_LIGHT ? y->light : -1};
-    double length, spread;
-    const vec3 w = line_between(scene, y, z, &length, &spread), back = neg(w);
+    double length, falloff;
+    const vec3 w = line_between(scene, y, z, &length, &falloff), back = neg(w);
     if (!(length > 0) || rgb_is_black(y->beta) || !may_leave(z, w) || !may_leave(y, back))
         return c;
     const struct bsdf_value at_z = scatter_towards(z, w, RADIANCE);
@@ -109,15 +109,15 @@ struct connection connect_vertices(const struct scene *scene, const struct count
         return c;
     const struct bsdf_value at_y = scatter_towards(y, back, IMPORTANCE);
     /* C* = alpha_s c alpha_t, c = f G f: both cosines are in the factors [V97 10.2] */
-    rgb value = rgb_mul(rgb_mul(y->beta, at_y.f), rgb_scale(rgb_mul(z->beta, at_z.f), spread));
+    rgb value = rgb_mul(rgb_mul(y->beta, at_y.f), rgb_scale(rgb_mul(z->beta, at_z.f), falloff));
     struct ray ray = {z->p, w, 0, length, z->prim_id, y->prim_id};
     struct edge edge;
     if (rgb_is_black(value) ||
         !scene_edge(scene, &ray, vertex_medium(scene, z, w), y->kind == VERTEX_LIGHT, &edge))
         return c;
     double pdf_y = y->kind == VERTEX_LIGHT ? emitted_pdf(scene, counts, y, z->p, back) : at_y.pdf;
-    double R_y = at_z.pdf * vertex_cosine(y, w) * spread * edge.density[1];
-    double R_z = pdf_y * vertex_cosine(z, w) * spread * edge.density[0];
+    double R_y = at_z.pdf * vertex_cosine(y, w) * falloff * edge.density[1];
+    double R_z = pdf_y * vertex_cosine(z, w) * falloff * edge.density[0];
     double eye_side = mis_side(R_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis); /* mis.h (5) */
     c.value = rgb_mul(value, edge.left);
     c.weight = mis_weight(n_of(counts, y, z), light_side(scene, counts, y, z, R_y, at_y.pdf_rev), eye_side); /* (7) */
@@ -130,7 +130,7 @@ bool light_draw(const struct scene *scene, const struct counts *counts, const st
                 int i, int n, struct light_point *at, double *pdf)
 {
     const struct light_set *lights = &scene->lights;
-    const struct table *table = &counts->tables->direct;
+    const struct table *table = &counts->tables->guide;
     double u[3], pmf;
     u[0] = below_one((i + sampler_number(sampler, DRAW_LIGHT)) / n);
     sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
@@ -143,7 +143,7 @@ bool light_draw(const struct scene *scene, const struct counts *counts, const st
     return true;
 }
 
-struct connection connect_direct(const struct scene *scene, const struct counts *counts, const struct vertex *z,
+struct connection connect_s1(const struct scene *scene, const struct counts *counts, const struct vertex *z,
                                  struct sampler *sampler, int i, int n, struct vertex *y)
 {
     const struct light_set *lights = &scene->lights;
@@ -157,7 +157,7 @@ struct connection connect_direct(const struct scene *scene, const struct counts 
         vec3 w = light_at_infinity(&lights->light[at.light]) ? neg(at.w) : normalize(sub(z->p, at.p));
         sent = rgb_scale(light_Le(lights, &at, w), 1 / pdf);
     }
-    vertex_light(scene, &at, sent, counts->hit[z->eye_end], y);
+    vertex_light(scene, &at, sent, counts->s0[z->eye_end], y);
     return connect_vertices(scene, counts, y, z);
 }
 

@@ -1,9 +1,9 @@
 /* connect.h: the contribution of one strategy (s,t): a light sub-path of s vertices joined to an eye sub-path of t.
  *
- *   s = 0    the eye sub-path's last vertex is itself on a light       connect_hit
+ *   s = 0    the eye sub-path's last vertex is itself on a light       connect_s0
  *   s >= 1   light vertex y_{s-1} and eye vertex z_{t-1} are joined    connect_vertices
  *
- * Two kinds of ends belong to no walk. If s = 1, connect_direct draws y_0 for the other end. If t = 1, connect_lens
+ * Two kinds of ends belong to no walk. If s = 1, connect_s1 draws y_0 for the other end. If t = 1, connect_lens
  * draws z_0. Strategy (1,1) is left to (0,2).
  *
  * A connection's value is the unweighted contribution C* of [V97 10.2]: the product of throughputs, both scattering
@@ -23,10 +23,10 @@ struct connection {
     int light;     /* s <= 1: number of the light, unless value is black */
 };
 
-/* connect_hit: z is the last of t >= 2 eye vertices, and prev the one before. If the last edge passes a see-through
+/* connect_s0: z is the last of t >= 2 eye vertices, and prev the one before. If the last edge passes a see-through
  * light, that light takes the place of z. A light that the camera sees directly (t = 2) has weight 1, since no other
  * strategy makes paths of two vertices. */
-struct connection connect_hit(const struct scene *scene, const struct counts *counts, const struct vertex *prev,
+struct connection connect_s0(const struct scene *scene, const struct counts *counts, const struct vertex *prev,
                               const struct vertex *z);
 
 /* connect_vertices: y is a light vertex, z an eye vertex. At most one of them is a drawn end. The vertices of y's walk
@@ -37,11 +37,11 @@ struct connection connect_vertices(const struct scene *scene, const struct count
 /* light_draw: draw a point of a light for eye vertex z, as number i of n whose lights are stratified: of two points on
  * a light of two triangles, each triangle has one. Its density is *pdf; 0 where nothing is emitted. False if no
  * connection can end at z, or there is no light.
- * connect_direct: make it a vertex y_0, which may send nothing to z, and connect both. y->light is -1 if there is
- * none. */
+ * connect_s1: the same as a vertex y_0, which may send nothing to z, and connect both. If there is none, y->light is
+ * -1. */
 bool light_draw(const struct scene *scene, const struct counts *counts, const struct vertex *z, struct sampler *sampler,
                 int i, int n, struct light_point *at, double *pdf);
-struct connection connect_direct(const struct scene *scene, const struct counts *counts, const struct vertex *z,
+struct connection connect_s1(const struct scene *scene, const struct counts *counts, const struct vertex *z,
                                  struct sampler *sampler, int i, int n, struct vertex *y);
 
 /* lens_point: draw z_0 for light vertex y. False if the camera does not see there.

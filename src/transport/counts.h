@@ -1,28 +1,25 @@
 /* counts.h: how many samples each kind of strategy takes, and how many these count as in the weights (mis.h).
  *
- *   hit     s = 0          the eye walk meets a light
- *   direct  s = 1          connection to a new point on a light
- *   pair    s >= 2, t >= 2 connection to a light vertex
- *   lens    s >= 2, t = 1  connection of a light vertex to the lens
+ *   s0    s = 0          the eye walk meets a light
+ *   s1    s = 1          connection to a new point on a light
+ *   pair  s >= 2, t >= 2 connection to a light vertex
+ *   lens  s >= 2, t = 1  connection of a light vertex to the lens
  *
  * BDPT takes one sample of each, and of `lens` one for each pixel of the film. In general the number n of a strategy
  * for a path is a function of the two ends of the connecting edge: of the kind of the eye end, and of the places of
  * both (vertex.h). A walk that arrives at the second end knows both, so every strategy computes the same number for the
- * same path.
+ * same path. Places count for methods that learn: these choose one place more often than another, by the *ratio* of a
+ * table (table.h). Elsewhere it is 1: take it for 1 at a first reading.
  *
- * Places count for methods that learn: these choose one place more often than another. Their tables (table.h) have the
- * *ratio*: how much more often than if nothing had been learnt. Elsewhere it is 1: take it for 1 at a first reading.
+ * The balance heuristic compares second moments. Samples that are better distributed than independent ones have less
+ * variance and deserve a higher count, a credit [Grittmann 2019]; the weights still add up to 1. Stratified draws have
+ * the credit 2. Direct light at a first hit has 4, because the first numbers of an eye sub-path are stratified over the
+ * iterations of a pixel (sampler.h). X being its contribution and V_N the variance of the mean of N samples, each
+ * should count as E[X^2] / (N V_N). For N = 16 that is between 1 and 64 in most scenes, and one constant costs 3 % more
+ * squared error than to measure it before each render. Where light sub-paths are rare (`every` below), so are splats of
+ * the same light, which would be noise: there the credit is 4 times `every`.
  *
- * The balance heuristic compares second moments. The samples of some strategies are better distributed than independent
- * samples and have less variance. Such a strategy deserves a higher count, a credit [Grittmann 2019]. The weights still
- * add up to 1. Stratified draws have the credit 2. The credit of direct light at a first hit is 4: the first numbers of
- * an eye sub-path are spread evenly over the iterations of a pixel (sampler.h), so the mean of N samples of direct
- * light has less than 1/N of the variance of one. Such a sample should count as E[X^2] / (N V_N) samples, X its
- * contribution and V_N the variance of the mean. For N = 16 that ratio is between 1 and 64 in most scenes. One constant
- * costs 3 % more squared error than to measure it before each render. Where light sub-paths are rare (`every` below),
- * so are splats of the same light, which would be noise: there the credit is 4 times `every`.
- *
- * Draws from a pool of light vertices (asbdpt.c) have a bound M: where few of them are useful, the same ones are drawn
+ * Draws from a pool (asbdpt.c) have a bound M: where few of its light vertices are useful, the same ones are drawn
  * again and again. Draws that would count as x samples of an endless pool count as x / (1 + x / M), less than M.
  */
 #ifndef ASBDPT_COUNTS_H
@@ -36,12 +33,12 @@ enum { DIRECT_CREDIT = 4, PAIR_CREDIT = 2 };
 
 /* How many samples a method takes, in each iteration of a pixel. */
 struct numbers {
-    int light_points;     /* points on lights that a first hit is joined to; a later hit is joined to one. 0: the method
-                           * does not use the strategies of path tracing, s = 0 (t >= 3) and s = 1 */
-    int draws[EYE_ENDS];  /* light vertices that an eye vertex is joined to; BDPT: all vertices of one sub-path, once */
-    int path_pixels;      /* pixels per light sub-path; 0: there are no light sub-paths */
-    int every;            /* light sub-paths, and draws, happen in one of so many iterations of a tile, and count so
-                           * many times. 0, 1: in each. A power of two */
+    int light_points;    /* points on lights that a first hit is joined to; a later hit is joined to one. 0: the method
+                          * does not use the strategies of path tracing, s = 0 (t >= 3) and s = 1 */
+    int draws[EYE_ENDS]; /* light vertices that an eye vertex is joined to; BDPT: all vertices of one sub-path, once */
+    int path_pixels;     /* pixels per light sub-path; 0: there are no light sub-paths */
+    int every;           /* light sub-paths, and draws, happen in one of so many iterations of a tile, and count so
+                          * many times. 0, 1: in each. A power of two */
 };
 static inline int numbers_every(const struct numbers *n) { return n->every > 1 ? n->every : 1; }
 
@@ -55,27 +52,27 @@ static inline int numbers_every(const struct numbers *n) { return n->every > 1 ?
  * only at its last vertex if the lens is next (connect.c: light_side). Between any other first hit and the lens there
  * are delta lobes, where no strategy ends. */
 struct counts {
-    double hit[EYE_ENDS];    /* t >= 3; by the kind of z_{t-2} */
-    double direct[EYE_ENDS]; /* times the ratio of tables->direct */
-    double pair[EYE_ENDS];   /* times the ratio of tables->pairs: x of n_pair */
-    double lens;             /* light sub-paths, those of all pixels of the film */
+    double s0[EYE_ENDS];    /* t >= 3; by the kind of z_{t-2} */
+    double s1[EYE_ENDS];    /* times the ratio of tables->guide */
+    double pair[EYE_ENDS];  /* times the ratio of tables->pairs: x of n_pair */
+    double lens;            /* light sub-paths, those of all pixels of the film */
     const struct tables *tables;
-    double bound[EYE_ENDS];  /* times the ratio of tables->pairs: x / M; 0: no bound */
+    double bound[EYE_ENDS]; /* times the ratio of tables->pairs: x / M; 0: no bound */
 };
 
 /* counts_of: numbers times credits, without a bound.
  *   direct  credit of direct light at a first hit: s = 1, and s = 0 if the edge before the light begins there
  *   pair    x of one draw at ratio 1
- *   pixels  number of pixels of the film; a light sub-path may reach each of them */
+ *   pixels  of the film; a light sub-path may reach each of them */
 struct counts counts_of(struct numbers n, double direct, double pair, double pixels, const struct tables *tables);
 
 /* n_of: n of the strategy that connects light vertex y and eye vertex z. It is a function of both alone.
  * n_if: the same as if z were of the kind `end`.
- * n_direct: n of s = 1, of an eye vertex in a region and a point of a light cell.
+ * n_s1: n of s = 1, of an eye vertex in a region and a point of a light cell.
  * n_pair: n of s >= 2, t >= 2, of an eye vertex in region e and a light vertex in region l: x / (1 + x / M). */
-static inline double n_direct(const struct counts *c, int region, enum eye_end end, int cell)
+static inline double n_s1(const struct counts *c, int region, enum eye_end end, int cell)
 {
-    return c->direct[end] * table_ratio(&c->tables->direct, region, cell);
+    return c->s1[end] * table_ratio(&c->tables->guide, region, cell);
 }
 static inline double n_pair(const struct counts *c, int e, enum eye_end end, int l)
 {
@@ -85,7 +82,7 @@ static inline double n_pair(const struct counts *c, int e, enum eye_end end, int
 static inline double n_if(const struct counts *c, const struct vertex *y, const struct vertex *z, enum eye_end end)
 {
     return z->kind == VERTEX_LENS    ? c->lens
-           : y->kind == VERTEX_LIGHT ? n_direct(c, z->place, end, y->place)
+           : y->kind == VERTEX_LIGHT ? n_s1(c, z->place, end, y->place)
                                      : n_pair(c, z->place, end, y->place);
 }
 static inline double n_of(const struct counts *c, const struct vertex *y, const struct vertex *z)

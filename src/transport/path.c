@@ -1,8 +1,6 @@
 /* path.c: see path.h. */
 #include "transport/path.h"
 
-#include <string.h>
-
 #include "tables/emission.h"
 
 /* The density per area is F_e of mis.h: the density per steradian times the cosine over distance^2 [PBRT3 5.5.3]. The
@@ -10,10 +8,10 @@
 void walk_measure(const struct walk *w, struct vertex *v, const struct vertex *prev, const struct departure *from,
                   double d2)
 {
-    bool parallel = vertex_at_infinity(w->scene, prev); /* rays of a light at infinity do not spread */
-    double spread = prev->kind == VERTEX_LENS ? camera_spread(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
-    v->g = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * spread;
-    v->pdf_fwd = from->pdf * vertex_cosine(v, from->ray.d) * spread;
+    bool parallel = vertex_at_infinity(w->scene, prev); /* a light at infinity has parallel rays */
+    double falloff = prev->kind == VERTEX_LENS ? camera_falloff(&w->scene->camera, d2) : parallel ? 1 : 1 / d2;
+    v->g = parallel || prev->kind == VERTEX_LENS ? 1 : vertex_cosine(prev, from->ray.d) * falloff;
+    v->pdf_fwd = from->pdf * vertex_cosine(v, from->ray.d) * falloff;
     v->mis = mis_step(from->delta ? 0 : prev->mis_c, from->pdf_rev, prev->mis, prev->pdf_fwd, v->g);
 }
 
@@ -37,12 +35,8 @@ static bool escape(const struct walk *w, struct vertex *v, const struct vertex *
     const struct light_set *lights = &w->scene->lights;
     if (lights->n_layers == 0 && lamp == NULL)
         return false;
-    memset(v, 0, sizeof *v);
-    v->kind = VERTEX_ESCAPED;
-    v->light = lights->n_layers > 0 ? lights->sky : -1;
-    v->lamp = lamp;
-    v->prev_delta = from->delta;
-    v->wo = neg(from->ray.d);
+    *v = (struct vertex){.kind = VERTEX_ESCAPED, .prev_delta = from->delta, .wo = neg(from->ray.d), .lamp = lamp,
+                         .light = lights->n_layers > 0 ? lights->sky : -1};
     measure(w, v, prev, from, edge, 1); /* per steradian, as if at distance 1 */
     return true;
 }
@@ -54,13 +48,9 @@ static bool meet(const struct walk *w, struct vertex *v, const struct vertex *pr
     double d2 = length2(sub(at->p, from->ray.o));
     if (d2 == 0 || (dot(at->ng, from->ray.d) == 0 && at->prim_id != WITHIN_MEDIUM))
         return false;
-    v->kind = at->prim_id == WITHIN_MEDIUM ? VERTEX_MEDIUM : VERTEX_SURFACE;
-    v->ng = at->ng;
-    v->prev_delta = from->delta;
-    v->light = at->light;
-    v->p = at->p;
-    v->prim_id = at->prim_id;
-    v->wo = neg(from->ray.d);
+    *v = (struct vertex){.kind = at->prim_id == WITHIN_MEDIUM ? VERTEX_MEDIUM : VERTEX_SURFACE, .light = at->light,
+                         .p = at->p, .ng = at->ng, .prim_id = at->prim_id, .prev_delta = from->delta,
+                         .wo = neg(from->ray.d)};
     measure(w, v, prev, from, edge, d2);
     return true;
 }
@@ -79,7 +69,6 @@ static const struct vertex *meet_lamp(const struct walk *w, const struct vertex 
     ray.to = at.prim_id;
     scene_pass(w->scene, &ray, vertex_medium(w->scene, prev, ray.d), &edge);
     struct vertex *v = arena_alloc(w->arena, sizeof *v);
-    memset(v, 0, sizeof *v);
     return meet(w, v, prev, from, &edge, &at) ? v : NULL;
 }
 
@@ -199,17 +188,17 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices, int 
         *column = ray_column;
     if (max_vertices < 1 || !(from.pdf > 0) || rgb_is_black(emitted))
         return 0;
-    vertex_light(w->scene, &at, light_Le(&w->scene->lights, &at, from.ray.d), w->counts->hit[LATER_HIT], &path[0]);
+    vertex_light(w->scene, &at, light_Le(&w->scene->lights, &at, from.ray.d), w->counts->s0[LATER_HIT], &path[0]);
     from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf)); /* alpha_2 of [V97 eq. 10.6] */
     from.ray.tmin = ray_margin(from.ray.o) * (at.prim_id != 0 ? -GRAZING : 1);
     return walk_on(w, from, path, 1, max_vertices, IMPORTANCE);
 }
 
-double path_use(const struct tables *tables, const struct vertex *light, int n)
+double path_use(const struct tables *tables, const struct vertex *path, int first, int end)
 {
     double sum = 0;
-    for (int i = 1; i < n; i++)
-        if (vertex_connectible(&light[i]))
-            sum += rgb_luminance(light[i].beta) * tables->use[light[i].place];
+    for (const struct vertex *y = path + first; y < path + end; y++)
+        if (vertex_connectible(y))
+            sum += rgb_luminance(y->beta) * tables->use[y->place];
     return sum;
 }

@@ -1,18 +1,14 @@
 /* path.h: sub-paths, and the one random walk that makes both kinds.
  *
- * An eye sub-path z_0 z_1 ... starts on the lens, a light sub-path y_0 y_1 ... on a light. Each vertex stores what a
- * connection to it needs: its throughput, its scattering function and its part of the MIS weight (mis.h).
- *
- * The throughput beta of a vertex is the product of all factors of the measurement up to the *arrival* at the vertex,
- * divided by the density of the sub-path: alpha of [V97 eq. 10.6] [V97 eq. 10.7]. The BSDF of the vertex itself is not
- * a factor.
+ * An eye sub-path z_0 z_1 ... starts on the lens, a light sub-path y_0 y_1 ... on a light. The throughput beta of a
+ * vertex is the product of all factors of the measurement up to the *arrival* at the vertex, divided by the density of
+ * the sub-path: alpha of [V97 eq. 10.6] [V97 eq. 10.7]. The BSDF of the vertex itself is not a factor.
  *
  * From the second bounce on, Russian roulette ends walks whose throughput is low. A walk that has kept the fraction r
  * of its first throughput continues with probability q = sqrt(r / rr_threshold), and its throughput is divided by q
- * [Arvo & Kirk 1990]. The probability depends on the whole walk, so no other strategy could compute it for the same
- * path. The weights therefore leave it out. They still add up to 1, so the estimate is unbiased. They are close to the
- * best weights as long as q is close to 1. The square root makes q larger than the more common r / rr_threshold, since
- * a weak sub-path is still connected to many others.
+ * [Arvo & Kirk 1990]. The root makes q larger than r / rr_threshold, which is more common, since a weak sub-path is
+ * still connected to many others. q depends on the whole walk, so no other strategy could compute it for the same path,
+ * and the weights leave it out. They still add up to 1, so the estimate is unbiased.
  *
  * Tests: test_mis.c, test_render.c.
  */
@@ -52,14 +48,14 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices, int 
 
 /* path_throughput: beta of [S24]: mean over RGB of beta at the last vertex of a light sub-path; 0 if it is empty. If
  * y_0 is its only vertex, that is the emitted radiance, as in pbrt-v3, where [S24] was implemented. */
-static inline double path_throughput(const struct vertex *light, int n)
+static inline double path_throughput(const struct vertex *path, int n)
 {
-    return n < 1 ? 0 : rgb_mean(light[n - 1].beta);
+    return n < 1 ? 0 : rgb_mean(path[n - 1].beta);
 }
 
-/* path_use: the sum of luminance(beta) times `use` of the place (tables.h) over the connectible vertices y_1 .. of a
- * light sub-path: how much of it the camera can use. */
-double path_use(const struct tables *tables, const struct vertex *light, int n);
+/* path_use: how much the camera can use of vertices [first, end) of a light sub-path: the sum of luminance(beta) times
+ * `use` of the place (tables.h) over those that can be connected to. */
+double path_use(const struct tables *tables, const struct vertex *path, int first, int end);
 
 /* n_before: c_e of mis.h (3) for vertex v of a walk, and prev, the vertex before: n of the strategy that connects
  * these two; 0 if prev was left by a delta lobe. */

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+static const double MOST_LUMINANCE = 1e100;
+
 void pool_clear(struct pool *p)
 {
     arena_reset(&p->arena);
@@ -35,8 +37,10 @@ void pool_find_candidates(struct pool *p)
     p->candidate = arena_alloc(&p->arena, p->used * sizeof *p->candidate);
     for (int k = 0; k < p->n; k++) {
         const struct vertex *path = pool_path(p, k);
-        for (int i = 1; i < p->length[k]; i++)
-            if (vertex_connectible(&path[i]))
-                p->candidate[p->n_candidates++] = &path[i];
+        for (const struct vertex *y = path + 1; y < path + p->length[k]; y++) {
+            double L = rgb_luminance(y->beta);
+            if (vertex_connectible(y) && L > 0 && L < MOST_LUMINANCE) /* not if NaN */
+                p->candidate[p->n_candidates++] = y;
+        }
     }
 }

@@ -9,7 +9,7 @@ enum { MAX_TILE_SIZE = 32, POOL_PATHS = MAX_TILE_SIZE * MAX_TILE_SIZE };
 
 /* Vertices of a light sub-path: those of numbers [first, end). */
 struct drawn {
-    const struct vertex *light; /* the sub-path, from y_0 on */
+    const struct vertex *path; /* the light sub-path, from y_0 on */
     int first, end;
     double pmf; /* probability of their choice; 1: there was no choice */
 };
@@ -30,13 +30,13 @@ struct pool {
     size_t start[POOL_PATHS]; /* first vertex of path k */
     int length[POOL_PATHS];   /* vertices of path k */
     int n;                    /* K */
-    const struct vertex **candidate; /* [n_candidates] see pool_find_candidates; in the arena */
+    const struct vertex **candidate; /* [n_candidates], see pool_find_candidates; in the arena */
     int n_candidates;
     struct alias_table alias;    /* for those who draw by one; owned */
 };
 
-/* pool_clear: begin an iteration. pool_room: room for one more sub-path of at most so many vertices at the end of
- * pool->vertex. pool_add: so many have become a sub-path. */
+/* pool_clear: begin an iteration.
+ * pool_room: room for one more sub-path of at most so many vertices. pool_add: so many of them have become one. */
 void pool_clear(struct pool *p);
 struct vertex *pool_room(struct pool *p, size_t max_vertices);
 void pool_add(struct pool *p, int n);
@@ -44,8 +44,9 @@ void pool_free(struct pool *p);
 
 static inline const struct vertex *pool_path(const struct pool *p, int k) { return &p->vertex[p->start[k]]; }
 
-/* pool_find_candidates: the light vertices that can be connected to, all y_1, y_2 ... in the order of tracing. No
- * sub-path may be added afterwards. */
+/* pool_find_candidates: all light vertices y_1, y_2 ... that can be connected to, in the order of tracing. Whoever
+ * draws by the luminance of beta, or by products with it, gets sums that are finite and not 0: this is where a vertex
+ * of another beta is left out. No sub-path may be added afterwards. */
 void pool_find_candidates(struct pool *p);
 
 #endif

@@ -1,9 +1,8 @@
-/* render_job.h: a render from the words of a command line to the walk: what is asked of a scene, what follows from it,
- * and the callbacks. The caller fills the first part. job.h then settles the rest once. All modules below read the same
- * struct.
+/* render_job.h: what is asked of a render, what follows from it, and the callbacks. The caller fills the first part.
+ * job.h then settles the rest once.
  *
- * A render ends early in one way: all code that takes samples asks job_cancelled, and no other code decides. A limit of
- * time or noise, a signal, or a closed window is an answer of the function `cancel`.
+ * A render ends early in one way: all code that takes samples asks job_cancelled. A limit of time or noise, a signal,
+ * or a closed window is an answer of the function `cancel`.
  */
 #ifndef ASBDPT_RENDER_JOB_H
 #define ASBDPT_RENDER_JOB_H

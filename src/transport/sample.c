@@ -69,24 +69,24 @@ void sample_add(struct sample *sample, struct joined j)
     sample->value = rgb_add(sample->value, j.added);
 }
 
-void sample_hit(struct sample *sample, const struct vertex *eye, int t)
+void sample_s0(struct sample *sample, const struct vertex *eye, int t)
 {
-    if (t > 2 && !(sample->counts->hit[eye[t - 2].eye_end] > 0))
+    if (t > 2 && !(sample->counts->s0[eye[t - 2].eye_end] > 0))
         return;
-    struct connection c = connect_hit(sample->pass->job->scene, sample->counts, &eye[t - 2], &eye[t - 1]);
+    struct connection c = connect_s0(sample->pass->job->scene, sample->counts, &eye[t - 2], &eye[t - 1]);
     sample_add(sample, (struct joined){.s = 0, .t = t, .z = &eye[t - 1], .c = &c, .pmf = 1, .scale = 1});
 }
 
-void sample_direct(struct sample *sample, const struct vertex *z, int t)
+void sample_s1(struct sample *sample, const struct vertex *z, int t)
 {
     const struct render_job *job = sample->pass->job;
     int n = z->eye_end == FIRST_HIT ? sample->light_points : 1;
-    if (z->kind == VERTEX_ESCAPED || t > job->max_depth + 1 || !(sample->counts->direct[z->eye_end] > 0))
+    if (z->kind == VERTEX_ESCAPED || t > job->max_depth + 1 || !(sample->counts->s1[z->eye_end] > 0))
         return;
     for (int i = 0; i < n; i++) {
         struct vertex y;
-        struct connection c = connect_direct(job->scene, sample->counts, z, &sample->sampler, i, n, &y);
-        sample_add(sample, (struct joined){.s = 1, .t = t, .light = y.light >= 0 ? &y : NULL, .z = z, .c = &c,
+        struct connection c = connect_s1(job->scene, sample->counts, z, &sample->sampler, i, n, &y);
+        sample_add(sample, (struct joined){.s = 1, .t = t, .path = y.light >= 0 ? &y : NULL, .z = z, .c = &c,
                                            .pmf = 1, .scale = 1.0 / n});
     }
 }
@@ -95,8 +95,8 @@ void sample_pairs(struct sample *sample, const struct drawn *drawn, const struct
 {
     const struct render_job *job = sample->pass->job;
     for (int i = drawn->first; i < drawn->end && i + 1 + t <= job->max_depth + 2; i++) {
-        struct connection c = connect_vertices(job->scene, sample->counts, &drawn->light[i], z);
-        sample_add(sample, (struct joined){.s = i + 1, .t = t, .light = drawn->light, .z = z, .c = &c,
+        struct connection c = connect_vertices(job->scene, sample->counts, &drawn->path[i], z);
+        sample_add(sample, (struct joined){.s = i + 1, .t = t, .path = drawn->path, .z = z, .c = &c,
                                            .pmf = drawn->pmf, .scale = scale});
     }
 }
@@ -121,14 +121,14 @@ void sample_splat(struct sample *sample, struct joined j)
     }
 }
 
-void sample_lens(struct sample *sample, const struct vertex *light, int n_light, double scale)
+void sample_lens(struct sample *sample, const struct vertex *path, int n, double scale)
 {
     const struct render_job *job = sample->pass->job;
-    tell_walked(sample, IMPORTANCE, light, n_light);
-    for (int s = 2; s <= n_light && s <= job->max_depth + 1; s++) {
+    tell_walked(sample, IMPORTANCE, path, n);
+    for (int s = 2; s <= n && s <= job->max_depth + 1; s++) {
         double raster[2];
-        struct connection c = connect_lens(job->scene, sample->counts, &light[s - 1], &sample->sampler, raster);
-        sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .px = raster[0], .py = raster[1],
+        struct connection c = connect_lens(job->scene, sample->counts, &path[s - 1], &sample->sampler, raster);
+        sample_splat(sample, (struct joined){.s = s, .t = 1, .path = path, .c = &c, .px = raster[0], .py = raster[1],
                                              .pmf = 1, .scale = scale / sample->counts->lens});
     }
 }

@@ -1,12 +1,9 @@
-/* sample.h: one sample of a pixel: one pixel, one iteration. It consists of an eye sub-path, light sub-paths, and sums
- * of connections, weight times C* [V97 10.2], over the strategies of a sub-path or of a pair of sub-paths.
+/* sample.h: one sample of a pixel: one pixel, one iteration. It is a sum of connections, weight times C* [V97 10.2]. A
+ * method chooses of which strategies, with which light sub-paths. Random streams are a function of (seed, purpose,
+ * pixel, iteration), so a sub-path does not depend on the tile or thread.
  *
- * A method chooses which of these sums to take, with which light sub-paths, and the counts of counts.h. Random streams
- * are a function of (seed, purpose, pixel, iteration), so a sub-path does not depend on the tile or thread.
- *
- * Observers are called with every path that a method makes, where it is added to the sample or to the splats, so they
- * get the same numbers as the film. Added up in their order, the contributions with t >= 2 are the value that the film
- * receives, to the last bit. Without an observer this costs the comparison of a pointer.
+ * Observers are called with every path where it is added to the sample or to the splats. Added up in their order, the
+ * contributions with t >= 2 are the value that the film receives, to the last bit.
  *
  * Tests: test_trace.c, test_strategies.c.
  */
@@ -34,8 +31,6 @@ struct sample sample_begin(const struct tile_pass *pass, const struct counts *co
                            long iteration);
 void sample_end(const struct sample *sample);
 
-/* --- sub-paths --------------------------------------------------------------------------------------- */
-
 /* sample_eye_path: trace the eye sub-path into path [max_vertices]; sets sample->filter_weight. Returns the number of
  * vertices. */
 int sample_eye_path(struct sample *sample, struct vertex *path, int max_vertices);
@@ -48,26 +43,24 @@ int sample_light_path(const struct tile_pass *pass, const struct counts *counts,
 /* sample_stream: the random numbers of pixel (x,y) and `number` for a purpose. */
 struct sampler sample_stream(const struct tile_pass *pass, enum rng_purpose purpose, int x, int y, uint64_t number);
 
-/* --- sums of connections ----------------------------------------------------------------------------- */
-
-/* sample_hit: s = 0, for the first t vertices of the eye sub-path.
- * sample_direct: s = 1, for its vertex z = z_{t-1}.
+/* sample_s0: s = 0, for the first t vertices of the eye sub-path.
+ * sample_s1: s = 1, for its vertex z = z_{t-1}.
  * Both add nothing that the method's counts leave out, except lights that the camera sees directly (t = 2). */
-void sample_hit(struct sample *sample, const struct vertex *eye, int t);
-void sample_direct(struct sample *sample, const struct vertex *z, int t);
+void sample_s0(struct sample *sample, const struct vertex *eye, int t);
+void sample_s1(struct sample *sample, const struct vertex *z, int t);
 
 /* sample_pairs: s >= 2: join z = z_{t-1} to all of them, times `scale`, if the path is not too long. */
 void sample_pairs(struct sample *sample, const struct drawn *drawn, const struct vertex *z, int t, double scale);
 
 /* sample_lens: s >= 2, t = 1 for every vertex of a light sub-path, times `scale`, to the splats of the tile. */
-void sample_lens(struct sample *sample, const struct vertex *light, int n_light, double scale);
+void sample_lens(struct sample *sample, const struct vertex *path, int n, double scale);
 
 /* --- observers --------------------------------------------------------------------------------------- */
 
 /* One strategy (s,t) that was tried: a path, or nothing if the value is black. */
 struct joined {
     int s, t;
-    const struct vertex *light;  /* [s] the light sub-path, or the light point that was drawn; NULL: there is none */
+    const struct vertex *path;   /* [s] the light sub-path, or the light point that was drawn; NULL: there is none */
     const struct vertex *z;      /* z_{t-1}; the vertices before it are in front of it in memory. NULL if t = 1, or if
                                   * it is not the sample's own vertex */
     const struct connection *c;  /* value C*, weight, light */

@@ -16,12 +16,12 @@ struct light_point vertex_light_point(const struct scene *scene, const struct ve
     return at;
 }
 
-void vertex_light(const struct scene *scene, const struct light_point *at, rgb beta, double hit, struct vertex *out)
+void vertex_light(const struct scene *scene, const struct light_point *at, rgb beta, double n_s0, struct vertex *out)
 {
     const struct light *l = &scene->lights.light[at->light];
     *out = (struct vertex){.kind = VERTEX_LIGHT, .light = at->light, .place = at->cell, .p = at->p, .ng = at->n,
                            .prim_id = at->prim_id, .medium = l->medium, .wo = at->w, .beta = beta, .pdf_fwd = at->pdf,
-                           .mis_c = light_is_delta(l) ? 0 : hit};
+                           .mis_c = light_is_delta(l) ? 0 : n_s0};
 }
 
 /* pdf_fwd never enters a weight: no strategy finds the lens by chance. */

@@ -1,5 +1,4 @@
-/* vertex.h: a vertex of a sub-path, with all that a connection to it needs. After the walk (path.h) nobody changes it,
- * so any number of connections may share it.
+/* vertex.h: a vertex of a sub-path, with all that a connection to it needs. After the walk (path.h) nobody changes it.
  */
 #ifndef ASBDPT_VERTEX_H
 #define ASBDPT_VERTEX_H
@@ -7,8 +6,7 @@
 #include "material/bsdf.h"
 #include "scene/scene.h"
 
-/* Where an eye sub-path ends: at a vertex that the camera sees directly or through delta lobes alone, or at a later
- * one. */
+/* What an eye sub-path ends at: a vertex that the camera sees directly or by delta lobes alone, or a later one. */
 enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
 
 enum vertex_kind {
@@ -46,7 +44,7 @@ enum vertex_kind {
  * A see-through light is an area light without a material (scene.h). Walks may start on it, and pass it without a
  * vertex. The first such light that an eye walk passes on an edge is the `lamp` of the vertex at the edge's end. It is
  * the last vertex of a path of its own, and no vertex of the sub-path. Its kind is SURFACE. It has only the fields that
- * connect_hit needs. The path's last edge ends at the light: densities and throughput have the media as far as that.
+ * connect_s0 needs. The path's last edge ends at the light: densities and throughput have the media as far as that.
  */
 struct vertex {
     enum vertex_kind kind;
@@ -67,9 +65,9 @@ struct vertex {
 };
 
 /* vertex_light: the y_0 of a point of a light (light.h).
- *   hit  count of s = 0, which a delta light does not have
+ *   n_s0  count of s = 0, which a delta light does not have
  * vertex_lens: the z_0 of a point of the lens. */
-void vertex_light(const struct scene *scene, const struct light_point *at, rgb beta, double hit, struct vertex *out);
+void vertex_light(const struct scene *scene, const struct light_point *at, rgb beta, double n_s0, struct vertex *out);
 void vertex_lens(const struct camera *camera, vec3 p, rgb beta, struct vertex *out);
 
 /* vertex_light_point: the point of a y_0, or where an eye sub-path ends on an area light or the sky. Its pdf is the
@@ -101,11 +99,10 @@ static inline double vertex_cosine(const struct vertex *v, vec3 w)
     return length2(v->ng) > 0 ? abs_dot(v->ng, w) : 1;
 }
 
-/* vertex_side: the normal that decides the region of a surface point: ng, on the side where its walk came from. The
- * other walk through the same points comes from the other neighbour. It must find the same region, or the two would
- * count differently in the weights. If no lobe transmits, both neighbours lie on the same side of ng (bsdf.h), so both
- * walks find the same. Otherwise ng stays as it is. It is 0 within a medium. (Delta lobes may transmit, since nothing
- * is connected there.) */
+/* vertex_side: the normal that decides the region of a surface point: ng, on the side where its walk came from; 0
+ * within a medium. The other walk through the same points comes from the other neighbour. It must find the same region,
+ * or the two would count differently in the weights. If no lobe transmits, both neighbours lie on the same side of ng
+ * (bsdf.h). Otherwise ng stays as it is. (Delta lobes may transmit, since nothing is connected there.) */
 static inline vec3 vertex_side(const struct vertex *v)
 {
     return v->bsdf.transmits || dot(v->ng, v->wo) >= 0 ? v->ng : neg(v->ng);

@@ -72,7 +72,7 @@ static void add_sample(const struct pass *r, struct arena *arena, int x, int y, 
     const struct scene *scene = r->scene;
     uint64_t pixel = (uint64_t)y * (uint64_t)scene->width + (uint64_t)x;
     struct sampler sampler = sampler_start(r->options->seed, RNG_EYE, pixel, (uint64_t)r->sample);
-    const struct counts counts = {.hit = {1, 1}, .tables = &NO_TABLES}; /* nobody asks for weights */
+    const struct counts counts = {.s0 = {1, 1}, .tables = &NO_TABLES}; /* nobody asks for weights */
     struct walk walk = {scene, &counts, arena, &sampler, 0};
     struct vertex eye[1 + AOV_SEEN_DEPTH], *first = &eye[1];
     double filter_weight;

@@ -68,7 +68,7 @@ static void add_path(void *context, const struct sample *sample, const struct jo
     const struct planes *p = slot->planes;
     if (rgb_is_black(path->c->value))
         return;
-    int light = path->light != NULL ? path->light[0].light : path->c->light;
+    int light = path->path != NULL ? path->path[0].light : path->c->light;
     struct tile *of_light = p->n_groups > 0 ? &slot->tile[p->lights->light[light].group] : NULL;
     struct tile *square = p->variance ? &slot->tile[square_plane(p)] : NULL;
     rgb after = term(rgb_add(sample->value, path->added)), before = term(sample->value);

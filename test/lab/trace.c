@@ -83,16 +83,16 @@ static vec3 lens_end(const struct trace *trace, const struct camera *camera, con
     double u[2];
     for (int s = 2; s < p->s && camera->lens_radius > 0; s++)
         sampler_pair(&sampler, DRAW_LENS_POINT, u);
-    return lens_drawn(camera, p->light[p->s - 1].p, sampler);
+    return lens_drawn(camera, p->path[p->s - 1].p, sampler);
 }
 
 static vec3 end_of(const struct trace *trace, const struct scene *scene, const struct joined *p)
 {
     if (p->t == 1)
         return lens_end(trace, &scene->camera, p);
-    if (p->s != 1 || p->light == NULL)
+    if (p->s != 1 || p->path == NULL)
         return vec(0, 0, 0);
-    return vertex_at_infinity(scene, p->light) ? p->light->wo : p->light->p;
+    return vertex_at_infinity(scene, p->path) ? p->path->wo : p->path->p;
 }
 
 /* As connect_vertices makes a value and a weight, without media and what is infinitely far. */
@@ -100,12 +100,12 @@ static struct trace_weight weigh(const struct sample *sample, const struct joine
 {
     struct trace_weight of = {.n = 0};
     const struct scene *scene = sample->pass->job->scene;
-    const struct vertex *y = p->s > 0 && p->light != NULL ? &p->light[p->s - 1] : NULL, *z = p->z;
+    const struct vertex *y = p->s > 0 && p->path != NULL ? &p->path[p->s - 1] : NULL, *z = p->z;
     if (y == NULL || z == NULL || scene->space != NULL || vertex_at_infinity(scene, y) || rgb_is_black(p->c->value))
         return of;
     const bool light = y->kind == VERTEX_LIGHT;
     const vec3 d = sub(y->p, z->p), w = normalize(d), back = neg(w);
-    const double spread = 1 / length2(d);
+    const double falloff = 1 / length2(d);
     struct bsdf_value at_z = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE), at_y = {.f = {1, 1, 1}, .pdf = 0};
     if (light) {
         const struct light_point at = vertex_light_point(scene, y);
@@ -115,8 +115,8 @@ static struct trace_weight weigh(const struct sample *sample, const struct joine
     of = (struct trace_weight){.f_y = at_y.f, .f_z = at_z.f, .distance = length(d), .n = n_of(sample->counts, y, z)};
     of.cos_y = light ? vertex_cosine(y, back) : scatter_cosine(y, back, IMPORTANCE);
     of.cos_z = scatter_cosine(z, w, RADIANCE);
-    of.R_y = at_z.pdf * vertex_cosine(y, w) * spread;
-    of.R_z = at_y.pdf * vertex_cosine(z, w) * spread;
+    of.R_y = at_z.pdf * vertex_cosine(y, w) * falloff;
+    of.R_z = at_y.pdf * vertex_cosine(z, w) * falloff;
     of.light_side = mis_side(of.R_y, y->pdf_fwd, y->mis_c, light ? 0 : at_y.pdf_rev, y->mis);
     of.eye_side = mis_side(of.R_z, z->pdf_fwd, z->mis_c, at_z.pdf_rev, z->mis);
     return of;
@@ -127,7 +127,7 @@ static void joined(void *context, const struct sample *sample, const struct join
     struct trace *trace = context;
     if (!watches(trace, sample))
         return;
-    int light = p->s > 1 ? light_path(trace, p->light, p->s) : -1;
+    int light = p->s > 1 ? light_path(trace, p->path, p->s) : -1;
     const struct scene *scene = sample->pass->job->scene;
     struct trace_connection made = {p->s, p->t, light, p->pmf, *p->c, p->px, p->py, end_of(trace, scene, p), p->scale,
                                     p->added, weigh(sample, p)};
@@ -154,8 +154,8 @@ double trace_pdf_rev(const struct scene *scene, const struct trace_path *path, i
     const struct vertex *v = &path->vertex[i], *next = &path->vertex[i + 1];
     if (vertex_at_infinity(scene, v))
         return path->pdf_rev[i + 1];
-    double spread = next->kind == VERTEX_ESCAPED ? 1 : 1 / length2(sub(v->p, next->p));
-    return path->pdf_rev[i + 1] * vertex_cosine(v, next->wo) * spread;
+    double falloff = next->kind == VERTEX_ESCAPED ? 1 : 1 / length2(sub(v->p, next->p));
+    return path->pdf_rev[i + 1] * vertex_cosine(v, next->wo) * falloff;
 }
 
 /* --- rendering --------------------------------------------------------------------------------------- */
@@ -240,7 +240,7 @@ void trace_sample(const struct render_job *job, const struct prepared *prepared,
     bool chooses = prepared->method->build == NULL || prepared->numbers.path_pixels > 0;
     trace->why = chooses ? method_why(prepared->method) : NULL;
     trace->race = race_result(prepared);
-    method_numbers(prepared, trace->number);
+    chosen_numbers(prepared, trace->number);
 }
 
 /* The sample that contributes most to the pixel. */

@@ -203,7 +203,7 @@ static int region(const struct full_path *f, int i, int next)
 /* The factor of the density of x_0 if s = 1 draws it. */
 static double learnt_direct(const struct full_path *f)
 {
-    return table_ratio(&f->counts->tables->direct, region(f, 1, 2), light_point(f).cell);
+    return table_ratio(&f->counts->tables->guide, region(f, 1, 2), light_point(f).cell);
 }
 
 /* n of the strategy with i light vertices, 0 if it cannot make this path. */
@@ -213,14 +213,14 @@ static double samples(const struct full_path *f, int i)
     int t = f->n - i;
     if (i == 0) {
         bool delta_light = f->x[0]->kind == VERTEX_LIGHT && light_is_delta(&f->scene->lights.light[f->x[0]->light]);
-        return delta_light ? 0 : m->hit[end_of(f, 1)];
+        return delta_light ? 0 : m->s0[end_of(f, 1)];
     }
     if (t < 1 || f->delta[i - 1] || f->delta[i])
         return 0;
     if (t == 1)
         return m->lens;
     if (i == 1)
-        return m->direct[end_of(f, i)] * learnt_direct(f);
+        return m->s1[end_of(f, i)] * learnt_direct(f);
     double ratio = table_ratio(&m->tables->pairs, region(f, i, i + 1), region(f, i - 1, i - 2));
     double x = m->pair[end_of(f, i)] * ratio, bound = m->bound[end_of(f, i)] * ratio;
     return x - x * bound / (1 + bound);

@@ -228,7 +228,7 @@ static void test_path(struct test *t)
     scene.camera.lens_radius = 0.05;
     scene.camera.focal_distance = 2;
     struct pictures p = render_aovs(&scene, 1, 1);
-    struct counts counts = {.hit = {1, 1}, .direct = {1, 1}, .tables = &NO_TABLES};
+    struct counts counts = {.s0 = {1, 1}, .s1 = {1, 1}, .tables = &NO_TABLES};
     struct arena arena = {0};
     int hits = 0;
     for (int y = 0; y < H; y++)

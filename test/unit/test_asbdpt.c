@@ -262,7 +262,7 @@ struct draws {
 static void note_draw(void *context, const struct sample *sample, const struct joined *path)
 {
     struct draws *d = context;
-    const struct vertex *what = path->s < 2 || d->whole ? path->light : &path->light[path->s - 1];
+    const struct vertex *what = path->s < 2 || d->whole ? path->path : &path->path[path->s - 1];
     int i = 0;
     (void)sample;
     if (path->s < 2 || path->t < 2)
@@ -283,7 +283,7 @@ static void note_draw(void *context, const struct sample *sample, const struct j
 }
 
 /* The furthest vertices get throughputs by which nothing can be chosen, or very small and very large ones. */
-static struct index *spoil(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *spoil(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     static const double useless[] = {-1e9, NAN, INFINITY, -INFINITY};
     struct draws *d = pass->observer->context;

@@ -76,7 +76,7 @@ static double contribution(struct chain *c, const struct mlt_path *path, enum ml
     int s = strategy->s, n = strategy->t;
     struct light_point at = vertex_light_point(scene, &path->x[0].v);
     if (which == LENS_PERTURBATION) {
-        struct connection c2 = s == 0   ? connect_hit(scene, counts, &eye[n - 2], &eye[n - 1])
+        struct connection c2 = s == 0   ? connect_s0(scene, counts, &eye[n - 2], &eye[n - 1])
                                : s == 1 ? lamp_connect(scene, counts, &eye[n - 1], &at, at.pdf)
                                         : connect_vertices(scene, counts, &light[s - 1], &eye[n - 1]);
         return rgb_luminance(c2.value);

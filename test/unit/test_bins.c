@@ -84,7 +84,7 @@ static void note_use(void *context, const struct sample *sample, const struct jo
     if (path->t != 1 || path->s != 2) /* once for each sub-path */
         return;
     u->used[sample->y * SIDE + sample->x]++;
-    u->bright[sample->y * SIDE + sample->x] += path->light[0].light == 0;
+    u->bright[sample->y * SIDE + sample->x] += path->path[0].light == 0;
 }
 
 /* p-value: is the share of the bright room as predicted? */

@@ -65,7 +65,7 @@ static void test_orthographic(struct test *t, struct rng *r)
         CHECK(t, length(sub(a.d, c.forward)) < 1e-12 && fabs(dot(sub(a.o, c.position), a.d)) < 1e-9, "direction");
         CHECK(t, length(sub(camera_sample_lens(&c, p, 0.3, 0.7), a.o)) < 1e-9, "the lens point of a point");
     }
-    CHECK(t, camera_spread(&c, 4) == 1, "parallel rays spread");
+    CHECK(t, camera_falloff(&c, 4) == 1, "parallel rays spread");
     /* With a lens, as pbrt-v3 has it: from the lens through the plane of focus, where the screen lies as it is. */
     c = camera_of(CAMERA_ORTHOGRAPHIC, 0.3, 1, 200, 100);
     struct ray a = camera_ray(&c, 200, 0, 0.2, 0.8);

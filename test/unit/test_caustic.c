@@ -203,7 +203,7 @@ static bool first_hit(const struct scene *scene, struct arena *arena, vec3 eye, 
     if (!meet(scene, eye, at, 0, &hit) || length(sub(hit.p, at)) > 1e-6)
         return false;
     vec3 d = sub(hit.p, eye), w = normalize(d);
-    double pdf = camera_project(&scene->camera, eye, w, &px, &py) * camera_spread(&scene->camera, length2(d));
+    double pdf = camera_project(&scene->camera, eye, w, &px, &py) * camera_falloff(&scene->camera, length2(d));
     *z = (struct vertex){.kind = VERTEX_SURFACE, .eye_end = FIRST_HIT, .light = -1, .p = hit.p,
                          .ng = hit.ng, .prim_id = hit.prim_id, .wo = neg(w), .beta = rgb_grey(1),
                          .pdf_fwd = pdf * abs_dot(hit.ng, w)};
@@ -230,7 +230,7 @@ static double all_weights(const struct one_more *extra, const struct sample *sam
     sent[2].wo = normalize(sub(x.p, z->p));
     struct connection hit = {.weight = -1}, splat = {.weight = -1};
     const struct joined by_chance = {.s = 0, .t = 4, .z = &seen[3], .c = &hit};
-    const struct joined to_lens = {.s = 3, .t = 1, .light = sent, .c = &splat};
+    const struct joined to_lens = {.s = 3, .t = 1, .path = sent, .c = &splat};
     extra->weigh(extra, sample, &by_chance, z->p, &hit);
     extra->weigh(extra, sample, &to_lens, eye, &splat);
     return made->c.weight + hit.weight + splat.weight;
@@ -252,7 +252,7 @@ static void test_receivers(struct test *t)
             continue;
         vec3 eye = scene.camera.position;
         struct one_more *extra = caustics_new(&scene, 1);
-        const struct counts counts = {.hit = {1, 1}, .direct = {1, 1}, .pair = {1, 1}, .lens = 640 * 480,
+        const struct counts counts = {.s0 = {1, 1}, .s1 = {1, 1}, .pair = {1, 1}, .lens = 640 * 480,
                                       .tables = &NO_TABLES};
         const struct render_job job = {.scene = &scene, .max_depth = 5};
         const struct tile_pass pass = {.job = &job, .work = &work};

@@ -48,7 +48,7 @@ static void word_of(const struct scene *scene, const struct joined *p, char *wor
     int last = p->s == 0 ? p->t - 2 : p->t - 1; /* s = 0: z is on the light */
     const struct vertex *eye = p->t > 1 ? p->z - (p->t - 1) : NULL;
     for (int i = 1; i < p->s; i++)
-        *word++ = letter_of(scene, &p->light[i], i + 1 < p->s ? &p->light[i + 1] : NULL);
+        *word++ = letter_of(scene, &p->path[i], i + 1 < p->s ? &p->path[i + 1] : NULL);
     for (int i = last; i >= 1; i--)
         *word++ = letter_of(scene, &eye[i], i + 1 < p->t ? &eye[i + 1] : NULL);
     *word = '\0';

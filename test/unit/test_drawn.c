@@ -23,7 +23,7 @@ enum { DRAWS = 100000, SIDE = 8, DEPTH = 4, OFTEN = 256, WAYS = RECORDS_NEAR + 1
 struct seen {
     struct tally *c;
     const struct pool *pool;
-    const struct index *ris; /* the same, of ris_join */
+    const struct cache *ris; /* the same, of ris_join */
 };
 
 /* --- draws from a pool --------------------------------------------------------------------------------- */
@@ -37,8 +37,8 @@ struct drawer {
     int number; /* of the pixel */
 };
 
-/* How many of the light vertices that an index of ris.h has are y, and their factors u. */
-static int copies(const struct index *r, const struct vertex *y, double *u)
+/* How many of the light vertices that a cache of ris.h has are y, and their factors u. */
+static int copies(const struct cache *r, const struct vertex *y, double *u)
 {
     int n = 0;
     for (int v = 0; v < r->V; v++)
@@ -51,39 +51,39 @@ static int copies(const struct index *r, const struct vertex *y, double *u)
 
 /* The probability that is stated. Methods that draw by ris_draw state it of one copy, relative to u and to a sub-path
  * of the whole pool. */
-static double stated(const struct drawer *d, const struct index *index, const struct drawn *drawn)
+static double stated(const struct drawer *d, const struct cache *cache, const struct drawn *drawn)
 {
     double u = 1;
     return d->b.prepared.method->draw != ris_draw ? drawn->pmf
-        : drawn->pmf * copies(index, &drawn->light[drawn->first], &u) * u * d->b.work->pool.n / index->K;
+        : drawn->pmf * copies(cache, &drawn->path[drawn->first], &u) * u * d->b.work->pool.n / cache->K;
 }
 
-static struct drawn draw_one(const struct drawer *d, const struct index *index, const struct vertex *z, uint64_t k,
+static struct drawn draw_one(const struct drawer *d, const struct cache *cache, const struct vertex *z, uint64_t k,
                              int i, int n)
 {
     struct sample sample = d->sample;
     struct drawn out = {.end = 0};
     sample.choice = sampler_start(d->b.job.seed, RNG_TEST, k, 4 + (uint64_t)z->eye_end);
     sample.number = d->number;
-    d->b.prepared.method->draw(&d->b.prepared, index, &sample, z, i, n, &out);
+    d->b.prepared.method->draw(&d->b.prepared, cache, &sample, z, i, n, &out);
     return out;
 }
 
-/* Do numbers of the sample decide? Else all is decided when the index is built. */
-static bool draws_by_sample(const struct drawer *d, const struct index *index, const struct vertex *z)
+/* Do numbers of the sample decide? Else all is decided when the cache is built. */
+static bool draws_by_sample(const struct drawer *d, const struct cache *cache, const struct vertex *z)
 {
-    const struct drawn first = draw_one(d, index, z, 0, 0, 1);
+    const struct drawn first = draw_one(d, cache, z, 0, 0, 1);
     for (uint64_t k = 1; k < 100; k++) {
-        struct drawn other = draw_one(d, index, z, k, 0, 1);
-        if (other.light + other.first != first.light + first.first)
+        struct drawn other = draw_one(d, cache, z, k, 0, 1);
+        if (other.path + other.first != first.path + first.first)
             return true;
     }
     return false;
 }
 
-/* An index of the same pool. The arena is emptied from time to time: the pool is then traced again, by the same
+/* A cache of the same pool. The arena is emptied from time to time: the pool is then traced again, by the same
  * numbers. */
-static const struct index *build_again(struct drawer *d, uint64_t k)
+static const struct cache *build_again(struct drawer *d, uint64_t k)
 {
     if (k % OFTEN == 0)
         loop_fill(&d->b.prepared, &d->pass, 0);
@@ -93,19 +93,19 @@ static const struct index *build_again(struct drawer *d, uint64_t k)
 
 static size_t thing_of(const struct drawer *d, const struct drawn *drawn)
 {
-    return (size_t)(drawn->light + drawn->first - d->b.work->pool.vertex);
+    return (size_t)(drawn->path + drawn->first - d->b.work->pool.vertex);
 }
 
 /* 10^5 draws by an eye vertex, in turn in all of its strata. */
-static void check_vertex(struct test *t, struct drawer *d, const struct index *index, const struct vertex *z,
+static void check_vertex(struct test *t, struct drawer *d, const struct cache *cache, const struct vertex *z,
                          const char *name)
 {
     int C = d->b.prepared.numbers.draws[z->eye_end];
     struct tally c = tally_new(WAYS, d->b.work->pool.used + 1);
     for (uint64_t k = 0; k < 2 * DRAWS; k++) {
-        struct drawn drawn = draw_one(d, index, z, k, (int)(k % (uint64_t)C), C);
+        struct drawn drawn = draw_one(d, cache, z, k, (int)(k % (uint64_t)C), C);
         c.collects = k < DRAWS;
-        tally_note(&c, thing_of(d, &drawn), stated(d, index, &drawn));
+        tally_note(&c, thing_of(d, &drawn), stated(d, cache, &drawn));
     }
     tally_judge(t, &c, DRAWS, 1, name, z->eye_end == FIRST_HIT ? "first hit" : "later hit");
     tally_free(&c);
@@ -117,11 +117,11 @@ static void check_indices(struct test *t, struct drawer *d, const struct vertex 
     int n = d->b.tile.n_pixels, C = d->b.prepared.numbers.draws[z->eye_end], own = d->number;
     struct tally one = tally_new(WAYS, d->b.work->pool.used + 1), all = tally_new(WAYS, d->b.work->pool.used + 1);
     for (uint64_t k = 0; k < 2 * DRAWS; k++) {
-        const struct index *index = build_again(d, k);
+        const struct cache *cache = build_again(d, k);
         one.collects = all.collects = k < DRAWS;
         for (int i = 0; i < n * C; i++) {
             d->number = i / C;
-            struct drawn drawn = draw_one(d, index, z, k, i % C, C);
+            struct drawn drawn = draw_one(d, cache, z, k, i % C, C);
             tally_note(&all, thing_of(d, &drawn), drawn.pmf);
             if (i == own * C + (int)(k % (uint64_t)C))
                 tally_note(&one, thing_of(d, &drawn), drawn.pmf);
@@ -149,10 +149,10 @@ static void check_draws(struct test *t, struct drawer *d, const char *name)
 {
     if (!see(t, d, name))
         return;
-    const struct index *index = build_again(d, 0);
-    if (draws_by_sample(d, index, &d->eye[1])) {
-        check_vertex(t, d, index, &d->eye[1], name);
-        check_vertex(t, d, index, &d->eye[2], name);
+    const struct cache *cache = build_again(d, 0);
+    if (draws_by_sample(d, cache, &d->eye[1])) {
+        check_vertex(t, d, cache, &d->eye[1], name);
+        check_vertex(t, d, cache, &d->eye[2], name);
     } else {
         check_indices(t, d, &d->eye[1], name);
     }
@@ -163,7 +163,7 @@ static void check_draws(struct test *t, struct drawer *d, const char *name)
 static void note_joined(void *context, const struct sample *sample, const struct joined *path)
 {
     const struct seen *seen = context;
-    const struct vertex *y = path->s >= 2 && path->t == 2 ? &path->light[path->s - 1] : NULL;
+    const struct vertex *y = path->s >= 2 && path->t == 2 ? &path->path[path->s - 1] : NULL;
     double u;
     (void)sample;
     if (y != NULL)
@@ -174,7 +174,7 @@ static void note_joined(void *context, const struct sample *sample, const struct
 /* By ris.c's own weights: one technique for each record nearby, and one without. */
 static void check_ris(struct test *t, struct drawer *d, const char *name)
 {
-    struct index r = {.scene = NULL};
+    struct cache r = {.scene = NULL};
     const struct vertex *z = &d->eye[1];
     d->number = 0;
     if (!see(t, d, name))
@@ -205,7 +205,7 @@ static void check_presampled(struct test *t, struct drawer *d, const char *name)
     long draws = 0, passes = 2 * DRAWS / own->presampled;
     for (long k = 0; k < passes; k++) {
         build_again(d, (uint64_t)k);
-        struct index r = {.own = own, .found = pool->candidate, .V = pool->n_candidates};
+        struct cache r = {.own = own, .found = pool->candidate, .V = pool->n_candidates};
         ris2_presample(&r, &d->pass, &pool->arena, (long)(hash_mix((uint64_t)k) >> 34));
         c.collects = k < passes / 2;
         draws += c.collects ? 0 : own->presampled;
@@ -241,7 +241,7 @@ static void note_whole(void *context, const struct sample *sample, const struct 
         note_joined(&w->seen, sample, path);
 }
 
-static struct index *build_fixed(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build_fixed(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     const struct whole *w = pass->observer->context;
     loop_fill(p, pass, 0);
@@ -354,7 +354,7 @@ static void check_lights(struct test *t, const struct scene *scene, const struct
                          const char *name)
 {
     const struct light_set *lights = &scene->lights;
-    const struct table *direct = &b->prepared.counts.tables->direct;
+    const struct table *direct = &b->prepared.counts.tables->guide;
     struct tally c = tally_new(WAYS, (size_t)(lights->n + lights->n_cells));
     for (uint64_t k = 0; k < 2 * DRAWS; k++) {
         struct sampler sampler = sampler_start(b->job.seed, RNG_TEST, k, 2);
@@ -413,8 +413,8 @@ static void test_lights_drawn(struct test *t)
         if (!bench_new(t, &scene, set_method(&scene, WAYS_TO[i]), DEPTH, 0, &d.b))
             continue;
         const struct tables *known = d.b.prepared.counts.tables;
-        CHECK(t, (known->direct.rows > 0) == (i > 0) && (known->emission.rows > 0) == (i > 0), "%s: tables of %d and "
-              "%d rows", WAYS_TO[i], known->direct.rows, known->emission.rows);
+        CHECK(t, (known->guide.rows > 0) == (i > 0) && (known->emission.rows > 0) == (i > 0), "%s: tables of %d and "
+              "%d rows", WAYS_TO[i], known->guide.rows, known->emission.rows);
         d.pass = bench_pass(&d.b, 0, 1);
         loop_fill(&d.b.prepared, &d.pass, 0);
         if (see(t, &d, WAYS_TO[i]))

@@ -150,7 +150,7 @@ static void test_carried(struct test *t, const struct scene *s)
 {
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 32, 0);
     struct tables known = {.emission = random_table(s, &r, 0.2)};
-    struct counts aimed = {.hit = {1, 1}, .tables = &known};
+    struct counts aimed = {.s0 = {1, 1}, .tables = &known};
     struct arena arena = {NULL, NULL};
     int met = 0, apart = 0;
     for (uint64_t i = 0; i < 2000; i++) {

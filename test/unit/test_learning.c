@@ -15,7 +15,7 @@
 #include "render/render.h"
 #include "suites.h"
 
-static const struct learn_options ALL = {.use = true, .direct = true, .pairs = true, .emission = 0.2, .delta = 0.1};
+static const struct learn_options ALL = {.use = true, .guide = true, .pairs = true, .emission = 0.2, .delta = 0.1};
 
 /* Who watches: how often everybody asked, once for each sub-path and chunk, and what share is learnt; from where on the
  * answer is no. */
@@ -78,7 +78,7 @@ static void test_count(struct test *t)
     double counted[4];
     for (int i = 0; i < 4; i++) {
         struct tables out = {.light_vertices = 0};
-        const struct learn_options options = {.use = i >= 2, .direct = i % 2 != 0, .emission = 1, .count = true};
+        const struct learn_options options = {.use = i >= 2, .guide = i % 2 != 0, .emission = 1, .count = true};
         learn(&job, &options, &out);
         counted[i] = out.light_vertices;
         tables_free(&out);
@@ -155,7 +155,7 @@ static bool same_table(const struct table *a, const struct table *b)
 static bool same_learnt(const struct tables *a, const struct tables *b)
 {
     return a->regions.n == b->regions.n && same(a->use, b->use, a->regions.n) &&
-           same(a->vertices, b->vertices, a->regions.n) && same_table(&a->direct, &b->direct) &&
+           same(a->vertices, b->vertices, a->regions.n) && same_table(&a->guide, &b->guide) &&
            same_table(&a->pairs, &b->pairs) && same_table(&a->emission, &b->emission);
 }
 
@@ -177,7 +177,7 @@ static void test_budget(struct test *t)
     CHECK(t, w[3].asked < 400 && l[3]->regions.n >= 1, "it goes on when told to stop: %ld sub-paths", w[3].asked);
     CHECK(t, same_learnt(l[0], l[1]), "what is learnt depends on the number of threads");
     CHECK(t, !same_learnt(l[2], l[3]), "no difference would be seen");
-    CHECK(t, l[0]->direct.rows > 0 && l[0]->pairs.rows > 0 && l[0]->emission.rows > 0, "nothing was learnt");
+    CHECK(t, l[0]->guide.rows > 0 && l[0]->pairs.rows > 0 && l[0]->emission.rows > 0, "nothing was learnt");
     for (int i = 0; i < 4; i++)
         drop(l[i]);
     scene_free(&small);

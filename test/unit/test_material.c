@@ -358,7 +358,7 @@ enum { WALKS = 20000 };
 static void check_walks(struct test *t, const char *material)
 {
     struct scene scene;
-    struct counts counts = {.hit = {1, 1}, .tables = &NO_TABLES};
+    struct counts counts = {.s0 = {1, 1}, .tables = &NO_TABLES};
     struct arena arena = {0}, kept = {0};
     struct vertex path[3], first[3];
     struct rng r = stream_of(t, material, 0), s = stream_of(t, material, 1);

@@ -131,12 +131,12 @@ static struct tables learn_nothing(const struct scene *scene)
         at[i] = regions_add(&l.regions, regions_key(&l.regions, p, on_sphere(&r)));
     }
     struct axis places = regions_axis(&l.regions);
-    l.direct = table_learn(places.n, cells.n);
+    l.guide = table_learn(places.n, cells.n);
     l.pairs = table_learn(places.n, places.n);
     l.emission = table_learn(1, emission.n);
     for (int i = 0; i < POINTS; i++) {
         int cell = (int)rng_below(&r, (uint32_t)cells.n);
-        table_add(&l.direct, places, cells, at[i], cell, 1 + cell % 3 + i % 5, 1);
+        table_add(&l.guide, places, cells, at[i], cell, 1 + cell % 3 + i % 5, 1);
         table_add(&l.pairs, places, places, at[i], at[rng_below(&r, POINTS)], exp(8 * rng_uniform(&r)), 1);
     }
     for (int i = 0; i < RAYS; i++) {
@@ -148,7 +148,7 @@ static struct tables learn_nothing(const struct scene *scene)
         e[i] = alias_pmf(&lights->choice, i);
     for (int i = 0; i < places.n; i++)
         even[i] = 1.0 / places.n;
-    table_build(&l.direct, places, cells, e, 0.1, false, true);
+    table_build(&l.guide, places, cells, e, 0.1, false, true);
     table_build(&l.pairs, places, places, even, 0.1, false, false);
     table_build(&l.emission, one, emission, base, 0.1, true, true);
     emission_axis_free(&emission, base);
@@ -185,7 +185,7 @@ static void compare_value(struct comparison *c, rgb got, const struct vertex *li
 static void compare_length(struct comparison *c, const struct vertex *light, int s, const struct vertex *eye, int t)
 {
     const struct camera *camera = &c->scene->camera;
-    const struct joined j = {.s = s, .t = t, .light = light, .z = t > 1 ? &eye[t - 1] : NULL};
+    const struct joined j = {.s = s, .t = t, .path = light, .z = t > 1 ? &eye[t - 1] : NULL};
     const struct vertex *next = t > 1 ? &eye[1] : &light[s - 1];
     struct vertex path[16];
     memcpy(path, eye, (size_t)t * sizeof *path);
@@ -218,7 +218,7 @@ static void compare_hit(struct comparison *c, const struct vertex *eye, int t)
     memcpy(path, eye, (size_t)t * sizeof *path);
     if (lamp != NULL)
         path[t - 1] = *lamp;
-    compare(c, connect_hit(c->scene, c->counts, &eye[t - 2], &eye[t - 1]), NULL, 0, path, t);
+    compare(c, connect_s0(c->scene, c->counts, &eye[t - 2], &eye[t - 1]), NULL, 0, path, t);
     c->lamps += lamp != NULL ? c->compared - before : 0;
 }
 
@@ -228,7 +228,7 @@ static void compare_direct(struct comparison *c, const struct vertex *eye, int t
     const struct light_set *lights = &c->scene->lights;
     struct vertex y;
     int cell;
-    struct connection got = connect_direct(c->scene, c->counts, &eye[t - 1], sampler, 0, 1, &y);
+    struct connection got = connect_s1(c->scene, c->counts, &eye[t - 1], sampler, 0, 1, &y);
     if (y.light < 0)
         return;
     if (lights->light[y.light].kind == LIGHT_INFINITE)
@@ -310,7 +310,7 @@ void test_mis(struct test *t)
             struct counts counts = *sets[k / 8].counts;
             bool direct = k % 2 == 1, pairs = k / 2 % 2 == 1, emission = k / 4 % 2 == 1;
             struct tables known = all_known;
-            known.direct = direct ? all_known.direct : NO_TABLES.direct;
+            known.guide = direct ? all_known.guide : NO_TABLES.guide;
             known.pairs = pairs ? all_known.pairs : NO_TABLES.pairs;
             known.emission = emission ? all_known.emission : NO_TABLES.emission;
             counts.tables = &known;
@@ -324,7 +324,7 @@ void test_mis(struct test *t)
                   c.worst_value);
             for (int kind = 0; kind < 4; kind++)
                 values[kind] += c.values[kind];
-            CHECK(t, c.lamps > 100 || scene.kd_lamps.n_nodes == 0 || counts.hit[LATER_HIT] == 0,
+            CHECK(t, c.lamps > 100 || scene.kd_lamps.n_nodes == 0 || counts.s0[LATER_HIT] == 0,
                   "%s: only %ld of see-through lamps", VARIANTS[v].name, c.lamps);
         }
         struct comparison planted = {.t = t, .name = VARIANTS[v].name, .scene = &scene, .counts = &all,

@@ -120,7 +120,7 @@ static void test_nothing_is_given_up(struct test *t)
         CHECK(t, s.runner[RUNNER_QUARTER].numbers.path_pixels == 4, "a quarter is none");
         if (i == 0)
             CHECK(t, s.winner >= RUNNER_PATH_TRACER && !s.learnt && s.counts.lens == 0 &&
-                  s.counts.pair[FIRST_HIT] == 0 && s.counts.pair[LATER_HIT] == 0 && s.counts.hit[LATER_HIT] == 1,
+                  s.counts.pair[FIRST_HIT] == 0 && s.counts.pair[LATER_HIT] == 0 && s.counts.s0[LATER_HIT] == 1,
                   "a path tracer knows, or counts, more than it uses");
         scene_free(&scene);
     }
@@ -313,19 +313,19 @@ static void test_counts(struct test *t)
 {
     const struct numbers n = {.path_pixels = 4, .draws = {3, 1}, .light_points = 2};
     const struct counts c = counts_of(n, 5, 2, 100, &NO_TABLES);
-    CHECK(t, c.hit[FIRST_HIT] == 5 && c.direct[FIRST_HIT] == 10, "first hit");
-    CHECK(t, c.hit[LATER_HIT] == 1 && c.direct[LATER_HIT] == 1, "later");
+    CHECK(t, c.s0[FIRST_HIT] == 5 && c.s1[FIRST_HIT] == 10, "first hit");
+    CHECK(t, c.s0[LATER_HIT] == 1 && c.s1[LATER_HIT] == 1, "later");
     CHECK(t, c.pair[FIRST_HIT] == 6 && c.pair[LATER_HIT] == 2 && c.lens == 25, "light sub-paths");
     const struct numbers path_tracer = {.draws = {3, 1}, .light_points = 1};
     const struct counts pt = counts_of(path_tracer, 1, 1, 100, &NO_TABLES);
-    CHECK(t, pt.pair[FIRST_HIT] == 0 && pt.lens == 0 && pt.hit[LATER_HIT] == 1, "a path tracer");
+    CHECK(t, pt.pair[FIRST_HIT] == 0 && pt.lens == 0 && pt.s0[LATER_HIT] == 1, "a path tracer");
     const struct counts lt = counts_of((struct numbers){.path_pixels = 1}, 5, 1, 100, &NO_TABLES);
     struct numbers rare = n;
     rare.every = 8;
     const struct counts r = counts_of(rare, 5, 2, 100, &NO_TABLES);
     CHECK(t, r.pair[FIRST_HIT] == 6.0 / 8 && r.pair[LATER_HIT] == 2.0 / 8 && r.lens == 25.0 / 8 &&
-          r.direct[LATER_HIT] == 1, "light sub-paths in one of 8 iterations");
-    CHECK(t, lt.hit[FIRST_HIT] == 0 && lt.direct[LATER_HIT] == 0 && lt.lens == 100, "a light tracer");
+          r.s1[LATER_HIT] == 1, "light sub-paths in one of 8 iterations");
+    CHECK(t, lt.s0[FIRST_HIT] == 0 && lt.s1[LATER_HIT] == 0 && lt.lens == 100, "a light tracer");
 }
 
 void test_race(struct test *t)

@@ -28,7 +28,7 @@ static struct vertex as_eye_vertex(const struct vertex *x, const struct vertex *
 
 /* The strategies s, s - 1 ... 0 of the path of s light vertices and two eye vertices, all one after the other weighed
  * by ris: each takes the last light vertex of the one before for an eye vertex. Returns the sum. */
-static double sum_weights(struct index *r, const struct vertex *light, int s, struct vertex *eye)
+static double sum_weights(struct cache *r, const struct vertex *light, int s, struct vertex *eye)
 {
     double sum = 0;
     for (int t = 2; s >= 0; s--, t++) {
@@ -59,7 +59,7 @@ static double sum_weights(struct index *r, const struct vertex *light, int s, st
 
 /* What an eye vertex draws from: probabilities sum to 1, and evenly spread numbers draw by them, each part of the
  * mixture being off by less than one number. */
-static void check_mixture(struct test *t, const struct index *r, const struct vertex *z)
+static void check_mixture(struct test *t, const struct cache *r, const struct vertex *z)
 {
     enum { NUMBERS = 5000, MOST = 4000 };
     static int drawn[MOST];
@@ -80,7 +80,7 @@ static void check_mixture(struct test *t, const struct index *r, const struct ve
 }
 
 /* Given the pool, the mean of what an eye vertex z_1 draws is the sum over all it could draw, over K. */
-static void check_draws(struct test *t, struct index *r, const char *method, struct sample sample,
+static void check_draws(struct test *t, struct cache *r, const char *method, struct sample sample,
                         const struct vertex *z)
 {
     enum { BATCHES = 32, DRAWS = 300 };
@@ -110,7 +110,7 @@ static void check_draws(struct test *t, struct index *r, const char *method, str
 }
 
 /* Q of a record is what records of another iteration have met, not those of its own. */
-static void check_expected(struct test *t, const struct index *r)
+static void check_expected(struct test *t, const struct cache *r)
 {
     int same = 0;
     for (int i = 0; i < r->records.n; i++) {
@@ -132,7 +132,7 @@ static void check_weights(struct test *t, const char *path, const char *method)
     if (!scene_from_file(t, path, SIDE, SIDE, &scene) || !bench_new(t, &scene, set_method(&scene, method), 5, 0, &b))
         return;
     struct tile_pass pass = bench_pass(&b, 3, 4);
-    struct index r = {.scene = NULL};
+    struct cache r = {.scene = NULL};
     ris_begin(&r, &b.prepared, &pass, 3);
     check_expected(t, &r);
     double worst = 0, weight[16];

@@ -100,8 +100,8 @@ static void bridge(void *context, const struct sample *sample, const struct join
     if (j->s + j->t < 3 || !(brought > 0) || outside)
         return;
     if (j->t == 1) /* pinholes */
-        lens.p = camera_sample_lens(camera, j->light[j->s - 1].p, 0.5, 0.5);
-    const struct vertex *light = j->light;
+        lens.p = camera_sample_lens(camera, j->path[j->s - 1].p, 0.5, 0.5);
+    const struct vertex *light = j->path;
     const struct vertex *eye = j->t == 1 ? &lens : j->z + 1 - j->t;
     double wanted = oracle_length(b->scene, light, j->s, eye, j->t);
     b->off = fmax(b->off, fabs(path_length(b->scene, j) / wanted - 1));

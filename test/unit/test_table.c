@@ -250,7 +250,7 @@ static void test_frozen(struct test *t)
         return;
     if (bench_new(t, &scene, set_method(&scene, "asbdpt race=off"), 4, 0, &b)) {
         const struct tables *known = b.prepared.tables;
-        const struct table *table[] = {&known->direct, &known->pairs, &known->emission};
+        const struct table *table[] = {&known->guide, &known->pairs, &known->emission};
         uint64_t before[3];
         int regions = known->regions.n;
         for (int i = 0; i < 3; i++)

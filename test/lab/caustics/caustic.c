@@ -170,7 +170,7 @@ static struct makers makers_of(const struct counts *n, const struct quest *q, co
     double walked = at.pdf > 0 ? at.pdf : 1;
     struct makers m = {walked * y->pdf * q->chosen * J, 0, 0};
     if (!light_is_delta(light))
-        m.hit = n->hit[LATER_HIT] * walked * c->choice * cos_y * bsdf_eval(&q->z->bsdf, at.wo, c->w, RADIANCE).pdf;
+        m.hit = n->s0[LATER_HIT] * walked * c->choice * cos_y * bsdf_eval(&q->z->bsdf, at.wo, c->w, RADIANCE).pdf;
     if (at.pdf > 0)
         m.splat = n->lens * y->pdf * c->choice * abs_dot(q->z->ng, c->w) / sqr(c->eta) *
                   emission_pdf(&n->tables->emission, lights, y, c->p, neg(c->d));
@@ -282,12 +282,12 @@ static void weigh_lens(const struct caustics *all, const struct sample *sample, 
                        double *weight)
 {
     const struct camera *camera = &sample->pass->job->scene->camera;
-    const struct vertex *light = j->light, *z = &light[j->s - 1];
+    const struct vertex *light = j->path, *z = &light[j->s - 1];
     struct light_point y = vertex_light_point(sample->pass->job->scene, &light[0]);
     struct makers m;
     double px, py;
     vec3 d = sub(z->p, lens), w = normalize(d);
-    double pdf = camera_project(camera, lens, w, &px, &py) * camera_spread(camera, length2(d));
+    double pdf = camera_project(camera, lens, w, &px, &py) * camera_falloff(camera, length2(d));
     for (int i = 2; i < j->s; i++)
         if (!light[i].prev_delta)
             return;

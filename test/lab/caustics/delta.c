@@ -30,8 +30,8 @@ bool bsdf_delta(const struct bsdf *b, vec3 wo, bool transmit, enum transport mod
 static double delta_pdf_rev(const struct vertex *v, const struct vertex *next, enum transport mode)
 {
     vec3 w = neg(next->wo), o = to_local(&v->bsdf.shading, v->wo), i = to_local(&v->bsdf.shading, w);
-    double spread = next->kind == VERTEX_ESCAPED ? 1 : 1 / length2(sub(next->p, v->p));
-    double pdf = next->pdf_fwd / (vertex_cosine(next, w) * spread);
+    double falloff = next->kind == VERTEX_ESCAPED ? 1 : 1 / length2(sub(next->p, v->p));
+    double pdf = next->pdf_fwd / (vertex_cosine(next, w) * falloff);
     for (const struct lobe *l = v->bsdf.lobe; l < v->bsdf.lobe + v->bsdf.n_lobes; l++) {
         struct bsdf_sample s;
         if (lobe_is_delta(l->kind) && lobe_sample_delta(l, o, i.z * o.z < 0 ? below_one(1) : 0, mode, &s) &&

@@ -31,15 +31,15 @@ double subpath_length(const struct scene *scene, const struct vertex *path, int 
 
 double path_length(const struct scene *scene, const struct joined *j)
 {
-    if ((j->t > 1 && j->z == NULL) || (j->s > 0 && j->light == NULL))
+    if ((j->t > 1 && j->z == NULL) || (j->s > 0 && j->path == NULL))
         return NAN;
-    double light = j->s > 1 ? subpath_length(scene, j->light, j->s) : 0;
+    double light = j->s > 1 ? subpath_length(scene, j->path, j->s) : 0;
     if (j->t == 1)
-        return light + lens_distance(scene, j->light[j->s - 1].p);
+        return light + lens_distance(scene, j->path[j->s - 1].p);
     const struct vertex *eye = j->z + 1 - j->t, *z = j->z;
     if (j->s == 0)
         return subpath_length(scene, eye, j->t - 1) + edge_length(scene, z - 1, z->lamp != NULL ? z->lamp : z);
-    return light + subpath_length(scene, eye, j->t) + edge_length(scene, &j->light[j->s - 1], z);
+    return light + subpath_length(scene, eye, j->t) + edge_length(scene, &j->path[j->s - 1], z);
 }
 
 vec3 lens_drawn(const struct camera *camera, vec3 p, struct sampler sampler)

@@ -44,13 +44,13 @@ bool connect_light(const struct scene *scene, const struct vertex *z, const stru
     if (rgb_is_black(Le))
         return false;
     struct scatter at_z = scatter_towards(z, w, RADIANCE);
-    double spread = parallel ? 1 : 1 / d2;
+    double falloff = parallel ? 1 : 1 / d2;
     /* area (at infinity: solid angle) at y_0 per steradian at z */
-    double at_light = light->kind == LIGHT_AREA ? abs_dot(at->n, w) * spread : spread;
+    double at_light = light->kind == LIGHT_AREA ? abs_dot(at->n, w) * falloff : falloff;
     /* C* = (Le / pdf) c alpha_t, c = G f: the cosine at z is in the factor [V97 10.2] */
     rgb value = rgb_mul(rgb_mul(z->beta, at_z.factor), rgb_scale(Le, at_light / pdf));
     *out = (struct lit){.z = z, .at = *at, .pdf = pdf, .value = value, .pdf_z = at_z.pdf, .pdf_rev_z = at_z.pdf_rev,
-                        .at_light = at_light, .w = w, .distance = distance, .spread = spread};
+                        .at_light = at_light, .w = w, .distance = distance, .falloff = falloff};
     return !rgb_is_black(value);
 }
 
@@ -62,13 +62,13 @@ struct connection connect_lit(const struct scene *scene, const struct counts *co
     struct edge edge;
     if (rgb_is_black(l->value) || !see(scene, z, l->w, l->distance, at->prim_id, true, &edge))
         return (struct connection){.light = -1};
-    double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->hit[z->eye_end];
+    double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->s0[z->eye_end];
     /* mis.h (5); the light side has the strategy s = 0 alone */
     double light = mis_side(l->pdf_z * l->at_light, at->pdf, hit, 0, 0);
     double pdf_emit = emission_pdf(&counts->tables->emission, lights, at, z->p, neg(l->w));
-    double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
+    double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->falloff;
     double eye = mis_side(pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
-    double count = n_direct(counts, z->place, z->eye_end, at->cell);
+    double count = n_s1(counts, z->place, z->eye_end, at->cell);
     struct connection c = {.value = rgb_mul(l->value, edge.left), .light = at->light};
     c.weight = mis_weight(count, light * edge.density[1], eye * edge.density[0]); /* mis.h (7) */
     return c;

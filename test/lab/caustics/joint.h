@@ -18,7 +18,7 @@ struct lit {
     double pdf_z, pdf_rev_z; /* 1/sr, at z: of the direction to the light; of the reverse move to the vertex before z */
     double at_light; /* factor that turns the density of the direction into that of the point */
     vec3 w;          /* unit, from z to the point */
-    double distance, spread; /* distance of the point and 1/distance^2; at infinity: infinite and 1 */
+    double distance, falloff; /* distance of the point and 1/distance^2; at infinity: infinite and 1 */
 };
 
 /* Of two vertices. */
@@ -49,7 +49,7 @@ static inline struct vertex light_vertex(const struct scene *scene, const struct
                                          const struct light_point *at)
 {
     struct vertex y;
-    vertex_light(scene, at, rgb_black(), counts->hit[LATER_HIT], &y);
+    vertex_light(scene, at, rgb_black(), counts->s0[LATER_HIT], &y);
     return y;
 }
 
@@ -57,8 +57,8 @@ static inline struct vertex light_vertex(const struct scene *scene, const struct
 static inline void sample_alone(struct sample *sample, const struct vertex *eye, int n)
 {
     for (int t = 2; t <= n; t++) {
-        sample_hit(sample, eye, t);
-        sample_direct(sample, &eye[t - 1], t);
+        sample_s0(sample, eye, t);
+        sample_s1(sample, &eye[t - 1], t);
     }
 }
 

@@ -14,7 +14,7 @@
 bool lamp_point(const struct light_set *lights, const struct geometry *geo, const double u[3], struct light_point *out);
 bool lamp_draw(const struct scene *scene, struct sampler *sampler, struct light_point *out);
 
-/* lamp_connect: connect_direct for a point that is known, found with that density. */
+/* lamp_connect: connect_s1 for a point that is known, found with that density. */
 struct connection lamp_connect(const struct scene *scene, const struct counts *counts, const struct vertex *z,
                                const struct light_point *at, double pdf);
 

@@ -41,7 +41,7 @@ static void sum_more(struct sample *sample, const struct one_more *more, const s
         bool told = m->n_passed > 0 && sample->pass->observer != NULL;
         const struct vertex *path = told ? whole(sample, eye, t, m) : eye;
         const struct vertex y = light_vertex(sample->pass->job->scene, sample->counts, &m->y0);
-        sample_add(sample, (struct joined){.s = 1, .t = length, .light = &y, .c = &m->c, .pmf = 1, .scale = 1,
+        sample_add(sample, (struct joined){.s = 1, .t = length, .path = &y, .c = &m->c, .pmf = 1, .scale = 1,
                                            .z = told ? &path[length - 1] : &eye[t - 1]});
     }
 }
@@ -52,8 +52,8 @@ static void sum_direct(struct sample *sample, const struct one_more *more, const
     int n = z->eye_end == FIRST_HIT ? sample->light_points : 1;
     for (int i = 0; i < n; i++) {
         struct vertex y;
-        struct connection c = connect_direct(sample->pass->job->scene, sample->counts, z, &sample->sampler, i, n, &y);
-        struct joined j = {.s = 1, .t = t, .light = y.light < 0 ? NULL : &y, .z = z, .pmf = 1, .scale = 1.0 / n};
+        struct connection c = connect_s1(sample->pass->job->scene, sample->counts, z, &sample->sampler, i, n, &y);
+        struct joined j = {.s = 1, .t = t, .path = y.light < 0 ? NULL : &y, .z = z, .pmf = 1, .scale = 1.0 / n};
         weigh_again(more, sample, &j, z->p, &c);
         sample_add(sample, j);
     }
@@ -64,7 +64,7 @@ void one_more_sum_eye(struct sample *sample, const struct one_more *more, const 
     const struct render_job *job = sample->pass->job;
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
-        struct connection c = connect_hit(job->scene, sample->counts, z - 1, z);
+        struct connection c = connect_s0(job->scene, sample->counts, z - 1, z);
         struct joined j = {.t = t, .z = z, .pmf = 1, .scale = 1};
         weigh_again(more, sample, &j, z->p, &c);
         sample_add(sample, j);
@@ -84,7 +84,7 @@ static void sum_lens(struct sample *sample, const struct one_more *more, const s
         vec3 lens = lens_drawn(&job->scene->camera, light[s - 1].p, sample->sampler);
         double raster[2];
         struct connection c = connect_lens(job->scene, sample->counts, &light[s - 1], &sample->sampler, raster);
-        struct joined j = {.s = s, .t = 1, .light = light, .px = raster[0], .py = raster[1], .pmf = 1,
+        struct joined j = {.s = s, .t = 1, .path = light, .px = raster[0], .py = raster[1], .pmf = 1,
                            .scale = scale / sample->counts->lens};
         weigh_again(more, sample, &j, lens, &c);
         sample_splat(sample, j);
@@ -104,19 +104,19 @@ static void fill_pool(const struct prepared *p, const struct tile_pass *pass, st
     }
 }
 
-static void join(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+static void join(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
                  int t)
 {
     int C = p->numbers.draws[z->eye_end];
     for (int i = 0; i < C && t <= sample->pass->job->max_depth && vertex_connectible(z); i++) {
         struct drawn drawn;
-        if (p->method->draw(p, index, sample, z, i, C, &drawn))
+        if (p->method->draw(p, cache, sample, z, i, C, &drawn))
             sample_pairs(sample, &drawn, z, t, 1 / (C * sample->pass->work->pool.n * drawn.pmf));
     }
 }
 
 static void render_pixel(const struct prepared *p, const struct one_more *more, const struct tile_pass *pass,
-                         const struct index *index, int number, int x, int y, long iteration)
+                         const struct cache *cache, int number, int x, int y, long iteration)
 {
     struct vertex *eye = pass->work->eye;
     struct pool *pool = &pass->work->pool;
@@ -135,7 +135,7 @@ static void render_pixel(const struct prepared *p, const struct one_more *more, 
     one_more_sum_eye(&sample, more, eye, n);
     for (int t = 2; t <= n && each > 0; t++)
         if (shared)
-            join(p, index, &sample, &eye[t - 1], t);
+            join(p, cache, &sample, &eye[t - 1], t);
         else if (p->numbers.draws[FIRST_HIT] > 0 && vertex_connectible(&eye[t - 1]))
             sample_pairs(&sample, &(struct drawn){pool_path(pool, 0), 1, pool->length[0], 1}, &eye[t - 1], t, 1);
     if (each > 0 && number % each == 0) {
@@ -149,13 +149,13 @@ void one_more_render(const struct prepared *p, const struct one_more *more, cons
 {
     bool shared = p->method->build != NULL && p->numbers.path_pixels > 0;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
-        const struct index *index = NULL;
+        const struct cache *cache = NULL;
         if (shared) {
             fill_pool(p, pass, pass->tile->pixels, iteration);
-            index = p->method->build(p, pass, iteration);
+            cache = p->method->build(p, pass, iteration);
         }
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
-            render_pixel(p, more, pass, index, i, x, y, iteration);
+            render_pixel(p, more, pass, cache, i, x, y, iteration);
     }
 }
 

@@ -150,7 +150,7 @@ static bool remake_lens(struct primary *p, const struct mlt_path *path, const st
         return false;
     z = &p->chain->work->eye[t - 1];
     if (s == 0) {
-        *out = connect_hit(scene, counts, z - 1, z);
+        *out = connect_s0(scene, counts, z - 1, z);
         return true;
     }
     if (z->kind != VERTEX_SURFACE || follow_light(&w, path->x, s, light) < s)

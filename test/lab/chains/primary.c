@@ -131,11 +131,11 @@ static struct connection join(struct primary *p, struct strategy *of)
     static const struct connection NOTHING = {.light = -1};
     struct vertex y0;
     if (s == 0)
-        return connect_hit(scene, counts, z - 1, z);
+        return connect_s0(scene, counts, z - 1, z);
     if (s == 1)
         return z->kind == VERTEX_ESCAPED
                    ? NOTHING
-                   : connect_direct(scene, counts, z, &p->sampler[POINT_NUMBERS], 0, 1, &y0);
+                   : connect_s1(scene, counts, z, &p->sampler[POINT_NUMBERS], 0, 1, &y0);
     if (t == 1)
         return primary_lens(p, y, of);
     return connect_vertices(scene, counts, y, z);

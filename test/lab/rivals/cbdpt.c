@@ -17,22 +17,22 @@
  */
 #include "integrators/loop.h"
 
-struct index {
+struct cache {
     int order[POOL_PATHS]; /* pi */
 };
 
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
-    struct index *index = arena_alloc(&pool->arena, sizeof *index);
-    pool_shuffle(pool, pass, iteration, index->order);
+    struct cache *cache = arena_alloc(&pool->arena, sizeof *cache);
+    pool_shuffle(pool, pass, iteration, cache->order);
     for (int k = 0; p->numbers.draws[FIRST_HIT] == 1 && k < pool->n; k++)
-        index->order[k] = k;
-    return index;
+        cache->order[k] = k;
+    return cache;
 }
 
 /* The loop divides by n K times the probability: by the number of sub-paths that the pixel takes, n or all K. */
-static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+static bool draw(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
                  int i, int n, struct drawn *out)
 {
     const struct pool *pool = &sample->pass->work->pool;
@@ -40,7 +40,7 @@ static bool draw(const struct prepared *p, const struct index *index, struct sam
     (void)p, (void)z;
     if (i >= M)
         return false;
-    int k = index->order[(sample->number * M + i) % K];
+    int k = cache->order[(sample->number * M + i) % K];
     *out = (struct drawn){pool_path(pool, k), 1, pool->length[k], 1.0 / (n > K ? n : K)};
     return true;
 }

@@ -15,19 +15,19 @@
 #include "base/number.h"
 #include "integrators/loop.h"
 
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     (void)p, (void)iteration;
     pool_find_candidates(&pass->work->pool);
     return NULL;
 }
 
-static bool draw(const struct prepared *p, const struct index *index, struct sample *sample, const struct vertex *z,
+static bool draw(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
                  int i, int n, struct drawn *out)
 {
     const struct pool *pool = &sample->pass->work->pool;
     int V = pool->n_candidates;
-    (void)p, (void)index, (void)z;
+    (void)p, (void)cache, (void)z;
     if (V == 0)
         return false;
     /* below V, since what is drawn is a multiple of 2^-32; stratified over the pool */

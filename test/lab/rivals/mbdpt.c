@@ -38,7 +38,7 @@ struct mbdpt {
 };
 enum { PIXEL_BLOCK = 16 }; /* iterations that a pixel's matrix has */
 
-struct index {
+struct cache {
     struct ranked **column; /* [max_depth + 1][K]; from 2 on */
 };
 
@@ -64,15 +64,15 @@ static void rank(struct ranked *r, int i, const struct vertex *path, int n, int 
     r[i].number = i;
 }
 
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
-    struct index *index = arena_alloc(&pool->arena, sizeof *index);
+    struct cache *cache = arena_alloc(&pool->arena, sizeof *cache);
     bool throughput = ((const struct mbdpt *)p->own)->throughput;
     (void)iteration;
-    index->column = arena_alloc(&pool->arena, (size_t)(pass->job->max_depth + 1) * sizeof *index->column);
+    cache->column = arena_alloc(&pool->arena, (size_t)(pass->job->max_depth + 1) * sizeof *cache->column);
     for (int s = 2; s <= pass->job->max_depth; s++) {
-        struct ranked *column = index->column[s] = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *column);
+        struct ranked *column = cache->column[s] = arena_alloc(&pool->arena, (size_t)pool->n * sizeof *column);
         for (int k = 0; k < pool->n; k++) {
             const struct vertex *path = pool_path(pool, k);
             int n = pool->length[k];
@@ -80,11 +80,11 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
         }
         qsort(column, (size_t)pool->n, sizeof *column, by_key);
     }
-    return index;
+    return cache;
 }
 
 /* All strategies of eye sub-paths of t vertices, each with a shift of its own. */
-static void connect_length(const struct prepared *p, const struct pool *pool, const struct index *index,
+static void connect_length(const struct prepared *p, const struct pool *pool, const struct cache *cache,
                            struct pixel *pixel, int n, struct ranked *row, int t, const double *shift)
 {
     int64_t step = lattice_step(n);
@@ -94,7 +94,7 @@ static void connect_length(const struct prepared *p, const struct pool *pool, co
     for (int i = 0; i < n && row[i].key < INFINITY; i++)
         for (int s = 2; s <= pixel->sample.pass->job->max_depth + 2 - t; s++) {
             double u = (double)(i * step % n) / n + shift[s];
-            int j = (int)((u - floor(u)) * pool->n), k = index->column[s][j < pool->n ? j : pool->n - 1].number;
+            int j = (int)((u - floor(u)) * pool->n), k = cache->column[s][j < pool->n ? j : pool->n - 1].number;
             const struct drawn drawn = {pool_path(pool, k), s - 1, s, 1.0 / pool->n};
             struct pixel *of = &pixel[row[i].number];
             if (pool->length[k] >= s)
@@ -111,7 +111,7 @@ static void splat(const struct prepared *p, struct sample *sample, int i, int n)
         sample_lens(sample, pool_path(pool, k), pool->length[k], n / ((double)pool->n * each));
 }
 
-static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct cache *cache,
                         struct pixel *pixel, int n)
 {
     const struct pool *pool = &pass->work->pool;
@@ -122,7 +122,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
     for (int t = 2; t <= pass->job->max_depth && !pass_cancelled(pass); t++) {
         for (int s = 2; s <= pass->job->max_depth; s++)
             shift[s] = sampler_number(&pixel[0].sample.choice, DRAW_LIGHT_END);
-        connect_length(p, pool, index, pixel, n, row, t, shift);
+        connect_length(p, pool, cache, pixel, n, row, t, shift);
     }
     for (int i = 0; i < n; i++)
         splat(p, &pixel[i].sample, i, n);
@@ -138,12 +138,12 @@ static void render_pixel(const struct prepared *p, const struct tile_pass *pass,
         struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
         pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)i, &pool->arena, path));
     }
-    const struct index *index = build(p, pass, pass->first);
+    const struct cache *cache = build(p, pass, pass->first);
     arena_reset(&pass->work->arena);
     struct pixel *sample = arena_alloc(&pass->work->arena, (size_t)n * sizeof *sample);
     for (int i = 0; i < n; i++)
         sample[i] = together_begin(p, pass, i, x, y, pass->first + i);
-    connect_all(p, pass, index, sample, n);
+    connect_all(p, pass, cache, sample, n);
     for (int i = 0; i < n; i++)
         sample_end(&sample[i].sample);
 }

@@ -52,7 +52,7 @@ struct node {
 
 /* --- edges ------------------------------------------------------------------------------------------- */
 
-/* The edge to a light: as connect_direct draws it, but that others may scatter where this vertex has f = 0. */
+/* The edge to a light: as connect_s1 draws it, but that others may scatter where this vertex has f = 0. */
 static void draw_light(struct sample *sample, struct node *node)
 {
     const struct scene *scene = sample->pass->job->scene;
@@ -231,18 +231,18 @@ static void add_pixel(struct pixel *p, const struct node *first)
     struct sample *sample = &p->sample;
     const struct vertex *z = first->z;
     struct connection c = {.value = rgb_mul(z->beta, first->L), .weight = 1, .light = -1};
-    sample_hit(sample, p->eye, 2);
+    sample_s0(sample, p->eye, 2);
     sample_add(sample, (struct joined){.t = 2, .z = z, .c = &c, .pmf = 1, .scale = 1});
 }
 
-static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct cache *cache,
                         struct pixel *pixel, int n)
 {
     const struct pathgraph *s = p->own;
     struct arena *arena = &pass->work->arena;
     struct node **of = arena_alloc(arena, (size_t)n * sizeof *of);
     int longest = 0;
-    (void)index;
+    (void)cache;
     for (int i = 0; i < n; i++) {
         if (pass_cancelled(pass))
             return;

@@ -119,7 +119,7 @@ static int walk_guided(const struct sdtree *tree, const struct walk *w, struct v
     return n;
 }
 
-/* s = 1, as sample_direct. */
+/* s = 1, as sample_s1. */
 static void sum_direct(struct sample *sample, const struct vertex *z, int t, const struct sd_leaf *guide)
 {
     struct light_point at;
@@ -133,7 +133,7 @@ static void sum_direct(struct sample *sample, const struct vertex *z, int t, con
     }
     if (at.light >= 0)
         y = light_vertex(sample->pass->job->scene, sample->counts, &at);
-    sample_add(sample, (struct joined){.s = 1, .t = t, .light = at.light >= 0 ? &y : NULL, .z = z, .c = &c, .pmf = 1,
+    sample_add(sample, (struct joined){.s = 1, .t = t, .path = at.light >= 0 ? &y : NULL, .z = z, .c = &c, .pmf = 1,
                                        .scale = 1});
 }
 
@@ -156,7 +156,7 @@ static int trace_pixel(const struct prepared *p, const struct tile_pass *pass, i
         if (o->walked != NULL)
             o->walked(o->context, sample, RADIANCE, eye, n);
     for (int t = 2; t <= n; t++) {
-        sample_hit(sample, eye, t);
+        sample_s0(sample, eye, t);
         if (eye[t - 1].kind != VERTEX_ESCAPED && t < most)
             sum_direct(sample, &eye[t - 1], t, (*step)[t - 1].guide);
         (*step)[t - 1].before = sample->value;

@@ -87,7 +87,7 @@ static void reuse(struct pixel *pixel, const struct reservoir *all, const int *n
     double m = value_at(scene, &pixel[near[from]].eye[1], &all[near[from]], &l) / others;
     struct connection made = connect_lit(scene, c->sample.counts, &kept);
     const struct vertex y = light_vertex(scene, c->sample.counts, &kept.at);
-    sample_add(&c->sample, (struct joined){.s = 1, .t = 2, .light = &y, .z = &c->eye[1], .c = &made, .pmf = 1,
+    sample_add(&c->sample, (struct joined){.s = 1, .t = 2, .path = &y, .z = &c->eye[1], .c = &made, .pmf = 1,
                                            .scale = m * sum / own});
 }
 
@@ -106,18 +106,18 @@ static void join_own(const struct prepared *p, struct pixel *pixel)
     sample_lens(sample, light, n, 1);
 }
 
-static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct cache *cache,
                         struct pixel *pixel, int n)
 {
     const struct restir *own = p->own;
     struct reservoir *all = arena_alloc(&pass->work->arena, (size_t)n * sizeof *all);
-    (void)index;
+    (void)cache;
     for (int i = 0; i < n; i++) {
         all[i] = resample(&pixel[i], own->candidates);
         for (int t = 2; t <= pixel[i].n; t++) {
-            sample_hit(&pixel[i].sample, pixel[i].eye, t);
+            sample_s0(&pixel[i].sample, pixel[i].eye, t);
             if (t > 2)
-                sample_direct(&pixel[i].sample, &pixel[i].eye[t - 1], t);
+                sample_s1(&pixel[i].sample, &pixel[i].eye[t - 1], t);
         }
     }
     for (int i = 0; i < n; i++) {
@@ -133,7 +133,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
 static void render(const struct prepared *p, const struct tile_pass *pass)
 {
     struct prepared counted = *p;
-    counted.counts.direct[FIRST_HIT] = ((const struct restir *)p->own)->credit;
+    counted.counts.s1[FIRST_HIT] = ((const struct restir *)p->own)->credit;
     together_render(&counted, pass, connect_all);
 }
 

@@ -128,14 +128,14 @@ static void offer_later(struct pixel *p, struct reservoir *r, const struct verte
         for (x.s = 0; x.s <= (at.kind == VERTEX_SURFACE && x.t <= job->max_depth + 1); x.s++) {
             struct connection c =
                 x.s == 0 ? reuse_hit(sample, &p->eye[x.t - 2], &p->eye[x.t - 1], beta)
-                         : connect_direct(job->scene, sample->counts, &at, &sample->sampler, 0, 1, &x.y);
+                         : connect_s1(job->scene, sample->counts, &at, &sample->sampler, 0, 1, &x.y);
             x.kind = x.s == 0 && x.t == 4 ? HIT : LATER;
             x.light = x.kind == HIT ? pdf * reuse_hit_density(job->scene, &z[1]) : c.weight;
             x.L = c.value;
             x.ends_on = c.light;
             if (own)
                 sample_add(sample, (struct joined){.s = x.s, .t = x.t, .z = &p->eye[x.t - 1], .c = &c,
-                                                   .light = x.s == 1 ? &x.y : NULL, .pmf = 1, .scale = 1});
+                                                   .path = x.s == 1 ? &x.y : NULL, .pmf = 1, .scale = 1});
             else if (!rgb_is_black(c.value))
                 offer(p, r, &x, density, sum);
         }
@@ -155,7 +155,7 @@ static struct reservoir resample(struct pixel *p, bool shares)
         return r;
     }
     sample_alone(&p->sample, p->eye, 2);
-    sample_hit(&p->sample, p->eye, 3);
+    sample_s0(&p->sample, p->eye, 3);
     offer_point(p, &r, z, &sum);
     if (p->n > 3)
         offer_later(p, &r, z, &sum);
@@ -173,7 +173,7 @@ static void add_made(struct pixel *c, const struct tail *x, const struct connect
 {
     const struct tile_pass *pass = c->sample.pass;
     size_t t = (size_t)x->t, size = sizeof *c->eye;
-    struct joined j = {.s = x->s, .t = x->t, .c = made, .light = x->s == 1 ? &x->y : NULL, .pmf = 1, .scale = scale};
+    struct joined j = {.s = x->s, .t = x->t, .c = made, .path = x->s == 1 ? &x->y : NULL, .pmf = 1, .scale = scale};
     if (pass->observer != NULL) {
         struct vertex *path = arena_alloc(&pass->work->arena, t * size);
         memcpy(path, c->eye, 2 * size);
@@ -218,7 +218,7 @@ static void reuse(struct pixel *pixel, const struct reservoir *all, const int *n
         add_made(c, x, &kept, offered / others * sum / own);
 }
 
-static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct cache *cache,
                         struct pixel *pixel, int n)
 {
     const struct restirgi *own = p->own;
@@ -226,7 +226,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
     struct reservoir *all = arena_alloc(arena, (size_t)n * sizeof *all);
     int *near = arena_alloc(arena, (size_t)n * (size_t)(own->neighbours + 1) * sizeof *near);
     int *found = arena_alloc(arena, (size_t)n * sizeof *found);
-    (void)index;
+    (void)cache;
     for (int i = 0; i < n; i++) {
         if (pass_cancelled(pass))
             return;

@@ -45,7 +45,7 @@ struct sight {
     bool sees[RECORDS_NEAR];
 };
 
-static struct sight look(const struct index *r, const struct vertex *x, const struct vertex *y)
+static struct sight look(const struct cache *r, const struct vertex *x, const struct vertex *y)
 {
     struct sight s = {.x = x->p, .y = y->p};
     s.n = records_near(&r->records, r->scene, x, 0, s.near);
@@ -55,7 +55,7 @@ static struct sight look(const struct index *r, const struct vertex *x, const st
 }
 
 /* N of one technique for a light end of luminance L. */
-static double worth(const struct index *r, double P, double L, double h, double Q)
+static double worth(const struct cache *r, double P, double L, double h, double Q)
 {
     int M2 = r->own->presampled;
     double share = 1.0 / r->K, ratio = fmin(fmax(EPSILON, Q / h), 1e30);
@@ -67,13 +67,13 @@ static double worth(const struct index *r, double P, double L, double h, double 
 }
 
 /* Of the technique without a record. */
-static double worth_alone(const struct index *r, double P, double L)
+static double worth_alone(const struct cache *r, double P, double L)
 {
     return r->u == NULL ? worth(r, P, L, 1, r->vertices) : worth(r, P, L, L, r->previous_g);
 }
 
 /* Of all techniques of an edge: light, of luminance L, comes from wo to the light end y. */
-static double worth_edge(const struct index *r, const struct sight *s, double L, const struct vertex *y, vec3 wo)
+static double worth_edge(const struct cache *r, const struct sight *s, double L, const struct vertex *y, vec3 wo)
 {
     double P = 1.0 / (s->n + 1), sum = L > 0 ? worth_alone(r, P, L) : 0;
     for (int i = 0; i < s->n; i++) {
@@ -84,7 +84,7 @@ static double worth_edge(const struct index *r, const struct sight *s, double L,
     return sum;
 }
 
-double ris_worth(const struct index *r, const struct vertex *y, const struct vertex *z)
+double ris_worth(const struct cache *r, const struct vertex *y, const struct vertex *z)
 {
     struct sight s = look(r, z, y);
     return worth_edge(r, &s, r->light_L[y - r->pool->vertex], y, y->wo);
@@ -128,14 +128,14 @@ static void count(struct sums *a, double ratio, double plain, double N)
 }
 
 /* s = 1: of an eye end z and a point of a light's cell. */
-static void count_direct(const struct index *r, struct sums *a, double ratio, const struct vertex *z, enum eye_end end,
+static void count_direct(const struct cache *r, struct sums *a, double ratio, const struct vertex *z, enum eye_end end,
                          int cell)
 {
-    double n = n_direct(r->counts, z->place, end, cell);
+    double n = n_s1(r->counts, z->place, end, cell);
     count(a, ratio, n, n);
 }
 
-static void sum_light_side(const struct index *r, const struct path_end *end, struct sums *a)
+static void sum_light_side(const struct cache *r, const struct path_end *end, struct sums *a)
 {
     const struct vertex *v = end->v;
     double ratio = 1, pdf_other = end->pdf_other, pdf_rev = end->pdf_rev;
@@ -156,7 +156,7 @@ static void sum_light_side(const struct index *r, const struct path_end *end, st
 }
 
 /* The light walk arrives at the end with luminance L from wo; s = 0: the end is x_0. */
-static void sum_eye_side(struct index *r, int s, const struct path_end *end, double L, vec3 wo, struct sums *a)
+static void sum_eye_side(struct cache *r, int s, const struct path_end *end, double L, vec3 wo, struct sums *a)
 {
     const struct vertex *v = end->v, *before = end->before;
     double ratio = 1, pdf_other = end->pdf_other, pdf_rev = end->pdf_rev;
@@ -192,7 +192,7 @@ static void sum_eye_side(struct index *r, int s, const struct path_end *end, dou
 
 /*   s  0: y is NULL, z is on the light; 1: y is y_0; else 2: of s >= 2
  *   n  its count, if s < 2 */
-static double weigh(struct index *r, int s, double n, const struct path_end *y, const struct path_end *z)
+static double weigh(struct cache *r, int s, double n, const struct path_end *y, const struct path_end *z)
 {
     struct sums a = {0, 0, 0};
     double own = s == 2 ? r->one : n, all = s == 2 ? r->all : n, L = 0;
@@ -207,9 +207,9 @@ static double weigh(struct index *r, int s, double n, const struct path_end *y, 
     return own / (all + a.N) * a.plain / (a.plain + a.lens);
 }
 
-struct connection ris_hit(struct index *r, const struct vertex *prev, const struct vertex *z, int t)
+struct connection ris_hit(struct cache *r, const struct vertex *prev, const struct vertex *z, int t)
 {
-    struct connection c = connect_hit(r->scene, r->counts, prev, z);
+    struct connection c = connect_s0(r->scene, r->counts, prev, z);
     if (t == 2 || rgb_is_black(c.value))
         return c;
     const struct vertex *end = z->lamp != NULL ? z->lamp : z;
@@ -217,26 +217,26 @@ struct connection ris_hit(struct index *r, const struct vertex *prev, const stru
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &at,
                                    end->kind == VERTEX_ESCAPED ? prev->p : end->p, end->wo);
     const struct path_end z_end = {end, prev, at.pdf, pdf_emit};
-    c.weight = weigh(r, 0, r->counts->hit[prev->eye_end], NULL, &z_end);
+    c.weight = weigh(r, 0, r->counts->s0[prev->eye_end], NULL, &z_end);
     return c;
 }
 
-struct connection ris_lit(struct index *r, const struct lit *l)
+struct connection ris_lit(struct cache *r, const struct lit *l)
 {
     const struct vertex *z = l->z;
     struct connection c = connect_lit(r->scene, r->counts, l);
     if (rgb_is_black(c.value))
         return c;
     struct vertex y = light_vertex(r->scene, r->counts, &l->at);
-    y.mis_c = y.mis_c > 0 ? r->counts->hit[z->eye_end] : 0;
+    y.mis_c = y.mis_c > 0 ? r->counts->s0[z->eye_end] : 0;
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &l->at, z->p, neg(l->w));
-    double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->spread;
+    double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->falloff;
     const struct path_end y_end = {&y, NULL, l->pdf_z * l->at_light, 0}, z_end = {z, z - 1, pdf_z, l->pdf_rev_z};
-    c.weight = weigh(r, 1, n_direct(r->counts, z->place, z->eye_end, l->at.cell), &y_end, &z_end);
+    c.weight = weigh(r, 1, n_s1(r->counts, z->place, z->eye_end, l->at.cell), &y_end, &z_end);
     return c;
 }
 
-struct connection ris_joint(struct index *r, const struct joint *j)
+struct connection ris_joint(struct cache *r, const struct joint *j)
 {
     struct connection c = connect_joint(r->scene, r->counts, j);
     const struct path_end y_end = {j->y, j->y - 1, j->pdf_z * j->area_y, j->pdf_rev_y};
@@ -249,7 +249,7 @@ struct connection ris_joint(struct index *r, const struct joint *j)
 /* --- drawing ----------------------------------------------------------------------------------------- */
 
 /* What is drawn from in an iteration. */
-static void gather(struct index *r, const struct prepared *p, const struct tile_pass *pass, struct arena *arena,
+static void gather(struct cache *r, const struct prepared *p, const struct tile_pass *pass, struct arena *arena,
                    long iteration)
 {
     struct pool *pool = &pass->work->pool;
@@ -273,17 +273,17 @@ static void gather(struct index *r, const struct prepared *p, const struct tile_
     records_fill(&r->records, arena, r->scene, r->found, r->V, r->u);
 }
 
-struct index *ris_build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+struct cache *ris_build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct arena *arena = &pass->work->pool.arena;
-    struct index *r = arena_alloc(arena, sizeof *r);
-    *r = (struct index){.scene = NULL};
+    struct cache *r = arena_alloc(arena, sizeof *r);
+    *r = (struct cache){.scene = NULL};
     gather(r, p, pass, arena, iteration);
     return r;
 }
 
 /* A record that met nothing has nothing to offer. */
-bool ris_draw(const struct prepared *p, const struct index *r, struct sample *sample, const struct vertex *z,
+bool ris_draw(const struct prepared *p, const struct cache *r, struct sample *sample, const struct vertex *z,
               int i, int n, struct drawn *out)
 {
     int which;
@@ -300,7 +300,7 @@ bool ris_draw(const struct prepared *p, const struct index *r, struct sample *sa
 /* --- drawing with weights to suit -------------------------------------------------------------------- */
 
 /* Q of a record: the mean of what those of the iteration before have met that are next to it. */
-static double expect(const struct index *r, const struct record *c)
+static double expect(const struct cache *r, const struct record *c)
 {
     int near[RECORDS_NEAR], n = records_near(&r->previous, r->scene, &c->z, 0, near);
     double sum = 0;
@@ -310,7 +310,7 @@ static double expect(const struct index *r, const struct record *c)
 }
 
 /* L of all light vertices, and N of their edges as they are met from the light. */
-static void weigh_light_paths(struct index *r, struct arena *arena)
+static void weigh_light_paths(struct cache *r, struct arena *arena)
 {
     r->light_L = arena_alloc(arena, r->pool->used * sizeof *r->light_L);
     r->light_n = arena_alloc(arena, r->pool->used * sizeof *r->light_n);
@@ -326,7 +326,7 @@ static void weigh_light_paths(struct index *r, struct arena *arena)
     }
 }
 
-static void fill(struct index *r, const struct prepared *p, const struct tile_pass *pass, long iteration)
+static void fill(struct cache *r, const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct arena *arena = &r->arena[iteration % 2 != 0];
     arena_reset(arena);
@@ -334,7 +334,7 @@ static void fill(struct index *r, const struct prepared *p, const struct tile_pa
     gather(r, p, pass, arena, iteration);
 }
 
-void ris_begin(struct index *r, const struct prepared *counted, const struct tile_pass *pass, long iteration)
+void ris_begin(struct cache *r, const struct prepared *counted, const struct tile_pass *pass, long iteration)
 {
     struct arena *arena = &r->arena[iteration % 2 != 0];
     size_t n_sights = (size_t)pass->job->max_depth + 2;
@@ -350,14 +350,14 @@ void ris_begin(struct index *r, const struct prepared *counted, const struct til
     weigh_light_paths(r, arena);
 }
 
-void ris_end(struct index *r)
+void ris_end(struct cache *r)
 {
     arena_free(&r->arena[0]);
     arena_free(&r->arena[1]);
 }
 
 /* N of the draw's technique, and of all of its strategy, are left for `weigh`. */
-void ris_join(struct index *r, struct sample *sample, const struct vertex *z, int t)
+void ris_join(struct cache *r, struct sample *sample, const struct vertex *z, int t)
 {
     int which;
     if (r->V == 0)
@@ -380,12 +380,12 @@ void ris_join(struct index *r, struct sample *sample, const struct vertex *z, in
         return;
     if (connect_join(y, z, &j))
         made = ris_joint(r, &j);
-    sample_add(sample, (struct joined){.s = s, .t = t, .light = drawn.light, .z = z, .c = &made, .pmf = P,
+    sample_add(sample, (struct joined){.s = s, .t = t, .path = drawn.path, .z = z, .c = &made, .pmf = P,
                                        .scale = u / (P * r->K)});
 }
 
 /* As sample_alone. */
-static void sum_eye(struct index *r, struct sample *sample, const struct vertex *eye, int n)
+static void sum_eye(struct cache *r, struct sample *sample, const struct vertex *eye, int n)
 {
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
@@ -403,7 +403,7 @@ static void sum_eye(struct index *r, struct sample *sample, const struct vertex 
                 direct = ris_lit(r, &l);
             if (at.light >= 0)
                 y = light_vertex(r->scene, r->counts, &at);
-            sample_add(sample, (struct joined){.s = 1, .t = t, .light = at.light >= 0 ? &y : NULL, .z = z,
+            sample_add(sample, (struct joined){.s = 1, .t = t, .path = at.light >= 0 ? &y : NULL, .z = z,
                                                .c = &direct, .pmf = 1, .scale = 1.0 / points});
         }
     }
@@ -412,7 +412,7 @@ static void sum_eye(struct index *r, struct sample *sample, const struct vertex 
 static void render_weighed(const struct prepared *p, const struct tile_pass *pass)
 {
     struct vertex *eye = pass->work->eye;
-    struct index r = {.scene = NULL};
+    struct cache r = {.scene = NULL};
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         ris_begin(&r, p, pass, iteration);
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {

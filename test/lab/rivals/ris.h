@@ -14,7 +14,7 @@ struct ris {
     double normals; /* see records_near */
 };
 
-struct index {
+struct cache {
     const struct scene *scene;
     const struct counts *counts;
     const struct ris *own;
@@ -39,28 +39,28 @@ struct index {
  * ris_render: the `render`, by the weights of ris.c or by counts; then by ris_build and ris_draw. */
 void ris_prepare(const struct render_job *job, struct prepared *p);
 void ris_render(const struct prepared *p, const struct tile_pass *pass);
-struct index *ris_build(const struct prepared *p, const struct tile_pass *pass, long iteration);
-bool ris_draw(const struct prepared *p, const struct index *r, struct sample *sample, const struct vertex *z,
+struct cache *ris_build(const struct prepared *p, const struct tile_pass *pass, long iteration);
+bool ris_draw(const struct prepared *p, const struct cache *r, struct sample *sample, const struct vertex *z,
               int i, int n, struct drawn *out);
 
 /* With the weights of ris.c:
  *   ris_begin  an iteration: fill the pool. *r is all zeros before the first; ris_end releases it
  *   ris_join   add a draw for z = z_{t-1} */
-void ris_begin(struct index *r, const struct prepared *p, const struct tile_pass *pass, long iteration);
-void ris_end(struct index *r);
-void ris_join(struct index *r, struct sample *sample, const struct vertex *z, int t);
+void ris_begin(struct cache *r, const struct prepared *p, const struct tile_pass *pass, long iteration);
+void ris_end(struct cache *r);
+void ris_join(struct cache *r, struct sample *sample, const struct vertex *z, int t);
 
-/* ris_hit, ris_lit, ris_joint: as connect_hit, connect_lit and connect_joint, with the weights of ris.c; ris_joint
+/* ris_hit, ris_lit, ris_joint: as connect_s0, connect_lit and connect_joint, with the weights of ris.c; ris_joint
  * takes r->one and r->all for n. */
-struct connection ris_hit(struct index *r, const struct vertex *prev, const struct vertex *z, int t);
-struct connection ris_lit(struct index *r, const struct lit *l);
-struct connection ris_joint(struct index *r, const struct joint *j);
+struct connection ris_hit(struct cache *r, const struct vertex *prev, const struct vertex *z, int t);
+struct connection ris_lit(struct cache *r, const struct lit *l);
+struct connection ris_joint(struct cache *r, const struct joint *j);
 
 /* ris_worth: the sum of N of all techniques that join light vertex y of the pool to z. */
-double ris_worth(const struct index *r, const struct vertex *y, const struct vertex *z);
+double ris_worth(const struct cache *r, const struct vertex *y, const struct vertex *z);
 
 /* ris2_presample: the first stage: replace what was found by M2 draws in proportion to L. */
-void ris2_presample(struct index *r, const struct tile_pass *pass, struct arena *arena, long iteration);
+void ris2_presample(struct cache *r, const struct tile_pass *pass, struct arena *arena, long iteration);
 
 /* Rows of the tables of ris and ris2. */
 extern const char *const RIS_WEIGHTS[];

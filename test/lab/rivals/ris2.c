@@ -14,7 +14,7 @@
 #include "caustics/surfaces.h"
 #include "rivals/ris.h"
 
-void ris2_presample(struct index *r, const struct tile_pass *pass, struct arena *arena, long iteration)
+void ris2_presample(struct cache *r, const struct tile_pass *pass, struct arena *arena, long iteration)
 {
     const struct vertex *const *all = r->found;
     int M2 = r->own->presampled, n = r->V, x, y;

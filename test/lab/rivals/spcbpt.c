@@ -103,11 +103,11 @@ static void note_hit(struct trainer *r, const struct vertex *eye, int t)
 {
     const struct scene *scene = r->job->scene;
     const struct vertex *z = &eye[t - 2], *x = eye[t - 1].lamp != NULL ? eye[t - 1].lamp : &eye[t - 1];
-    struct connection c = connect_hit(scene, r->counts, z, x);
+    struct connection c = connect_s0(scene, r->counts, z, x);
     if (t == 2 || rgb_is_black(c.value))
         return;
     struct light_point y0 = vertex_light_point(scene, x);
-    double ratio = y0.pdf / x->pdf_fwd, direct = n_direct(r->counts, z->place, z->eye_end, y0.cell);
+    double ratio = y0.pdf / x->pdf_fwd, direct = n_s1(r->counts, z->place, z->eye_end, y0.cell);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &y0,
                                    x->kind == VERTEX_ESCAPED ? z->p : x->p, x->wo);
     struct found f = {1, x->prev_delta ? 0 : ratio * direct, ratio, pdf_emit * x->g, vertex_pdf_rev(z, x, RADIANCE),
@@ -126,8 +126,8 @@ static void note_lit(struct trainer *r, const struct vertex *z, struct sampler *
         return;
     bool hit = !light_is_delta(&scene->lights.light[at.light]);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &at, z->p, neg(l.w));
-    struct found f = {n_direct(r->counts, z->place, z->eye_end, at.cell), hit ? l.pdf_z * l.at_light / at.pdf : 0, 1,
-                      pdf_emit * vertex_cosine(z, l.w) * l.spread, l.pdf_rev_z, false};
+    struct found f = {n_s1(r->counts, z->place, z->eye_end, at.cell), hit ? l.pdf_z * l.at_light / at.pdf : 0, 1,
+                      pdf_emit * vertex_cosine(z, l.w) * l.falloff, l.pdf_rev_z, false};
     note(r, connect_lit(scene, r->counts, &l).value, f, z);
 }
 
@@ -175,7 +175,7 @@ static void trace_light(struct trainer *r, int i, const struct tree_node *tree, 
 /* Let the table of direct light know subspaces instead of regions: each has the row of the region of its first link. */
 static void guide_subspaces(struct tables *tables, const struct lessons *all, int subspaces)
 {
-    struct table *t = &tables->direct;
+    struct table *t = &tables->guide;
     size_t n = (size_t)t->columns, rows = t->rows > 0 ? (size_t)subspaces : 0;
     int *region = mem_alloc((size_t)subspaces, sizeof *region);
     double *ratio = mem_alloc(rows * n, sizeof *ratio), *before = mem_alloc(rows * (n + 1), sizeof *before);
@@ -242,7 +242,7 @@ struct group {
     double L; /* S_l */
 };
 
-struct index {
+struct cache {
     const struct vertex **candidate; /* [n] by subspace */
     double *before;              /* [n] sum of L over those before in the subspace */
     struct group *group;         /* [subspaces] */
@@ -280,11 +280,11 @@ static void classify(const struct prepared *p, struct vertex *path, int n, struc
 }
 
 /* Sort the pool's vertices by subspace. */
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     struct pool *pool = &pass->work->pool;
     size_t n = (size_t)((const struct spcbpt *)p->own)->subspaces;
-    struct index *v = arena_alloc(&pool->arena, sizeof *v);
+    struct cache *v = arena_alloc(&pool->arena, sizeof *v);
     (void)iteration;
     for (int k = 0; k < pool->n; k++)
         classify(p, &pool->vertex[pool->start[k]], pool->length[k], &pool->arena, IMPORTANCE);
@@ -306,7 +306,7 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     return v;
 }
 
-static const double *row_of(const struct spcbpt *own, const struct index *v, struct arena *arena, int e)
+static const double *row_of(const struct spcbpt *own, const struct cache *v, struct arena *arena, int e)
 {
     size_t n = (size_t)own->subspaces;
     if (v->row[e] != NULL)
@@ -319,7 +319,7 @@ static const double *row_of(const struct spcbpt *own, const struct index *v, str
 }
 
 /* Draw a subspace, then a vertex; stratified over both. */
-static bool draw(const struct prepared *p, const struct index *v, struct sample *sample, const struct vertex *z,
+static bool draw(const struct prepared *p, const struct cache *v, struct sample *sample, const struct vertex *z,
                  int i, int n, struct drawn *out)
 {
     const struct spcbpt *own = p->own;
@@ -350,7 +350,7 @@ static void splat(const struct prepared *p, struct sample *sample, struct vertex
         double raster[2];
         struct connection c = connect_lens(sample->pass->job->scene, &p->counts, y, &sample->sampler, raster);
         y->place = region;
-        sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .px = raster[0], .py = raster[1],
+        sample_splat(sample, (struct joined){.s = s, .t = 1, .path = light, .c = &c, .px = raster[0], .py = raster[1],
                                              .pmf = 1, .scale = scale / p->counts.lens});
     }
 }
@@ -363,7 +363,7 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
     int each = p->numbers.path_pixels;
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         loop_fill(p, pass, iteration);
-        const struct index *index = build(p, pass, iteration);
+        const struct cache *cache = build(p, pass, iteration);
         for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);
@@ -373,10 +373,10 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
                 const struct vertex *z = &eye[t - 1];
                 int C = t <= pass->job->max_depth && vertex_connectible(z) ? p->numbers.draws[z->eye_end] : 0;
                 struct drawn light;
-                sample_hit(&sample, eye, t);
-                sample_direct(&sample, z, t);
+                sample_s0(&sample, eye, t);
+                sample_s1(&sample, z, t);
                 for (int j = 0; j < C; j++)
-                    if (draw(p, index, &sample, z, j, C, &light))
+                    if (draw(p, cache, &sample, z, j, C, &light))
                         sample_pairs(&sample, &light, z, t, 1 / ((double)C * pool->n) / light.pmf);
             }
             if (i % each == 0)

@@ -20,17 +20,17 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
                              long iteration)
 {
     struct arena *arena = &pass->work->arena;
-    const struct index *index = NULL;
+    const struct cache *cache = NULL;
     int n = 0;
     if (p->method->build != NULL) {
         loop_fill(p, pass, iteration);
-        index = p->method->build(p, pass, iteration);
+        cache = p->method->build(p, pass, iteration);
     }
     arena_reset(arena);
     struct pixel *all = arena_alloc(arena, (size_t)pixels_count(pass->tile->pixels) * sizeof *all);
     for (int x, y; pass_pixel(pass, n, &x, &y); n++)
         all[n] = together_begin(p, pass, n, x, y, iteration);
-    connect_all(p, pass, index, all, n);
+    connect_all(p, pass, cache, all, n);
     for (int i = 0; i < n; i++)
         sample_end(&all[i].sample);
 }
@@ -103,7 +103,7 @@ struct connection reuse_hit(const struct sample *sample, const struct vertex *pr
     struct vertex at = z->lamp != NULL ? *z->lamp : *z;
     at.lamp = NULL;
     at.beta = beta;
-    return connect_hit(sample->pass->job->scene, sample->counts, prev, &at);
+    return connect_s0(sample->pass->job->scene, sample->counts, prev, &at);
 }
 
 void reuse_prepare(const struct render_job *job, struct prepared *p)

@@ -17,8 +17,8 @@ struct pixel {
     int n;
 };
 
-/* All strategies of all n pixels. `index` is what the method's `build` has made of the pool, if it has one. */
-typedef void connect_all_fn(const struct prepared *p, const struct tile_pass *pass, const struct index *index,
+/* All strategies of all n pixels. `cache` is what the method's `build` has made of the pool, if it has one. */
+typedef void connect_all_fn(const struct prepared *p, const struct tile_pass *pass, const struct cache *cache,
                             struct pixel *pixel, int n);
 
 /* together_begin: a sample of the tile's pixel of this number that is not connected, in the workspace's arena.

@@ -32,7 +32,7 @@ struct vcm {
 };
 
 /* Light vertices by the cells of a grid, 2 r wide, in a table of buckets by hash. */
-struct index {
+struct cache {
     const struct vertex *const *found;
     int *first, *next; /* [buckets], [found]: chains of candidates; -1: none */
     size_t buckets;
@@ -44,7 +44,7 @@ struct index {
 static bool can_merge(const struct vertex *v) { return v->kind == VERTEX_SURFACE && vertex_connectible(v); }
 
 /* Give all vertices of a walk c_e' and what follows from it. Vertices 0 and 1 have no merge before them. */
-static void know_merges(const struct index *m, struct arena *arena, struct vertex *path,
+static void know_merges(const struct cache *m, struct arena *arena, struct vertex *path,
                         int n, enum transport mode)
 {
     for (int e = 1; e < n; e++) {
@@ -65,13 +65,13 @@ static void know_merges(const struct index *m, struct arena *arena, struct verte
 }
 
 /* The part of one side: (c + pdf_rev mis) / (eta F), without the merge itself. */
-static double side(const struct index *m, const struct vertex *v, double pdf_rev)
+static double side(const struct cache *m, const struct vertex *v, double pdf_rev)
 {
     double own = m->eta * v->pdf_fwd;
     return (v->mis_c - own + pdf_rev * v->mis) / own;
 }
 
-static void merge(const struct index *m, struct sample *sample, const struct vertex *y, const struct vertex *z,
+static void merge(const struct cache *m, struct sample *sample, const struct vertex *y, const struct vertex *z,
                   int t)
 {
     const struct drawn drawn = drawn_vertex(y, 1);
@@ -83,12 +83,12 @@ static void merge(const struct index *m, struct sample *sample, const struct ver
     double scale = scatter_cosine(z, y->wo, RADIANCE) / (area * m->eta);
     struct connection joined = {.value = rgb_scale(rgb_mul(rgb_mul(y->beta, z->beta), f.f), scale), .light = -1};
     joined.weight = 1 / (1 + side(m, y, f.pdf) + side(m, z, f.pdf_rev));
-    sample_add(sample, (struct joined){.s = s, .t = t, .light = drawn.light, .z = z, .c = &joined, .pmf = 1,
+    sample_add(sample, (struct joined){.s = s, .t = t, .path = drawn.path, .z = z, .c = &joined, .pmf = 1,
                                        .scale = 1});
 }
 
 /* t = 1: the heart, which there looks at the counts and not at c_e', does not know of the merge at y. */
-static void splat(const struct index *m, struct sample *sample, const struct vertex *light, int n)
+static void splat(const struct cache *m, struct sample *sample, const struct vertex *light, int n)
 {
     const struct scene *scene = sample->pass->job->scene;
     const struct camera *camera = &scene->camera;
@@ -99,25 +99,25 @@ static void splat(const struct index *m, struct sample *sample, const struct ver
         struct connection c = connect_lens(scene, sample->counts, y, &sample->sampler, raster);
         if (!rgb_is_black(c.value)) {
             vec3 w = normalize(d);
-            double R = camera_project(camera, lens, w, &px, &py) * camera_spread(camera, length2(d)) *
+            double R = camera_project(camera, lens, w, &px, &py) * camera_falloff(camera, length2(d)) *
                        abs_dot(y->ng, w); /* density of y in the eye walk */
             c.weight = 1 / (1 / c.weight + R * m->eta / S);
         }
-        sample_splat(sample, (struct joined){.s = s, .t = 1, .light = light, .c = &c, .px = raster[0], .py = raster[1],
+        sample_splat(sample, (struct joined){.s = s, .t = 1, .path = light, .c = &c, .px = raster[0], .py = raster[1],
                                              .pmf = 1, .scale = 1 / S});
     }
 }
 
 /* --- the grid ---------------------------------------------------------------------------------------- */
 
-static vec3 cell_of(const struct index *m, vec3 p)
+static vec3 cell_of(const struct cache *m, vec3 p)
 {
     double side = 2 * m->r;
     vec3 cell = {floor(p.x / side), floor(p.y / side), floor(p.z / side)};
     return cell;
 }
 
-static size_t bucket_of(const struct index *m, vec3 cell)
+static size_t bucket_of(const struct cache *m, vec3 cell)
 {
     uint64_t h = 0;
     const double x[3] = {cell.x, cell.y, cell.z};
@@ -129,7 +129,7 @@ static size_t bucket_of(const struct index *m, vec3 cell)
     return (size_t)(h % m->buckets);
 }
 
-static void fill_grid(struct index *m, struct pool *pool)
+static void fill_grid(struct cache *m, struct pool *pool)
 {
     m->found = pool->candidate;
     m->buckets = 2 * (size_t)pool->n_candidates + 1;
@@ -145,7 +145,7 @@ static void fill_grid(struct index *m, struct pool *pool)
 }
 
 /* All light vertices within r of z: they lie in the eight cells around the corner of the grid that is next to it. */
-static void merge_all(const struct index *m, struct sample *sample, const struct vertex *z, int t)
+static void merge_all(const struct cache *m, struct sample *sample, const struct vertex *z, int t)
 {
     for (int corner = 0; corner < 8; corner++) {
         vec3 step = {corner & 1 ? m->r : -m->r, corner & 2 ? m->r : -m->r, corner & 4 ? m->r : -m->r};
@@ -162,11 +162,11 @@ static void merge_all(const struct index *m, struct sample *sample, const struct
 
 /* --- an iteration ------------------------------------------------------------------------------------ */
 
-static struct index *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
+static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     const struct vcm *own = p->own;
     struct pool *pool = &pass->work->pool;
-    struct index *m = arena_alloc(&pool->arena, sizeof *m);
+    struct cache *m = arena_alloc(&pool->arena, sizeof *m);
     m->r = own->radius * pass->job->scene->lights.radius * m_pow((double)iteration + 1, (own->alpha - 1) / 2);
     m->eta = pool->n * PI * sqr(m->r);
     for (int k = 0; k < pool->n; k++)
@@ -176,7 +176,7 @@ static struct index *build(const struct prepared *p, const struct tile_pass *pas
     return m;
 }
 
-static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct index *m,
+static void connect_all(const struct prepared *p, const struct tile_pass *pass, const struct cache *m,
                         struct pixel *pixel, int n)
 {
     const struct pool *pool = &pass->work->pool;
@@ -192,7 +192,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
             if (can_merge(&eye[t - 1]))
                 merge_all(m, sample, &eye[t - 1], t);
         }
-        splat(m, sample, light.light, light.end);
+        splat(m, sample, light.path, light.end);
     }
 }
 
