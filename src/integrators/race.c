@@ -97,12 +97,21 @@ static double huber(double x) { return x < FIREFLY ? x * x : 2 * FIREFLY * x - F
 /* The variance of a sample, from two sums of samples, relative to a unit of brightness. */
 static double variance(double a, double b, double unit) { return huber(fabs(a - b) / unit / sqrt(2.0 * SAMPLES)); }
 
+/* What the render makes of a pixel, the mean over a lap. */
+static double mean_of(const struct lap *l, int i)
+{
+    double mean = l->often[i] / SAMPLES;
+    for (int j = 0; j < SAMPLES; j++)
+        mean += l->rare[j][i] / (SAMPLES * l->every);
+    return mean;
+}
+
 /* The number of pixels in which a runner has met light in one of its two laps. */
 static int pixels_lit(const struct lap *a)
 {
     int lit = 0;
     for (int i = 0; i < pixels_count(a->pixels); i++)
-        lit += a[0].mean[i] + a[1].mean[i] > 0;
+        lit += mean_of(a, i) + mean_of(a + 1, i) > 0;
     return lit;
 }
 
@@ -130,12 +139,9 @@ static void find_units(const struct lap *lap, int n, double *unit)
     int pixels = pixels_count(lap->pixels);
     double picture = 0;
     for (int i = 0; i < pixels; i++) {
-        unit[i] = 1e-30; /* not 0 */
-        for (const struct lap *l = lap; l < lap + n; l++) {
-            unit[i] += l->often[i] / (n * SAMPLES);
-            for (int j = 0; j < SAMPLES; j++)
-                unit[i] += l->rare[j][i] / (n * SAMPLES * l->every);
-        }
+        unit[i] = NOTHING;
+        for (const struct lap *l = lap; l < lap + n; l++)
+            unit[i] += mean_of(l, i) / n;
         picture += unit[i] / pixels;
     }
     for (int i = 0; i < pixels; i++)
