@@ -6,7 +6,7 @@
 #include "base/number.h"
 #include "base/parallel.h"
 
-enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32 };
+enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32, BLIND_SHARE = 8 };
 static const double FIREFLY = 11, USELESS = 0.95;
 static const double NOTHING = 1e-30, BLIND = 1e30; /* not 0 and infinity: others are divided by them */
 
@@ -115,8 +115,8 @@ static int pixels_lit(const struct lap *a)
     return lit;
 }
 
-/* From the two laps of a runner; most: of pixels_lit. Returns the variance of direct light. */
-static double judge(struct runner *k, const struct lap *a, const double *unit, int most)
+/* From the two laps of a runner. Returns the variance of direct light. */
+static double judge(struct runner *k, const struct lap *a, const double *unit)
 {
     const struct lap *b = a + 1;
     double direct = 0, n = pixels_count(a->pixels), parts = 2 * SAMPLES * a->every * n;
@@ -128,8 +128,6 @@ static double judge(struct runner *k, const struct lap *a, const double *unit, i
         for (int j = 0; j < SAMPLES; j++)
             k->variance += (huber(a->rare[j][i] / unit[i]) + huber(b->rare[j][i] / unit[i])) / parts;
     }
-    if (2 * pixels_lit(a) < most)
-        k->variance = BLIND;
     return direct;
 }
 
@@ -157,14 +155,12 @@ static double compete(const struct render_job *job, const struct prepared *p, st
     struct parallel_jobs jobs = {2 * n, job->n_threads, 2 * n, lap, run_lap, count_lap, NULL};
     double unit[MOST_PIXELS], direct = -1;
     bool all = job->scene->lights.n > 0 && parallel_run(&jobs) == 2 * n && job_cancelled(job) == CANCEL_NOT;
-    int most = 0;
-    for (int i = 0; i < n; i++) {
-        int lit = pixels_lit(&lap[2 * i]);
-        most = lit > most ? lit : most;
-    }
     find_units(lap, 2 * n, unit);
     for (int i = 0; i < n && all; i++)
-        direct = judge(&first[i], &lap[2 * i], unit, most);
+        direct = judge(&first[i], &lap[2 * i], unit);
+    for (int i = 0; i < n * n; i++)
+        if (BLIND_SHARE * pixels_lit(&lap[2 * (i / n)]) < pixels_lit(&lap[2 * (i % n)]))
+            first[i / n].variance = BLIND;
     free(lap);
     return direct;
 }

@@ -71,7 +71,7 @@ void race_print_table(FILE *f, const struct race_result *r)
         else if (relative_cost(r, k) >= 0 && relative_cost(r, k) < 1e12)
             fprintf(f, " %10.4g %8.4g %8.3f", k->variance, k->price, relative_cost(r, k));
         else
-            fprintf(f, " %10.4g %8.4g %8s", k->variance, k->price, "-"); /* no sample, or none of this runner, has met any light */
+            fprintf(f, " %10.4g %8.4g %8s", k->variance, k->price, "-"); /* it, or each, met next to no light */
         fputs("  ", f);
         print_light(f, n);
         fprintf(f, "%s\n", i == r->winner ? "; chosen" : "");
