@@ -2,6 +2,7 @@
 # errors that have no number, since the noise of their reference is unknown or larger.
 /^(mse8|relmse|8x8): squared/ { measure = $1; sub(/:/, "", measure) }
 /^\| method \|/ { n = split($0, scene, / *\| */); for (i in scene) sub(/,.*/, "", scene[i]) }
+/^\| method \| price/ { measure = "" } # a table of all scenes
 /^\| [a-z]/ && measure != "" {
     split($0, cell, / *\| */)
     for (i = 3; i < n; i++) if (cell[i] == "-" && scene[i] != "") {
