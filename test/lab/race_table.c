@@ -68,10 +68,10 @@ void race_print_table(FILE *f, const struct race_result *r)
                 n->light_points);
         if (!(k->price > 0))
             fprintf(f, " %10s %8s %8s", "-", "-", "-"); /* it did not have to start */
-        else if (relative_cost(r, k) >= 0 && relative_cost(r, k) < 1e12)
+        else if (relative_cost(r, k) < 1e12)
             fprintf(f, " %10.4g %8.4g %8.3f", k->variance, k->price, relative_cost(r, k));
         else
-            fprintf(f, " %10.4g %8.4g %8s", k->variance, k->price, "-"); /* it, or each, met next to no light */
+            fprintf(f, " %10.4g %8.4g %8s", k->variance, k->price, "-"); /* it met next to no light */
         fputs("  ", f);
         print_light(f, n);
         fprintf(f, "%s\n", i == r->winner ? "; chosen" : "");
