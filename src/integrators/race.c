@@ -115,8 +115,8 @@ static int pixels_lit(const struct lap *a)
     return lit;
 }
 
-/* From the two laps of a runner. Returns the variance of direct light. */
-static double judge(struct runner *k, const struct lap *a, const double *unit)
+/* From the two laps of a runner; most: of pixels_lit. Returns the variance of direct light. */
+static double judge(struct runner *k, const struct lap *a, const double *unit, int most)
 {
     const struct lap *b = a + 1;
     double direct = 0, n = pixels_count(a->pixels), parts = 2 * SAMPLES * a->every * n;
@@ -128,6 +128,8 @@ static double judge(struct runner *k, const struct lap *a, const double *unit)
         for (int j = 0; j < SAMPLES; j++)
             k->variance += (huber(a->rare[j][i] / unit[i]) + huber(b->rare[j][i] / unit[i])) / parts;
     }
+    if (BLIND_SHARE * pixels_lit(a) < most)
+        k->variance = BLIND;
     return direct;
 }
 
@@ -154,13 +156,13 @@ static double compete(const struct render_job *job, const struct prepared *p, st
         start_lap(job, p, &first[i / 2], (uint64_t)i % 2, &lap[i]);
     struct parallel_jobs jobs = {2 * n, job->n_threads, 2 * n, lap, run_lap, count_lap, NULL};
     double unit[MOST_PIXELS], direct = -1;
+    int most = 0;
     bool all = job->scene->lights.n > 0 && parallel_run(&jobs) == 2 * n && job_cancelled(job) == CANCEL_NOT;
     find_units(lap, 2 * n, unit);
+    for (int i = 0; i < n; i++)
+        most = most > pixels_lit(&lap[2 * i]) ? most : pixels_lit(&lap[2 * i]);
     for (int i = 0; i < n && all; i++)
-        direct = judge(&first[i], &lap[2 * i], unit);
-    for (int i = 0; i < n * n; i++)
-        if (BLIND_SHARE * pixels_lit(&lap[2 * (i / n)]) < pixels_lit(&lap[2 * (i % n)]))
-            first[i / n].variance = BLIND;
+        direct = judge(&first[i], &lap[2 * i], unit, most);
     free(lap);
     return direct;
 }

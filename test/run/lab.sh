@@ -59,15 +59,8 @@ check [ "$(export LC_ALL=C && cat told/pbrt-v4/* told/mitsuba/* | cksum)" = '428
 # ---- a scene without light ----
 echo 'Camera "perspective" WorldBegin Translate 0 0 3 Shape "sphere" WorldEnd' >dark.pbrt
 expect 1 'the scene has no light' "$lab" worth dark.pbrt --integrator asbdpt --res 16 -o worth.png
-cat >beam.pbrt <<'END'
-LookAt 4 0.01 0  0 0 0  0 0 1 Film "image" "integer xresolution" 32 "integer yresolution" 32
-MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [.02 .02 .02] "rgb sigma_s" [.1 .1 .1]
-MediumInterface "" "fog" Camera "perspective" "float fov" 50 WorldBegin MediumInterface "fog" "fog"
-LightSource "spot" "rgb I" [100 100 100] "point from" [-3 0 0] "point to" [0 0 0]
-"float coneangle" 2 "float conedeltaangle" .5 Material "matte" Rotate 90 0 1 0
-Shape "disk" "float radius" 1 "float height" 3 WorldEnd
-END
-prints '^  path_tracer .* 1e+30  *[0-9.]*  *-  no light sub-paths$' "$lab" info beam.pbrt --race
+sh "$top/scenes/unpack.sh" "$top/scenes/test/lights.txt" told/lights
+prints '^  path_tracer .* 1e+30  *[0-9.]*  *-  no light sub-paths$' "$lab" info told/lights/beam.pbrt --race
 expect 0 '' "$lab" info dark.pbrt --race
 check [ -z "$(grep -i nan stdout.txt)" ]
 [ $failures -eq 0 ] && echo "lab: all as expected"

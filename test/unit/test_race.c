@@ -126,22 +126,12 @@ static void test_nothing_is_given_up(struct test *t)
     }
 }
 
-/* A narrow beam in thin fog, behind a disk: a path tracer meets it in next to no sample. What one misses must not count
- * as certain. */
-static const char BEAM[] =
-    "LookAt 4 0.01 0  0 0 0  0 0 1 PixelFilter \"box\"\n"
-    "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 32\n"
-    "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [.02 .02 .02] \"rgb sigma_s\" [.1 .1 .1]\n"
-    "MediumInterface \"\" \"fog\" Camera \"perspective\" \"float fov\" 50 WorldBegin MediumInterface \"fog\" \"fog\"\n"
-    "LightSource \"spot\" \"rgb I\" [100 100 100] \"point from\" [-3 0 0] \"point to\" [0 0 0]\n"
-    "\"float coneangle\" 2 \"float conedeltaangle\" .5 Material \"matte\" Rotate 90 0 1 0\n"
-    "Shape \"disk\" \"float radius\" 1 \"float height\" 3 WorldEnd\n";
-
+/* A path tracer meets this beam in next to no sample. What one misses must not count as certain. */
 static void test_beam(struct test *t)
 {
     struct scene scene;
     struct settled s;
-    if (!scene_from_text(t, BEAM, &scene))
+    if (!scene_from_file(t, "scenes/test/beam.pbrt", 0, 0, &scene))
         return;
     for (int seed = 0; seed < 8 && settle(t, &scene, (uint64_t)seed, &s); seed++)
         CHECK(t, s.winner < RUNNER_PATH_TRACER && s.counts.lens > 0, "seed %d: %s renders a beam that it cannot find",
