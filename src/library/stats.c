@@ -102,7 +102,7 @@ void stats_add(struct growing *f, const struct asbdpt *r, const struct texts *fi
     put_number(f, "peak_memory", os_peak_memory());
     put_number(f, "nonfinite", (double)film->nonfinite);
     growing_add(f, ",\n\"chosen\": {\n\"%s\": %.17g", chosen->name, chosen->value);
-    for (const struct chosen_number *n = chosen + 1; n->name != NULL; n++)
+    for (const struct chosen_number *n = chosen + 1; n->name[0] != '\0'; n++)
         put_number(f, n->name, n->value);
     growing_add(f, "%s", "}\n}\n");
 }

@@ -1,9 +1,8 @@
 /* chosen.c: see chosen.h. */
 #include "render/chosen.h"
 
+#include <stdio.h>
 #include <string.h>
-
-static const char *const RACED[RUNNERS] = {"race_all", "race_quarter", "race_path_tracer", "race_one_point"};
 
 void chosen_numbers(const struct prepared *p, struct chosen_number out[CHOSEN_NUMBERS])
 {
@@ -15,9 +14,11 @@ void chosen_numbers(const struct prepared *p, struct chosen_number out[CHOSEN_NU
         {"light_points_first_hit", n->light_points}, {"pixels_per_light_path", n->path_pixels},
         {"iterations_per_light_path", numbers_every(n)}, {"regions", p->tables->regions.n}};
     int used = (int)(sizeof numbers / sizeof *numbers);
-    memset(out, 0, CHOSEN_NUMBERS * sizeof *out); /* a NULL name ends the list */
+    memset(out, 0, CHOSEN_NUMBERS * sizeof *out); /* an empty name ends the list */
     memcpy(out, numbers, sizeof numbers);
     for (int i = 0; i < RUNNERS; i++)
-        if (p->runner[i].price > 0 && winner->price > 0) /* unless the race was cancelled */
-            out[used++] = (struct chosen_number){RACED[i], runner_cost(&p->runner[i]) / runner_cost(winner)};
+        if (p->runner[i].price > 0 && winner->price > 0) { /* unless the race was cancelled */
+            snprintf(out[used].name, sizeof out->name, "race_%s", runner_name(i));
+            out[used++].value = runner_cost(&p->runner[i]) / runner_cost(winner);
+        }
 }

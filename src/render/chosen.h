@@ -9,7 +9,7 @@
 
 enum { CHOSEN_NUMBERS = 16 };
 struct chosen_number {
-    const char *name; /* static; NULL: the one before was the last */
+    char name[32]; /* empty: the one before was the last */
     double value;
 };
 

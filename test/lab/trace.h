@@ -61,7 +61,7 @@ struct trace {
     int n_splats;      /* by so many vertices that were joined to the lens */
     const char *why;   /* how the method chooses what to connect with; NULL: it does not */
     struct race_result race;
-    struct chosen_number number[CHOSEN_NUMBERS]; /* what it has chosen for itself, ended by a NULL name */
+    struct chosen_number number[CHOSEN_NUMBERS]; /* what it has chosen for itself, ended by an empty name */
 };
 
 /* A trace starts as zeros, except the sample to watch. trace_free releases what it owns. */

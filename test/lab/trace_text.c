@@ -192,7 +192,7 @@ void trace_text(FILE *f, const struct trace_story *s)
     print_paths(f, s);
     if (t->why != NULL)
         fprintf(f, "\nCHOICE of what to connect with: %s.\n", t->why);
-    for (const struct chosen_number *n = t->number; n->name != NULL; n++)
+    for (const struct chosen_number *n = t->number; n->name[0] != '\0'; n++)
         fprintf(f, "  chosen: %s %.3g\n", n->name, n->value);
     fprintf(f, "\nCONNECTIONS, t >= 2: C* times the next two columns is added to the pixel\n");
     print_connections(f, t, false);

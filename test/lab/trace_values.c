@@ -66,7 +66,7 @@ void trace_values(FILE *f, const struct trace_story *s)
     char of[NAME];
     int n = 0;
     fprintf(f, "at %d,%d\nsample %ld\nmethod %s\nK %d\n", t->x, t->y, t->iteration, s->integrator->name, t->n_pool);
-    for (const struct chosen_number *m = t->number; m->name != NULL; m++)
+    for (const struct chosen_number *m = t->number; m->name[0] != '\0'; m++)
         fprintf(f, "%s %.9g\n", m->name, m->value);
     for (int i = 0; i < t->eye.n; i++) {
         snprintf(of, sizeof of, "z.%d", i);
