@@ -106,6 +106,8 @@ $(BUILD)/suites.h: test/unit/suites.awk $(wildcard test/unit/*.c)
 -include $(wildcard $(BUILD)/lib/*/*.d $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d $(BUILD)/obj/*/*/*/*.d)
 
 # ---- what it is for ----
+# All cores, unless make has been told how many jobs.
+CORES = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2))
 # Paths come to the shell as variables, for they may hold blanks and quotes. Whatever the umask, everybody may read.
 install uninstall: export TO_BIN = $(DESTDIR)$(PREFIX)/bin
 install uninstall: export TO_MAN = $(DESTDIR)$(MANDIR)
@@ -132,7 +134,7 @@ uninstall: ## remove what install put there
 	rm -f "$$TO_INCLUDE/asbdpt.h" "$$TO_LIB/libasbdpt.a" "$$TO_LIB/libasbdpt.so" "$$TO_LIB/pkgconfig/asbdpt.pc"
 
 demo: ## build both programs with all cores, and render the corridor by bdpt and asbdpt in the same time: out/demo.png (50 s of CPU)
-	@$(MAKE) -j$$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) asbdpt asbdpt-lab
+	@$(MAKE) $(CORES) asbdpt asbdpt-lab
 	@rm -rf out/demo
 	$(LAB) equal-time scenes/corridor.pbrt --reference ref/demo/corridor.png --spp 48 --seeds 1 -o out/demo >/dev/null
 	@cp out/demo/images/corridor.png out/demo.png
@@ -170,17 +172,17 @@ SHORT = $(foreach name,lab sample corpus outputs boxes install suites_test hashe
     "LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB)" "sh test/tree/words_test.sh" \
     "sh test/run/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
 test: ## build with all cores, and run the test suite (three minutes on two cores)
-	@$(MAKE) -j$$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) asbdpt asbdpt-lab $(BUILD)/test $(BUILD)/boxes lib
+	@$(MAKE) $(CORES) asbdpt asbdpt-lab $(BUILD)/test $(BUILD)/boxes lib
 	@sh test/run/suites.sh $(LONG) $(FACTS) $(BUILD)/test $(SHORT)
 
 scripts: asbdpt asbdpt-lab $(BUILD)/boxes lib ## what depends on the sh and awk of a system: no suites in C, few samples
 	@BRIEF=yes sh test/run/suites.sh $(LONG) $(FACTS) $(SHORT)
 
+check-long: export FULL = yes
 check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject ## the tests that take longer
 	@sh test/run/suites.sh "sh test/run/course.sh prove" "$(BUILD)/test --slow" "sh test/run/checkpoint.sh $(PROGRAM) 100" \
 	    "sh test/run/readme.sh $(PROGRAM)" "PICTURES=all sh test/run/mini.sh $(PROGRAM)" "BUILD=$(BUILD) sh test/run/add_method.sh" \
-	    "sh test/run/report.sh $(PROGRAM)" "FULL=yes sh test/run/examples.sh $(PROGRAM)" "FULL=yes sh test/run/embed.sh $(PROGRAM)" \
-	    "FULL=yes sh test/run/web.sh out/asbdpt.html" \
+	    "sh test/run/report.sh $(PROGRAM)" "sh test/run/examples.sh $(PROGRAM)" "sh test/run/embed.sh $(PROGRAM)" \
 	    "sh doc/tour/figures.sh $(PROGRAM) out/figures && \
 	    diff -r -x equal.png doc/tour/figures out/figures"
 	if command -v python3 >/dev/null; then python3 test/measure/recompute.py; else echo "recompute: skipped: no python3"; fi
