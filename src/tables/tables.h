@@ -14,7 +14,7 @@ struct tables {
                             * over the eye vertices there; NULL: not learnt; owned */
     double *vertices;      /* [regions.limit] share of the connectible light vertices there; NULL: not learnt; owned */
     double light_vertices; /* mean number of connectible vertices of a light sub-path */
-    struct table guide;   /* regions x light cells: how s = 1 chooses lights */
+    struct table guide;    /* regions x light cells: how s = 1 chooses lights */
     struct table pairs;    /* regions x regions: how s >= 2 chooses light vertices (columns) for eye vertices */
     struct table emission; /* 1 x emission.h: how light sub-paths leave lights */
 };

@@ -44,9 +44,9 @@ void pool_free(struct pool *p);
 
 static inline const struct vertex *pool_path(const struct pool *p, int k) { return &p->vertex[p->start[k]]; }
 
-/* pool_find_candidates: all light vertices y_1, y_2 ... that can be connected to, in the order of tracing. Whoever
- * draws by the luminance of beta, or by products with it, gets sums that are finite and not 0: this is where a vertex
- * of another beta is left out. No sub-path may be added afterwards. */
+/* pool_find_candidates: all light vertices y_1, y_2 ... that can be connected to, in the order of tracing. Methods
+ * draw by the luminance of beta, or by products with it, and need sums that are finite and not 0. So vertices whose
+ * luminance is 0, not a number, or too large are left out here. No sub-path may be added afterwards. */
 void pool_find_candidates(struct pool *p);
 
 #endif

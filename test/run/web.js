@@ -149,7 +149,7 @@ async function rendered(settings) {
     await until(() => $('drawing').naturalWidth > 1000, 'the drawing');
     check(!$(`mark${i}`).hidden && $(`mark${1 - i}`).hidden, 'the pixel is not marked');
   }
-  check(/CHOICE of what to connect with: /.test($('choice').textContent), 'the choice is not told: ' +
+  check(/A bin of the pixel has two/.test($('choice').textContent), 'the choice is not told: ' +
     $('choice').textContent);
   const first = Number($('sample').value);
   check(!/receives 0 0 0/.test($('story').textContent), 'the first sample shown brings nothing');
