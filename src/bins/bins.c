@@ -43,11 +43,10 @@ struct element {
 /* The bins of one pixel in one block; bin b has the elements 2b and 2b+1. */
 struct pixel {
     const struct tile_pass *pass;
-    const struct prepared *prepared;
     const struct bins_parameters *own;
     struct element *element; /* [bin_paths], owned */
     uint64_t traced;         /* sub-paths so far */
-    int x, y;
+    int i;                   /* of the pixel in its tile */
 };
 
 /* Trace a new sub-path for element e. The number of its random stream is made of the block's first iteration and of the
@@ -59,7 +58,7 @@ static void replace(struct pixel *p, struct element *e, long iteration)
     uint64_t number = hash_mix(((uint64_t)p->pass->first << 32) + p->traced++);
     arena_reset(&e->arena);
     e->vertex = arena_alloc(&e->arena, ((size_t)p->pass->job->max_depth + 1) * sizeof *e->vertex);
-    e->length = sample_light_path(p->pass, &p->prepared->counts, p->x, p->y, number, &e->arena, e->vertex);
+    e->length = sample_light_path(p->pass, p->i, number, &e->arena, e->vertex);
     e->beta = path_throughput(e->vertex, e->length);
     e->born = iteration;
 }
@@ -102,20 +101,19 @@ static struct element *choose(const struct pixel *p, double shift, uint64_t step
 
 static void render_iteration(struct pixel *p, double shift, long iteration)
 {
-    struct vertex *eye = p->pass->work->eye;
     arena_reset(&p->pass->work->arena);
-    struct sample sample = sample_begin(p->pass, &p->prepared->counts, 1, p->x, p->y, iteration);
-    int n = sample_eye_path(&sample, eye, p->pass->job->max_depth + 2);
-    struct sampler choice = sample_stream(p->pass, RNG_SELECT, p->x, p->y, (uint64_t)iteration);
+    struct sample sample = sample_begin(p->pass, p->i, iteration);
+    int n = sample_eye_path(&sample, p->pass->job->max_depth + 2);
+    struct sampler choice = sample_stream(p->pass, RNG_SELECT, sample.x, sample.y, (uint64_t)iteration);
     replace_aged(p, iteration);
     double u = sampler_number(&choice, DRAW_LIGHT_END), pmf;
     struct element *e = choose(p, shift, (uint64_t)(iteration - p->pass->first), u, &pmf);
     const struct drawn drawn = {e->vertex, 1, e->length, pmf}; /* no factor makes up for pmf */
 
     for (int t = 2; t <= n; t++) {
-        sample_s0(&sample, eye, t);
-        sample_s1(&sample, &eye[t - 1], t);
-        sample_pairs(&sample, &drawn, &eye[t - 1], t, 1);
+        sample_s0(&sample, t);
+        sample_s1(&sample, t);
+        sample_pairs(&sample, &drawn, t, 1);
     }
     sample_lens(&sample, e->vertex, e->length, 1);
     sample_end(&sample);
@@ -124,10 +122,11 @@ static void render_iteration(struct pixel *p, double shift, long iteration)
 
 static void render(const struct prepared *m, const struct tile_pass *pass)
 {
-    struct pixel p = {.pass = pass, .prepared = m, .own = m->own};
+    struct pixel p = {.pass = pass, .own = m->own};
     p.element = mem_alloc((size_t)p.own->bin_paths, sizeof *p.element);
-    for (int number = 0; pass_pixel(pass, number, &p.x, &p.y); number++) {
-        struct sampler shift = sample_stream(pass, RNG_SHUFFLE, p.x, p.y, (uint64_t)pass->first);
+    for (; pass_goes_on(pass, p.i); p.i++) {
+        const int *at = pass->tile->pixel[p.i];
+        struct sampler shift = sample_stream(pass, RNG_SHUFFLE, at[0], at[1], (uint64_t)pass->first);
         double start = sampler_number(&shift, DRAW_ORDER);
         p.traced = 0;
         for (int i = 0; i < p.own->bin_paths; i++)

@@ -120,25 +120,24 @@ static bool draw(const struct prepared *p, const struct cache *v, struct sample 
  * times. In the other iterations K = 0: they are those of a path tracer. */
 static void render_iteration(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
-    struct vertex *eye = pass->work->eye;
-    loop_fill(p, pass, iteration); /* K light sub-paths, and their vertices by region */
+    loop_fill(p, pass, iteration);
     const int K = pass->work->pool.n;
     const struct cache *cache = K > 0 ? p->method->build(p, pass, iteration) : NULL;
     const double every = numbers_every(&p->numbers);
-    for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
+    for (int i = 0; pass_goes_on(pass, i); i++) {
         struct sample sample;
         arena_reset(&pass->work->arena);
-        int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
+        int n = loop_begin(p, pass, i, iteration, &sample);
         for (int t = 2; t <= n; t++) {
-            const struct vertex *z = &eye[t - 1];
+            const struct vertex *z = &sample.eye[t - 1];
             const bool joins = K > 0 && t <= pass->job->max_depth && vertex_connectible(z);
             const int C = joins ? p->numbers.draws[z->eye_end] : 0;
             struct drawn drawn;
-            sample_s0(&sample, eye, t);
-            sample_s1(&sample, z, t);
+            sample_s0(&sample, t);
+            sample_s1(&sample, t);
             for (int j = 0; j < C; j++) /* s >= 2 */
                 if (p->method->draw(p, cache, &sample, z, j, C, &drawn))
-                    sample_pairs(&sample, &drawn, z, t, every / (C * K) / drawn.pmf);
+                    sample_pairs(&sample, &drawn, t, every / (C * K) / drawn.pmf);
         }
         loop_splat(p, &sample); /* t = 1 */
         sample_end(&sample);

@@ -37,20 +37,18 @@ void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iter
     pool_clear(pool);
     if (p->numbers.path_pixels == 0 || !loop_turn(p, pass, iteration))
         return;
-    for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i += p->numbers.path_pixels) {
+    for (int i = 0; pass_goes_on(pass, i); i += p->numbers.path_pixels) {
         struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
-        pool_add(pool, sample_light_path(pass, &p->counts, x, y, number_of_turn(p, iteration), &pool->arena, path));
+        pool_add(pool, sample_light_path(pass, i, number_of_turn(p, iteration), &pool->arena, path));
     }
 }
 
-int loop_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y, long iteration,
-               struct sample *sample, struct vertex *eye)
+int loop_begin(const struct prepared *p, const struct tile_pass *pass, int i, long iteration, struct sample *sample)
 {
-    *sample = sample_begin(pass, &p->counts, p->numbers.light_points, x, y, iteration);
-    sample->number = number;
+    *sample = sample_begin(pass, i, iteration);
     if (pass->work->pool.n > 0) /* else nothing is chosen */
-        sample->choice = sample_stream(pass, RNG_SELECT, x, y, number_of_turn(p, iteration));
-    return sample_eye_path(sample, eye, pass->job->max_depth + 2);
+        sample->choice = sample_stream(pass, RNG_SELECT, sample->x, sample->y, number_of_turn(p, iteration));
+    return sample_eye_path(sample, pass->job->max_depth + 2);
 }
 
 /* The weights count one sub-path per path_pixels pixels of the film. A tile has K, which is rounded up: `scale` makes
@@ -58,8 +56,9 @@ int loop_begin(const struct prepared *p, const struct tile_pass *pass, int numbe
 void loop_splat(const struct prepared *p, struct sample *sample)
 {
     const struct pool *pool = &sample->pass->work->pool;
-    const int each = p->numbers.path_pixels, k = pool->n > 0 ? sample->number / each : 0;
-    if (pool->n > 0 && sample->number == k * each)
-        sample_lens(sample, pool_path(pool, k), pool->length[k],
-                    sample->pass->tile->n_pixels / ((double)pool->n * each));
+    const int each = p->numbers.path_pixels;
+    if (pool->n == 0 || sample->i % each != 0)
+        return;
+    const int k = sample->i / each;
+    sample_lens(sample, pool_path(pool, k), pool->length[k], sample->pass->tile->n_pixels / ((double)pool->n * each));
 }

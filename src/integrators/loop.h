@@ -14,15 +14,13 @@
  *
  *   loop_turn   does the iteration have light sub-paths?
  *   loop_fill   trace the light sub-paths of an iteration, if it has any, into the workspace's pool; K may be 0
- *   loop_begin  begin a sample of pixel (x,y), the tile's pixel of this number, and trace its eye sub-path into eye
- *               [max_depth + 2]; returns the number of vertices
+ *   loop_begin  begin a sample of pixel i of the tile, and trace its eye sub-path; returns the number of its vertices
  *   loop_splat  connect to the lens the light sub-path of the pixel, if it is one of those that have one
  */
 void selection_render(const struct prepared *p, const struct tile_pass *pass);
 bool loop_turn(const struct prepared *p, const struct tile_pass *pass, long iteration);
 void loop_fill(const struct prepared *p, const struct tile_pass *pass, long iteration);
-int loop_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y, long iteration,
-               struct sample *sample, struct vertex *eye);
+int loop_begin(const struct prepared *p, const struct tile_pass *pass, int i, long iteration, struct sample *sample);
 void loop_splat(const struct prepared *p, struct sample *sample);
 
 /* pool_shuffle: write a random permutation of the sub-paths' numbers for one iteration to order [pool->n]. */

@@ -74,8 +74,8 @@ static void run_lap(void *context, int64_t number, int slot, int thread)
     struct workspace *work = workspaces_new(1, l->job.max_depth);
     struct tile tile = {.n_pixels = 0};
     const struct observer observer = {.context = l, .walked = walked, .joined = joined};
-    const struct tile_pass pass = {.job = &l->job, .end = SAMPLES, .tile = &tile, .work = work, .observer = &observer,
-                                   .trial = true};
+    const struct tile_pass pass = {.job = &l->job, .counts = &l->by.counts, .end = SAMPLES, .tile = &tile,
+                                   .work = work, .observer = &observer, .ends_at = CANCEL_BLOCK};
     (void)slot, (void)thread;
     tile_start(&tile, l->pixels, l->job.film_rect, &l->job.scene->filter);
     l->by.method->render(&l->by, &pass);

@@ -56,7 +56,7 @@ static bool draw(const struct prepared *p, const struct cache *cache, struct sam
                  int i, int n, struct drawn *out)
 {
     (void)p, (void)z, (void)i, (void)n;
-    *out = ((const struct drawn *)cache)[sample->number];
+    *out = ((const struct drawn *)cache)[sample->i];
     return true;
 }
 

@@ -107,7 +107,7 @@ static bool good_enough(const struct run *r)
 static void take_splats(void *context, struct tile *tile)
 {
     struct under_way *p = context;
-    if ((p->pass.taken = parallel_await(&p->run->parallel, p->number)))
+    if ((tile->taken = parallel_await(&p->run->parallel, p->number)))
         film_take_splats(p->run->film, tile);
     tile->n_splats = 0;
 }
@@ -119,7 +119,8 @@ static void run_pass(void *context, int64_t number, int slot, int thread)
     struct tile *tile = &r->tile[slot];
     const struct observers *others = r->job->observers;
     *p = (struct under_way){.run = r, .number = number,
-                            .pass = {.job = r->job, .tile = tile, .work = &r->work[thread]}};
+                            .pass = {.job = r->job, .counts = &r->method->counts, .tile = tile,
+                                     .work = &r->work[thread], .ends_at = CANCEL_NOW}};
     block_range(r, (r->begun + number) / tiles_per_block(r), &p->pass.first, &p->pass.end);
     tile_start(tile, tiling_pixels(&r->tiling, (r->begun + number) % tiles_per_block(r)), r->job->film_rect,
                &r->job->scene->filter);

@@ -41,7 +41,7 @@ void tile_start(struct tile *t, struct tile_pixels pixels, struct pixel_rect fil
     t->sum = mem_grow(t->sum, &t->sum_capacity, n, sizeof *t->sum);
     memset(t->sum, 0, n * sizeof *t->sum);
     t->n_splats = 0;
-    t->first_half = false;
+    t->first_half = t->taken = false;
     t->nonfinite = 0;
 }
 

@@ -85,6 +85,7 @@ struct tile {
     struct splat *splat; /* [n_splats], owned */
     size_t n_splats, splat_capacity;
     bool first_half; /* its iterations belong to the first of two halves; tile_start: no */
+    bool taken;      /* some of it is in the film, so its pass goes on to the end; tile_start: no */
     void (*full)(void *context, struct tile *tile); /* empties a full list of splats; NULL: it grows */
     void *context;
     long nonfinite; /* contributions that were NaN, infinite or beyond FLT_MAX, and were left out */

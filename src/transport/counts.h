@@ -46,7 +46,7 @@ static inline int numbers_every(const struct numbers *n) { return n->every > 1 ?
 #define NUMBERS_OF_PT {.light_points = 1}
 #define NUMBERS_OF_BDPT {.light_points = 1, .draws = {1, 1}, .path_pixels = 1}
 
-/* What they count as; 0: the method does not use the strategy.
+/* What a method does, and counts in the weights. 0: it does not use the strategy.
  *
  * A light walk cannot know which kind of eye vertex it is at, and takes every vertex for a later hit. This is wrong
  * only at its last vertex if the lens is next (connect.c: light_side). Between any other first hit and the lens there
@@ -58,6 +58,7 @@ struct counts {
     double lens;            /* light sub-paths, those of all pixels of the film */
     const struct tables *tables;
     double bound[EYE_ENDS]; /* times the ratio of tables->pairs: x / M; 0: no bound */
+    int light_points[EYE_ENDS]; /* taken for s = 1 */
 };
 
 /* counts_of: numbers times credits, without a bound.

@@ -8,11 +8,11 @@ struct sampler sample_stream(const struct tile_pass *pass, enum rng_purpose purp
     return sampler_start(purpose == RNG_EYE ? job->eye_seed : job->seed, purpose, pixel, number);
 }
 
-struct sample sample_begin(const struct tile_pass *pass, const struct counts *counts, int light_points, int x, int y,
-                           long iteration)
+struct sample sample_begin(const struct tile_pass *pass, int i, long iteration)
 {
-    return (struct sample){.pass = pass, .counts = counts, .light_points = light_points, .x = x, .y = y,
-                           .iteration = iteration, .filter_weight = 1,
+    int x = pass->tile->pixel[i][0], y = pass->tile->pixel[i][1];
+    return (struct sample){.pass = pass, .i = i, .x = x, .y = y, .iteration = iteration, .eye = pass->work->eye,
+                           .filter_weight = 1,
                            .sampler = sample_stream(pass, RNG_CONNECT, x, y, (uint64_t)iteration)};
 }
 
@@ -27,21 +27,20 @@ static void tell_walked(const struct sample *sample, enum transport mode, const 
             o->walked(o->context, sample, mode, path, n);
 }
 
-int sample_eye_path(struct sample *sample, struct vertex *path, int max_vertices)
+int sample_eye_path(struct sample *sample, int max_vertices)
 {
     const struct tile_pass *pass = sample->pass;
     struct sampler sampler = sample_stream(pass, RNG_EYE, sample->x, sample->y, (uint64_t)sample->iteration);
-    struct walk w = {pass->job->scene, sample->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
-    int n = path_eye_pixel(&w, sample->x, sample->y, path, max_vertices, &sample->filter_weight);
-    tell_walked(sample, RADIANCE, path, n);
+    struct walk w = {pass->job->scene, pass->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
+    int n = path_eye_pixel(&w, sample->x, sample->y, sample->eye, max_vertices, &sample->filter_weight);
+    tell_walked(sample, RADIANCE, sample->eye, n);
     return n;
 }
 
-int sample_light_path(const struct tile_pass *pass, const struct counts *counts, int x, int y, uint64_t number,
-                      struct arena *arena, struct vertex *path)
+int sample_light_path(const struct tile_pass *pass, int i, uint64_t number, struct arena *arena, struct vertex *path)
 {
-    struct sampler sampler = sample_stream(pass, RNG_LIGHT, x, y, number);
-    struct walk w = {pass->job->scene, counts, arena, &sampler, pass->job->rr_threshold};
+    struct sampler sampler = sample_stream(pass, RNG_LIGHT, pass->tile->pixel[i][0], pass->tile->pixel[i][1], number);
+    struct walk w = {pass->job->scene, pass->counts, arena, &sampler, pass->job->rr_threshold};
     return path_light(&w, path, pass->job->max_depth + 1, NULL);
 }
 
@@ -56,9 +55,7 @@ static void tell_joined(const struct sample *sample, const struct joined *path)
 
 void sample_add(struct sample *sample, struct joined j)
 {
-    bool black = rgb_is_black(j.c->value);
-    if (black && sample->pass->observer == NULL)
-        return;
+    bool black = rgb_is_black(j.c->value); /* then it has no weight */
     j.scale *= sample->filter_weight;
     j.added = black ? rgb_black() : rgb_scale(rgb_scale(j.c->value, j.scale), j.c->weight);
     if (!rgb_is_finite(j.added)) { /* the whole sample would be lost */
@@ -69,33 +66,38 @@ void sample_add(struct sample *sample, struct joined j)
     sample->value = rgb_add(sample->value, j.added);
 }
 
-void sample_s0(struct sample *sample, const struct vertex *eye, int t)
+void sample_s0(struct sample *sample, int t)
 {
-    if (t > 2 && !(sample->counts->s0[eye[t - 2].eye_end] > 0))
+    const struct counts *counts = sample->pass->counts;
+    const struct vertex *z = &sample->eye[t - 1], *prev = z - 1;
+    if (t > 2 && !(counts->s0[prev->eye_end] > 0))
         return;
-    struct connection c = connect_s0(sample->pass->job->scene, sample->counts, &eye[t - 2], &eye[t - 1]);
-    sample_add(sample, (struct joined){.s = 0, .t = t, .z = &eye[t - 1], .c = &c, .pmf = 1, .scale = 1});
+    struct connection c = connect_s0(sample->pass->job->scene, counts, prev, z);
+    sample_add(sample, (struct joined){.s = 0, .t = t, .z = z, .c = &c, .pmf = 1, .scale = 1});
 }
 
-void sample_s1(struct sample *sample, const struct vertex *z, int t)
+void sample_s1(struct sample *sample, int t)
 {
     const struct render_job *job = sample->pass->job;
-    int n = z->eye_end == FIRST_HIT ? sample->light_points : 1;
-    if (z->kind == VERTEX_ESCAPED || t > job->max_depth + 1 || !(sample->counts->s1[z->eye_end] > 0))
+    const struct counts *counts = sample->pass->counts;
+    const struct vertex *z = &sample->eye[t - 1];
+    int n = counts->light_points[z->eye_end];
+    if (z->kind == VERTEX_ESCAPED || t > job->max_depth + 1)
         return;
     for (int i = 0; i < n; i++) {
         struct vertex y;
-        struct connection c = connect_s1(job->scene, sample->counts, z, &sample->sampler, i, n, &y);
+        struct connection c = connect_s1(job->scene, counts, z, &sample->sampler, i, n, &y);
         sample_add(sample, (struct joined){.s = 1, .t = t, .path = y.light >= 0 ? &y : NULL, .z = z, .c = &c,
                                            .pmf = 1, .scale = 1.0 / n});
     }
 }
 
-void sample_pairs(struct sample *sample, const struct drawn *drawn, const struct vertex *z, int t, double scale)
+void sample_pairs(struct sample *sample, const struct drawn *drawn, int t, double scale)
 {
     const struct render_job *job = sample->pass->job;
+    const struct vertex *z = &sample->eye[t - 1];
     for (int i = drawn->first; i < drawn->end && i + 1 + t <= job->max_depth + 2; i++) {
-        struct connection c = connect_vertices(job->scene, sample->counts, &drawn->path[i], z);
+        struct connection c = connect_vertices(job->scene, sample->pass->counts, &drawn->path[i], z);
         sample_add(sample, (struct joined){.s = i + 1, .t = t, .path = drawn->path, .z = z, .c = &c,
                                            .pmf = drawn->pmf, .scale = scale});
     }
@@ -105,19 +107,16 @@ void sample_splat(struct sample *sample, struct joined j)
 {
     const struct scene *scene = sample->pass->job->scene;
     const double *radius = scene->filter.radius;
-    bool seen = !rgb_is_black(j.c->value);
-    if (!seen && sample->pass->observer == NULL)
+    if (rgb_is_black(j.c->value)) {
+        tell_joined(sample, &j);
         return;
-    struct joined image = j;
-    image.added = seen ? rgb_scale(j.c->value, j.scale * j.c->weight) : rgb_black();
-    for (int i = 0, n = seen ? camera_images(&scene->camera, radius) : 1; i < n; i++) {
-        image.px = j.px;
-        image.py = j.py;
-        if (seen)
-            camera_image(&scene->camera, radius, i, &image.px, &image.py);
+    }
+    j.added = rgb_scale(j.c->value, j.scale * j.c->weight);
+    for (int i = 0, n = camera_images(&scene->camera, radius); i < n; i++) {
+        struct joined image = j;
+        camera_image(&scene->camera, radius, i, &image.px, &image.py);
         tell_joined(sample, &image);
-        if (seen)
-            tile_add_splat(sample->pass->tile, image.px, image.py, image.added);
+        tile_add_splat(sample->pass->tile, image.px, image.py, image.added);
     }
 }
 
@@ -127,8 +126,8 @@ void sample_lens(struct sample *sample, const struct vertex *path, int n, double
     tell_walked(sample, IMPORTANCE, path, n);
     for (int s = 2; s <= n && s <= job->max_depth + 1; s++) {
         double raster[2];
-        struct connection c = connect_lens(job->scene, sample->counts, &path[s - 1], &sample->sampler, raster);
+        struct connection c = connect_lens(job->scene, sample->pass->counts, &path[s - 1], &sample->sampler, raster);
         sample_splat(sample, (struct joined){.s = s, .t = 1, .path = path, .c = &c, .px = raster[0], .py = raster[1],
-                                             .pmf = 1, .scale = scale / sample->counts->lens});
+                                             .pmf = 1, .scale = scale / sample->pass->counts->lens});
     }
 }

@@ -1,6 +1,6 @@
 /* sample.h: one sample of a pixel: one pixel, one iteration. It is a sum of connections, weight times C* [V97 10.2]. A
- * method chooses of which strategies, with which light sub-paths. Random streams are a function of (seed, purpose,
- * pixel, iteration), so a sub-path does not depend on the tile or thread.
+ * method chooses of which strategies, with which light sub-paths. Random streams are a function of seed, purpose,
+ * pixel and iteration, so a sub-path does not depend on the tile or thread.
  *
  * Observers are called with every path where it is added to the sample or to the splats. Added up in their order, the
  * contributions with t >= 2 are the value that the film receives, to the last bit.
@@ -15,42 +15,38 @@
 
 struct sample {
     const struct tile_pass *pass;
-    const struct counts *counts;
-    int light_points;       /* of struct numbers */
-    int x, y;               /* the pixel */
-    int number;             /* of the pixel in its tile */
+    int i, x, y;            /* the pixel: its number in the tile, and where it is */
     long iteration;
+    struct vertex *eye;     /* the eye sub-path, in the workspace unless the method keeps it elsewhere */
     double filter_weight;   /* see path_eye_pixel */
     struct sampler sampler; /* for light and lens points */
     struct sampler choice;  /* for the choice of light vertices, of methods that choose */
     rgb value;              /* sum so far of the contributions with t >= 2 */
 };
 
-/* sample_begin: a sample of pixel (x,y) without sub-paths. sample_end: add it to its tile. Call this once. */
-struct sample sample_begin(const struct tile_pass *pass, const struct counts *counts, int light_points, int x, int y,
-                           long iteration);
+/* sample_begin: a sample of pixel i of the tile, without sub-paths. sample_end: add it to its tile. Call this once. */
+struct sample sample_begin(const struct tile_pass *pass, int i, long iteration);
 void sample_end(const struct sample *sample);
 
-/* sample_eye_path: trace the eye sub-path into path [max_vertices]; sets sample->filter_weight. Returns the number of
- * vertices. */
-int sample_eye_path(struct sample *sample, struct vertex *path, int max_vertices);
+/* sample_eye_path: trace the eye sub-path; sets the filter weight. Returns the number of its vertices, at most
+ * max_vertices.
+ * sample_light_path: trace the light sub-path of pixel i and `number` into path [max_depth + 1]; `arena` receives its
+ * lobes. Returns the number of vertices. */
+int sample_eye_path(struct sample *sample, int max_vertices);
+int sample_light_path(const struct tile_pass *pass, int i, uint64_t number, struct arena *arena, struct vertex *path);
 
-/* sample_light_path: trace the light sub-path of pixel (x,y) and `number` into path [max_depth + 1]; `arena` receives
- * its lobes. Returns the number of vertices. */
-int sample_light_path(const struct tile_pass *pass, const struct counts *counts, int x, int y, uint64_t number,
-                      struct arena *arena, struct vertex *path);
-
-/* sample_stream: the random numbers of pixel (x,y) and `number` for a purpose. */
+/* sample_stream: the random numbers of pixel (x,y) and `number` for a purpose. `number` is the iteration, unless a
+ * method numbers its light sub-paths otherwise. */
 struct sampler sample_stream(const struct tile_pass *pass, enum rng_purpose purpose, int x, int y, uint64_t number);
 
-/* sample_s0: s = 0, for the first t vertices of the eye sub-path.
- * sample_s1: s = 1, for its vertex z = z_{t-1}.
- * Both add nothing that the method's counts leave out, except lights that the camera sees directly (t = 2). */
-void sample_s0(struct sample *sample, const struct vertex *eye, int t);
-void sample_s1(struct sample *sample, const struct vertex *z, int t);
-
-/* sample_pairs: s >= 2: join z = z_{t-1} to all of them, times `scale`, if the path is not too long. */
-void sample_pairs(struct sample *sample, const struct drawn *drawn, const struct vertex *z, int t, double scale);
+/* The strategies of z_{t-1}, t >= 2:
+ *   sample_s0     s = 0: it is on a light
+ *   sample_s1     s = 1: it is joined to new points on lights
+ *   sample_pairs  s >= 2: it is joined to all that is drawn, times `scale`, if the path is not too long
+ * Nothing is added that the counts leave out, except lights that the camera sees directly (t = 2). */
+void sample_s0(struct sample *sample, int t);
+void sample_s1(struct sample *sample, int t);
+void sample_pairs(struct sample *sample, const struct drawn *drawn, int t, double scale);
 
 /* sample_lens: s >= 2, t = 1 for every vertex of a light sub-path, times `scale`, to the splats of the tile. */
 void sample_lens(struct sample *sample, const struct vertex *path, int n, double scale);
@@ -73,7 +69,7 @@ struct joined {
 /* Each function may be NULL. Its arguments are valid only during the call. */
 struct observer {
     void *context; /* passed to all functions */
-    /* A sub-path that the sample uses, possibly more than once; RADIANCE: its eye sub-path. */
+    /* RADIANCE: the sample's eye sub-path; IMPORTANCE: a light sub-path that it joins to the lens. */
     void (*walked)(void *context, const struct sample *sample, enum transport mode, const struct vertex *path, int n);
     /* A path is about to be added to the sample's sums (t >= 2), or to the tile's splats. */
     void (*joined)(void *context, const struct sample *sample, const struct joined *path);

@@ -1,7 +1,5 @@
-/* tile_pass.h: the unit of work of a render: one tile of pixels, a block of consecutive iterations.
- *
- * A tile pass depends only on the fields below, so passes may run on any thread, in any order.
- */
+/* tile_pass.h: the unit of work of a render: one tile of pixels, a block of consecutive iterations. What it makes
+ * depends on the fields below and on the method alone, so passes may run on any thread, in any order. */
 #ifndef ASBDPT_TRANSPORT_TILE_PASS_H
 #define ASBDPT_TRANSPORT_TILE_PASS_H
 
@@ -31,31 +29,26 @@ void workspaces_free(struct workspace *work, int n);
 /* One tile, iterations [first, end). */
 struct tile_pass {
     const struct render_job *job;
+    const struct counts *counts; /* of the method */
     long first, end;
     struct tile *tile; /* started; receives the result */
     struct workspace *work;
     const struct observer *observer; /* sample.h; NULL: none */
-    bool trial; /* no picture has it: it ends at CANCEL_BLOCK, too */
-    bool taken; /* some of it is in the film already: it must be rendered to its end */
+    enum cancel ends_at; /* the least answer of job_cancelled at which it ends early: CANCEL_NOW; of a pass that no
+                          * picture has CANCEL_BLOCK */
 };
 
-/* pass_cancelled: should the tile pass stop early? Every method asks before each of its samples. After the first yes
- * the answer stays yes, and the tile is discarded.
- * pass_pixel: pixel i of the tile; false if there are not so many, and if the pass should stop, except for
- * pixel 0: then a pool has a sub-path at least. */
+/* pass_cancelled: should the tile pass end early? After the first yes the answer stays yes, and the tile is discarded.
+ * pass_goes_on: is there a pixel i of the tile, and should the pass go on? Every method asks before each of its
+ * samples. Pixel 0 always has its sample, so that a pool has a sub-path. */
 static inline bool pass_cancelled(const struct tile_pass *pass)
 {
-    return !pass->taken && job_cancelled(pass->job) >= (pass->trial ? CANCEL_BLOCK : CANCEL_NOW);
+    return !pass->tile->taken && job_cancelled(pass->job) >= pass->ends_at;
 }
 
-static inline bool pass_pixel(const struct tile_pass *pass, int i, int *x, int *y)
+static inline bool pass_goes_on(const struct tile_pass *pass, int i)
 {
-    const struct tile *tile = pass->tile;
-    if (i >= tile->n_pixels || (i > 0 && pass_cancelled(pass)))
-        return false;
-    *x = tile->pixel[i][0];
-    *y = tile->pixel[i][1];
-    return true;
+    return i < pass->tile->n_pixels && (i == 0 || !pass_cancelled(pass));
 }
 
 #endif

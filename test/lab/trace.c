@@ -109,10 +109,10 @@ static struct trace_weight weigh(const struct sample *sample, const struct joine
     struct bsdf_value at_z = bsdf_eval(&z->bsdf, z->wo, w, RADIANCE), at_y = {.f = {1, 1, 1}, .pdf = 0};
     if (light) {
         const struct light_point at = vertex_light_point(scene, y);
-        at_y.pdf = emission_pdf(&sample->counts->tables->emission, &scene->lights, &at, z->p, back);
+        at_y.pdf = emission_pdf(&sample->pass->counts->tables->emission, &scene->lights, &at, z->p, back);
     } else
         at_y = bsdf_eval(&y->bsdf, y->wo, back, IMPORTANCE);
-    of = (struct trace_weight){.f_y = at_y.f, .f_z = at_z.f, .distance = length(d), .n = n_of(sample->counts, y, z)};
+    of = (struct trace_weight){.f_y = at_y.f, .f_z = at_z.f, .distance = length(d), .n = n_of(sample->pass->counts, y, z)};
     of.cos_y = light ? vertex_cosine(y, back) : scatter_cosine(y, back, IMPORTANCE);
     of.cos_z = scatter_cosine(z, w, RADIANCE);
     of.R_y = at_z.pdf * vertex_cosine(y, w) * falloff;
@@ -183,8 +183,8 @@ static void observe_tile(const struct render_job *job, const struct prepared *pr
 {
     struct tile tile = {.sum = NULL};
     struct workspace *work = workspaces_new(1, job->max_depth);
-    struct tile_pass pass = {.job = job, .first = first, .end = end, .tile = &tile, .work = work,
-                             .observer = observer};
+    struct tile_pass pass = {.job = job, .counts = &prepared->counts, .first = first, .end = end, .tile = &tile,
+                             .work = work, .observer = observer, .ends_at = CANCEL_NOW};
     tile_start(&tile, pixels, job->film_rect, &job->scene->filter);
     prepared->method->render(prepared, &pass);
     tile_free(&tile);

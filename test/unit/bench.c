@@ -58,7 +58,8 @@ void bench_free(struct bench *b)
 
 struct tile_pass bench_pass(struct bench *b, long first, long end)
 {
-    struct tile_pass pass = {.job = &b->job, .first = first, .end = end, .tile = &b->tile, .work = b->work};
+    struct tile_pass pass = {.job = &b->job, .counts = &b->prepared.counts, .first = first, .end = end,
+                             .tile = &b->tile, .work = b->work, .ends_at = CANCEL_NOW};
     tile_start(&b->tile, pixels_all(b->job.film_rect), b->job.film_rect, &b->scene->filter);
     return pass;
 }

@@ -326,7 +326,8 @@ static void work_batch(void *context, int64_t k, int slot, int thread)
     struct gated gated = {.gate = r->gate};
     const struct observer observer = {.context = &gated, .joined = gate_joined};
     struct tiling tiling = tiling_of(r->job.film_rect, &r->prepared.size);
-    struct tile_pass pass = {.job = &r->job, .tile = &tile, .work = &r->work[thread]};
+    struct tile_pass pass = {.job = &r->job, .counts = &r->prepared.counts, .tile = &tile, .work = &r->work[thread],
+                             .ends_at = CANCEL_NOW};
     long block = r->prepared.size.block > 0 ? r->prepared.size.block : LONGEST_BLOCK;
     long first = (long)k * SAMPLER_POINTS, end = first + r->spp;
     struct film film;

@@ -255,8 +255,8 @@ static void test_receivers(struct test *t)
         const struct counts counts = {.s0 = {1, 1}, .s1 = {1, 1}, .pair = {1, 1}, .lens = 640 * 480,
                                       .tables = &NO_TABLES};
         const struct render_job job = {.scene = &scene, .max_depth = 5};
-        const struct tile_pass pass = {.job = &job, .work = &work};
-        struct sample sample = {.pass = &pass, .counts = &counts};
+        const struct tile_pass pass = {.job = &job, .counts = &counts, .work = &work};
+        struct sample sample = {.pass = &pass};
         for (int n = 0; n < 40; n++) {
             vec3 at = sub(vec(4 * rng_uniform(&r) - 2, 0, 4 * rng_uniform(&r) - 2), scene.origin);
             struct vertex z, path[2];

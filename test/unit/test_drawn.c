@@ -32,7 +32,6 @@ struct seen {
 struct drawer {
     struct bench b;
     struct tile_pass pass;
-    struct vertex eye[DEPTH + 2];
     struct sample sample;
     int number; /* of the pixel */
 };
@@ -64,7 +63,7 @@ static struct drawn draw_one(const struct drawer *d, const struct cache *cache, 
     struct sample sample = d->sample;
     struct drawn out = {.end = 0};
     sample.choice = sampler_start(d->b.job.seed, RNG_TEST, k, 4 + (uint64_t)z->eye_end);
-    sample.number = d->number;
+    sample.i = d->number;
     d->b.prepared.method->draw(&d->b.prepared, cache, &sample, z, i, n, &out);
     return out;
 }
@@ -136,10 +135,10 @@ static void check_indices(struct test *t, struct drawer *d, const struct vertex 
 /* An eye sub-path that two vertices may draw. */
 static bool see(struct test *t, struct drawer *d, const char *name)
 {
-    for (int x, y; pass_pixel(&d->pass, d->number, &x, &y); d->number++) {
+    for (; pass_goes_on(&d->pass, d->number); d->number++) {
         arena_reset(&d->b.work->arena);
-        int n = loop_begin(&d->b.prepared, &d->pass, d->number, x, y, 0, &d->sample, d->eye);
-        if (n > 3 && vertex_connectible(&d->eye[1]) && vertex_connectible(&d->eye[2]))
+        int n = loop_begin(&d->b.prepared, &d->pass, d->number, 0, &d->sample);
+        if (n > 3 && vertex_connectible(&d->sample.eye[1]) && vertex_connectible(&d->sample.eye[2]))
             return true;
     }
     return CHECK(t, false, "%s: no eye sub-path that can draw", name);
@@ -150,11 +149,11 @@ static void check_draws(struct test *t, struct drawer *d, const char *name)
     if (!see(t, d, name))
         return;
     const struct cache *cache = build_again(d, 0);
-    if (draws_by_sample(d, cache, &d->eye[1])) {
-        check_vertex(t, d, cache, &d->eye[1], name);
-        check_vertex(t, d, cache, &d->eye[2], name);
+    if (draws_by_sample(d, cache, &d->sample.eye[1])) {
+        check_vertex(t, d, cache, &d->sample.eye[1], name);
+        check_vertex(t, d, cache, &d->sample.eye[2], name);
     } else {
-        check_indices(t, d, &d->eye[1], name);
+        check_indices(t, d, &d->sample.eye[1], name);
     }
 }
 
@@ -175,7 +174,7 @@ static void note_joined(void *context, const struct sample *sample, const struct
 static void check_ris(struct test *t, struct drawer *d, const char *name)
 {
     struct cache r = {.scene = NULL};
-    const struct vertex *z = &d->eye[1];
+    const struct vertex *z = &d->sample.eye[1];
     d->number = 0;
     if (!see(t, d, name))
         return;
@@ -418,7 +417,7 @@ static void test_lights_drawn(struct test *t)
         d.pass = bench_pass(&d.b, 0, 1);
         loop_fill(&d.b.prepared, &d.pass, 0);
         if (see(t, &d, WAYS_TO[i]))
-            check_lights(t, &scene, &d.b, &d.eye[1], WAYS_TO[i]);
+            check_lights(t, &scene, &d.b, &d.sample.eye[1], WAYS_TO[i]);
         check_rays(t, &scene, &d.b, WAYS_TO[i]);
         bench_free(&d.b);
     }

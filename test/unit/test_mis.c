@@ -279,13 +279,13 @@ void test_mis(struct test *t)
     const double bound = 1e-9;
     /* hit, direct, pair, lens */
     const struct tables *none = &NO_TABLES;
-    const struct counts all = {{1, 1}, {1, 1}, {1, 1}, 1024, none, {0, 0}};
-    const struct counts pt = {{1, 1}, {1, 1}, {0, 0}, 0, none, {0, 0}}, lt = {.lens = 1024, .tables = none};
-    const struct counts uneven = {{3, 1}, {6, 1.5}, {8, 0.7}, 300, none, {0, 0}};
-    const struct counts first = {{2, 0}, {3, 0}, {4, 0}, 300, none, {0, 0}};
-    const struct counts later = {{0, 2}, {0, 3}, {0, 4}, 300, none, {0, 0}};
-    const struct counts mixed = {{2, 0}, {0, 3}, {4, 0}, 300, none, {0, 0}};
-    const struct counts bounded = {{1, 1}, {2, 1.5}, {8, 0.7}, 300, none, {2, 0.3}};
+    const struct counts all = {{1, 1}, {1, 1}, {1, 1}, 1024, none, {0, 0}, {1, 1}};
+    const struct counts pt = {{1, 1}, {1, 1}, {0, 0}, 0, none, {0, 0}, {1, 1}}, lt = {.lens = 1024, .tables = none};
+    const struct counts uneven = {{3, 1}, {6, 1.5}, {8, 0.7}, 300, none, {0, 0}, {1, 1}};
+    const struct counts first = {{2, 0}, {3, 0}, {4, 0}, 300, none, {0, 0}, {1, 1}};
+    const struct counts later = {{0, 2}, {0, 3}, {0, 4}, 300, none, {0, 0}, {1, 1}};
+    const struct counts mixed = {{2, 0}, {0, 3}, {4, 0}, 300, none, {0, 0}, {1, 1}};
+    const struct counts bounded = {{1, 1}, {2, 1.5}, {8, 0.7}, 300, none, {2, 0.3}, {1, 1}};
     const struct {
         const char *name;
         const struct counts *counts;

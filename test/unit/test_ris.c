@@ -138,13 +138,13 @@ static void check_weights(struct test *t, const char *path, const char *method)
     double worst = 0, weight[16];
     int n = 0;
     for (int k = 0; k < r.K; k++)
-        for (int s = 2, x, y; s <= r.pool->length[k] && pass_pixel(&pass, k, &x, &y); s++) {
+        for (int s = 2; s <= r.pool->length[k] && pass_goes_on(&pass, k); s++) {
             const struct vertex *light = pool_path(r.pool, k);
             if (light[s - 1].prev_delta)
                 break;
-            struct sample sample = sample_begin(&pass, r.counts, 1, x, y, 3);
-            struct vertex eye[16];
-            if (sample_eye_path(&sample, eye, 2) < 2 || !oracle_weights(&scene, r.counts, light, s, eye, 2, weight))
+            struct sample sample = sample_begin(&pass, k, 3);
+            struct vertex *eye = sample.eye;
+            if (sample_eye_path(&sample, 2) < 2 || !oracle_weights(&scene, r.counts, light, s, eye, 2, weight))
                 continue;
             if (s == 2)
                 check_mixture(t, &r, &eye[1]);

@@ -182,14 +182,14 @@ static void test_end_points(struct test *t)
         return;
     const struct counts *counts = &b.prepared.counts;
     struct tile_pass pass = bench_pass(&b, 0, 1);
-    struct sample sample = sample_begin(&pass, counts, 1, 1, 1, 0);
-    struct vertex path[3];
-    int n = sample_eye_path(&sample, path, 3);
+    struct sample sample = sample_begin(&pass, pixels_cell(b.tile.pixels, 1, 1), 0);
+    struct vertex *path = sample.eye;
+    int n = sample_eye_path(&sample, 3);
     CHECK(t, n > 1 && near3(first_hit(&pass, counts, sample_stream(&pass, RNG_EYE, 1, 1, 0)), path[1].p, 0),
           "an eye sub-path by its own numbers is another");
     CHECK(t, n > 1 && !near3(first_hit(&pass, counts, sample.sampler), path[1].p, 1e-6),
           "end points take the numbers of the eye sub-path");
-    n = sample_light_path(&pass, counts, 1, 1, 0, &pass.work->arena, path);
+    n = sample_light_path(&pass, sample.i, 0, &pass.work->arena, path);
     CHECK(t, n > 1 && near3(first_lit(&pass, counts, sample_stream(&pass, RNG_LIGHT, 1, 1, 0)), path[1].p, 0),
           "a light sub-path by its own numbers is another");
     CHECK(t, n > 1 && !near3(first_lit(&pass, counts, sample_stream(&pass, RNG_EYE, 1, 1, 0)), path[1].p, 1e-6),

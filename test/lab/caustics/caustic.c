@@ -230,12 +230,12 @@ static int connect(const struct one_more *self, struct sample *sample, const str
     struct quest q = quest_for(sample, z, &y);
     int n = 0, room = sample->pass->job->max_depth + 1 - t, through = psi_through(all, &q, c);
     for (int i = 0; i < through && q.k <= room; i++)
-        out[n++] = made(sample->counts, &q, &c[i], pdf);
+        out[n++] = made(sample->pass->counts, &q, &c[i], pdf);
     double which = sampler_number(&sample->sampler, DRAW_LIGHT_END);
     int groups = scene->geo.n_groups;
     if (room >= 1 && which < all->mirror[groups] &&
         psi_mirror(all, &q, cumulative_find(all->mirror, groups, which), c) > 0)
-        out[n++] = made(sample->counts, &q, c, pdf);
+        out[n++] = made(sample->pass->counts, &q, c, pdf);
     return n;
 }
 
@@ -257,7 +257,7 @@ static bool in_psi(const struct caustics *all, const struct sample *sample, cons
     int n = through ? psi_through(all, &q, found) : psi_mirror(all, &q, group, found);
     for (int i = 0; i < n && q.k == k; i++)
         if (same_chain(z->p, p, k, &found[i])) {
-            *out = makers_of(sample->counts, &q, &found[i], at);
+            *out = makers_of(sample->pass->counts, &q, &found[i], at);
             return true;
         }
     return false;
@@ -395,12 +395,13 @@ bool caustics_pay(struct one_more *self, const struct render_job *job, const str
         double u, v;
         sampler_r2(i, &u, &v);
         int x = film.x0 + (int)(u * rect_width(film)), y = film.y0 + (int)(v * rect_height(film));
-        struct tile_pass pass = {.job = &other, .first = i, .end = i + 1, .tile = &tile, .work = work};
+        struct tile_pass pass = {.job = &other, .counts = counts, .first = i, .end = i + 1, .tile = &tile,
+                                 .work = work};
         tile_start(&tile, (struct tile_pixels){{x, y, x + 1, y + 1}, 1, 1, 0, 0}, film, &job->scene->filter);
         arena_reset(&work->arena);
-        struct sample sample = sample_begin(&pass, counts, method->numbers.light_points, x, y, i);
-        int length = sample_eye_path(&sample, work->eye, job->max_depth + 2);
-        one_more_sum_eye(&sample, &all->more, work->eye, length);
+        struct sample sample = sample_begin(&pass, 0, i);
+        int length = sample_eye_path(&sample, job->max_depth + 2);
+        one_more_sum_eye(&sample, &all->more, length);
         trial[i] = try_chains(&all->more, &sample, work->eye, length);
     }
     tile_free(&tile);

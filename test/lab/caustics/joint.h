@@ -53,12 +53,12 @@ static inline struct vertex light_vertex(const struct scene *scene, const struct
     return y;
 }
 
-/* sample_alone: s = 0 and s = 1 for all vertices of an eye sub-path. */
-static inline void sample_alone(struct sample *sample, const struct vertex *eye, int n)
+/* sample_alone: s = 0 and s = 1 for all n vertices of the eye sub-path. */
+static inline void sample_alone(struct sample *sample, int n)
 {
     for (int t = 2; t <= n; t++) {
-        sample_s0(sample, eye, t);
-        sample_s1(sample, &eye[t - 1], t);
+        sample_s0(sample, t);
+        sample_s1(sample, t);
     }
 }
 

@@ -40,36 +40,37 @@ static void sum_more(struct sample *sample, const struct one_more *more, const s
         int length = t + m->n_passed;
         bool told = m->n_passed > 0 && sample->pass->observer != NULL;
         const struct vertex *path = told ? whole(sample, eye, t, m) : eye;
-        const struct vertex y = light_vertex(sample->pass->job->scene, sample->counts, &m->y0);
+        const struct vertex y = light_vertex(sample->pass->job->scene, sample->pass->counts, &m->y0);
         sample_add(sample, (struct joined){.s = 1, .t = length, .path = &y, .c = &m->c, .pmf = 1, .scale = 1,
                                            .z = told ? &path[length - 1] : &eye[t - 1]});
     }
 }
 
-static void sum_direct(struct sample *sample, const struct one_more *more, const struct vertex *eye, int t)
+static void sum_direct(struct sample *sample, const struct one_more *more, int t)
 {
-    const struct vertex *z = &eye[t - 1];
-    int n = z->eye_end == FIRST_HIT ? sample->light_points : 1;
+    const struct vertex *z = &sample->eye[t - 1];
+    int n = sample->pass->counts->light_points[z->eye_end];
     for (int i = 0; i < n; i++) {
         struct vertex y;
-        struct connection c = connect_s1(sample->pass->job->scene, sample->counts, z, &sample->sampler, i, n, &y);
+        struct connection c = connect_s1(sample->pass->job->scene, sample->pass->counts, z, &sample->sampler, i, n, &y);
         struct joined j = {.s = 1, .t = t, .path = y.light < 0 ? NULL : &y, .z = z, .pmf = 1, .scale = 1.0 / n};
         weigh_again(more, sample, &j, z->p, &c);
         sample_add(sample, j);
     }
 }
 
-void one_more_sum_eye(struct sample *sample, const struct one_more *more, const struct vertex *eye, int n)
+void one_more_sum_eye(struct sample *sample, const struct one_more *more, int n)
 {
     const struct render_job *job = sample->pass->job;
+    const struct vertex *eye = sample->eye;
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &eye[t - 1];
-        struct connection c = connect_s0(job->scene, sample->counts, z - 1, z);
+        struct connection c = connect_s0(job->scene, sample->pass->counts, z - 1, z);
         struct joined j = {.t = t, .z = z, .pmf = 1, .scale = 1};
         weigh_again(more, sample, &j, z->p, &c);
         sample_add(sample, j);
         if (z->kind == VERTEX_SURFACE && t <= job->max_depth + 1) {
-            sum_direct(sample, more, eye, t);
+            sum_direct(sample, more, t);
             sum_more(sample, more, eye, t);
         }
     }
@@ -83,9 +84,9 @@ static void sum_lens(struct sample *sample, const struct one_more *more, const s
     for (int s = 2; s <= n && s <= job->max_depth + 1; s++) {
         vec3 lens = lens_drawn(&job->scene->camera, light[s - 1].p, sample->sampler);
         double raster[2];
-        struct connection c = connect_lens(job->scene, sample->counts, &light[s - 1], &sample->sampler, raster);
+        struct connection c = connect_lens(job->scene, sample->pass->counts, &light[s - 1], &sample->sampler, raster);
         struct joined j = {.s = s, .t = 1, .path = light, .px = raster[0], .py = raster[1], .pmf = 1,
-                           .scale = scale / sample->counts->lens};
+                           .scale = scale / sample->pass->counts->lens};
         weigh_again(more, sample, &j, lens, &c);
         sample_splat(sample, j);
     }
@@ -93,14 +94,14 @@ static void sum_lens(struct sample *sample, const struct one_more *more, const s
 
 /* --- a tile pass, as in loop.c, except one_more_sum_eye and sum_lens ---------------------------------- */
 
-/* Those of every path_pixels-th of the pixels. */
-static void fill_pool(const struct prepared *p, const struct tile_pass *pass, struct tile_pixels pixels, long iteration)
+/* Those of every path_pixels-th of n pixels from number `first` on. */
+static void fill_pool(const struct prepared *p, const struct tile_pass *pass, int first, int n, long iteration)
 {
     struct pool *pool = &pass->work->pool;
     pool_clear(pool);
-    for (int i = 0, x, y; pixels_get(pixels, i, &x, &y); i += p->numbers.path_pixels) {
+    for (int i = first; i < first + n; i += p->numbers.path_pixels) {
         struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
-        pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)iteration, &pool->arena, path));
+        pool_add(pool, sample_light_path(pass, i, (uint64_t)iteration, &pool->arena, path));
     }
 }
 
@@ -111,36 +112,30 @@ static void join(const struct prepared *p, const struct cache *cache, struct sam
     for (int i = 0; i < C && t <= sample->pass->job->max_depth && vertex_connectible(z); i++) {
         struct drawn drawn;
         if (p->method->draw(p, cache, sample, z, i, C, &drawn))
-            sample_pairs(sample, &drawn, z, t, 1 / (C * sample->pass->work->pool.n * drawn.pmf));
+            sample_pairs(sample, &drawn, t, 1 / (C * sample->pass->work->pool.n * drawn.pmf));
     }
 }
 
 static void render_pixel(const struct prepared *p, const struct one_more *more, const struct tile_pass *pass,
-                         const struct cache *cache, int number, int x, int y, long iteration)
+                         const struct cache *cache, int i, long iteration)
 {
-    struct vertex *eye = pass->work->eye;
     struct pool *pool = &pass->work->pool;
-    struct tile_pixels pixels = pass->tile->pixels;
     bool shared = p->method->build != NULL;
-    int each = p->numbers.path_pixels, k = 0;
+    int each = p->numbers.path_pixels, at = shared ? i : 0, pixels = shared ? pass->tile->n_pixels : 1;
     arena_reset(&pass->work->arena);
-    if (!shared) {
-        pixels = (struct tile_pixels){{x, y, x + 1, y + 1}, 1, 1, 0, 0};
-        number = 0;
-        if (each > 0)
-            fill_pool(p, pass, pixels, iteration);
-    }
+    if (!shared && each > 0)
+        fill_pool(p, pass, i, 1, iteration);
     struct sample sample;
-    int n = loop_begin(p, pass, number, x, y, iteration, &sample, eye);
-    one_more_sum_eye(&sample, more, eye, n);
+    int n = loop_begin(p, pass, i, iteration, &sample);
+    one_more_sum_eye(&sample, more, n);
     for (int t = 2; t <= n && each > 0; t++)
         if (shared)
-            join(p, cache, &sample, &eye[t - 1], t);
-        else if (p->numbers.draws[FIRST_HIT] > 0 && vertex_connectible(&eye[t - 1]))
-            sample_pairs(&sample, &(struct drawn){pool_path(pool, 0), 1, pool->length[0], 1}, &eye[t - 1], t, 1);
-    if (each > 0 && number % each == 0) {
-        k = number / each;
-        sum_lens(&sample, more, pool_path(pool, k), pool->length[k], pixels_count(pixels) / ((double)pool->n * each));
+            join(p, cache, &sample, &sample.eye[t - 1], t);
+        else if (p->numbers.draws[FIRST_HIT] > 0 && vertex_connectible(&sample.eye[t - 1]))
+            sample_pairs(&sample, &(struct drawn){pool_path(pool, 0), 1, pool->length[0], 1}, t, 1);
+    if (each > 0 && at % each == 0) {
+        int k = at / each;
+        sum_lens(&sample, more, pool_path(pool, k), pool->length[k], pixels / ((double)pool->n * each));
     }
     sample_end(&sample);
 }
@@ -151,11 +146,11 @@ void one_more_render(const struct prepared *p, const struct one_more *more, cons
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         const struct cache *cache = NULL;
         if (shared) {
-            fill_pool(p, pass, pass->tile->pixels, iteration);
+            fill_pool(p, pass, 0, pass->tile->n_pixels, iteration);
             cache = p->method->build(p, pass, iteration);
         }
-        for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
-            render_pixel(p, more, pass, cache, i, x, y, iteration);
+        for (int i = 0; pass_goes_on(pass, i); i++)
+            render_pixel(p, more, pass, cache, i, iteration);
     }
 }
 

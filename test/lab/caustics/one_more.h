@@ -33,7 +33,7 @@ struct one_more {
 };
 
 /* one_more_sum_eye: s = 0 and s = 1 of an eye sub-path, and what is made in addition. */
-void one_more_sum_eye(struct sample *sample, const struct one_more *more, const struct vertex *eye, int n);
+void one_more_sum_eye(struct sample *sample, const struct one_more *more, int n);
 
 /* one_more_render: selection_render with that strategy, by a method that is prepared. */
 void one_more_render(const struct prepared *p, const struct one_more *more, const struct tile_pass *pass);

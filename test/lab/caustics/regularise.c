@@ -62,7 +62,7 @@ static int connect(const struct one_more *self, struct sample *sample, const str
     const struct vertex *z = &eye[t - 1];
     struct sampler draws = sample->sampler;
     struct light_point y;
-    if (z->bsdf.n_lobes == z->bsdf.n_smooth || !without_rival(sample->counts, eye, t))
+    if (z->bsdf.n_lobes == z->bsdf.n_smooth || !without_rival(sample->pass->counts, eye, t))
         return 0;
     if (!lamp_draw(scene, &draws, &y) || !light_is_delta(&scene->lights.light[y.light]))
         return 0;

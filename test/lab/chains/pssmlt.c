@@ -12,18 +12,16 @@
 static void sample(struct chain *c, bool small)
 {
     const struct render_job *job = c->job;
-    const struct vertex *eye = c->work->eye;
-    const struct tile_pass pass = {.job = job, .tile = &c->next.heard, .work = c->work};
+    const struct tile_pass pass = {.job = job, .counts = &c->all->counts, .tile = &c->next.heard, .work = c->work};
     struct primary p;
     double px, py;
     primary_begin(&p, c, small);
-    struct sample s = {.pass = &pass, .counts = &c->all->counts, .filter_weight = 1, .light_points = 1,
-                       .sampler = p.sampler[POINT_NUMBERS]};
+    struct sample s = {.pass = &pass, .eye = c->work->eye, .filter_weight = 1, .sampler = p.sampler[POINT_NUMBERS]};
     int n_eye = primary_eye(&p, job->max_depth + 2, &px, &py), n_light = primary_light(&p, job->max_depth + 1);
     const struct drawn all = {c->light, 1, n_light, 1};
-    sample_alone(&s, eye, n_eye);
+    sample_alone(&s, n_eye);
     for (int t = 2; t <= n_eye; t++)
-        sample_pairs(&s, &all, &eye[t - 1], t, 1);
+        sample_pairs(&s, &all, t, 1);
     tile_add_splat(pass.tile, px, py, s.value);
     s.sampler = p.sampler[LENS_NUMBERS];
     sample_lens(&s, c->light, n_light, 1);

@@ -40,7 +40,7 @@ static bool draw(const struct prepared *p, const struct cache *cache, struct sam
     (void)p, (void)z;
     if (i >= M)
         return false;
-    int k = cache->order[(sample->number * M + i) % K];
+    int k = cache->order[(sample->i * M + i) % K];
     *out = (struct drawn){pool_path(pool, k), 1, pool->length[k], 1.0 / (n > K ? n : K)};
     return true;
 }

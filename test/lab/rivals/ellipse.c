@@ -194,7 +194,7 @@ static int connect(const struct one_more *self, struct sample *sample, const str
         at = arrive(sample, z, triangle, x, corner, P * pdf);
     if (at == NULL)
         return 0;
-    out[0] = (struct one_more_path){lamp_connect(scene, sample->counts, at, &y, y.pdf), y, at, 1};
+    out[0] = (struct one_more_path){lamp_connect(scene, sample->pass->counts, at, &y, y.pdf), y, at, 1};
     out[0].c.weight = 1;
     return 1;
 }

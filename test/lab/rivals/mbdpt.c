@@ -98,7 +98,7 @@ static void connect_length(const struct prepared *p, const struct pool *pool, co
             const struct drawn drawn = {pool_path(pool, k), s - 1, s, 1.0 / pool->n};
             struct pixel *of = &pixel[row[i].number];
             if (pool->length[k] >= s)
-                sample_pairs(&of->sample, &drawn, &of->eye[t - 1], t, 1);
+                sample_pairs(&of->sample, &drawn, t, 1);
         }
 }
 
@@ -118,7 +118,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
     struct ranked *row = arena_alloc(&pass->work->arena, (size_t)n * sizeof *row);
     double *shift = arena_alloc(&pass->work->arena, (size_t)(pass->job->max_depth + 1) * sizeof *shift);
     for (int i = 0; i < n; i++)
-        sample_alone(&pixel[i].sample, pixel[i].eye, pixel[i].n);
+        sample_alone(&pixel[i].sample, pixel[i].n);
     for (int t = 2; t <= pass->job->max_depth && !pass_cancelled(pass); t++) {
         for (int s = 2; s <= pass->job->max_depth; s++)
             shift[s] = sampler_number(&pixel[0].sample.choice, DRAW_LIGHT_END);
@@ -129,20 +129,20 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
 }
 
 /* All samples of a pixel. */
-static void render_pixel(const struct prepared *p, const struct tile_pass *pass, int x, int y)
+static void render_pixel(const struct prepared *p, const struct tile_pass *pass, int pixel)
 {
     struct pool *pool = &pass->work->pool;
     int n = (int)(pass->end - pass->first);
     pool_clear(pool);
     for (long i = pass->first; i < pass->end; i += p->numbers.path_pixels) {
         struct vertex *path = pool_room(pool, (size_t)pass->job->max_depth + 1);
-        pool_add(pool, sample_light_path(pass, &p->counts, x, y, (uint64_t)i, &pool->arena, path));
+        pool_add(pool, sample_light_path(pass, pixel, (uint64_t)i, &pool->arena, path));
     }
     const struct cache *cache = build(p, pass, pass->first);
     arena_reset(&pass->work->arena);
     struct pixel *sample = arena_alloc(&pass->work->arena, (size_t)n * sizeof *sample);
     for (int i = 0; i < n; i++)
-        sample[i] = together_begin(p, pass, i, x, y, pass->first + i);
+        sample[i] = together_begin(p, pass, pixel, pass->first + i);
     connect_all(p, pass, cache, sample, n);
     for (int i = 0; i < n; i++)
         sample_end(&sample[i].sample);
@@ -153,8 +153,8 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
     if (!((const struct mbdpt *)p->own)->by_pixel)
         together_render(p, pass, connect_all);
     else
-        for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++)
-            render_pixel(p, pass, x, y);
+        for (int i = 0; pass_goes_on(pass, i); i++)
+            render_pixel(p, pass, i);
 }
 
 static void prepare(const struct render_job *job, struct prepared *p)

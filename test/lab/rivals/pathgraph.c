@@ -231,7 +231,7 @@ static void add_pixel(struct pixel *p, const struct node *first)
     struct sample *sample = &p->sample;
     const struct vertex *z = first->z;
     struct connection c = {.value = rgb_mul(z->beta, first->L), .weight = 1, .light = -1};
-    sample_s0(sample, p->eye, 2);
+    sample_s0(sample, 2);
     sample_add(sample, (struct joined){.t = 2, .z = z, .c = &c, .pmf = 1, .scale = 1});
 }
 

@@ -129,34 +129,34 @@ static void sum_direct(struct sample *sample, const struct vertex *z, int t, con
     if (lit_draw(sample, z, &sample->sampler, 0, 1, &at, &l)) {
         if (guide != NULL)
             l.pdf_z = mixed(guide, l.pdf_z, quadtree_pdf(&guide->known, l.w));
-        c = connect_lit(sample->pass->job->scene, sample->counts, &l);
+        c = connect_lit(sample->pass->job->scene, sample->pass->counts, &l);
     }
     if (at.light >= 0)
-        y = light_vertex(sample->pass->job->scene, sample->counts, &at);
+        y = light_vertex(sample->pass->job->scene, sample->pass->counts, &at);
     sample_add(sample, (struct joined){.s = 1, .t = t, .path = at.light >= 0 ? &y : NULL, .z = z, .c = &c, .pmf = 1,
                                        .scale = 1});
 }
 
 /* A sample of a pixel, not ended, times `share`. Its vertices are in the workspace; returns their number, and of each
  * the step. */
-static int trace_pixel(const struct prepared *p, const struct tile_pass *pass, int x, int y, long iteration,
-                       double share, struct sample *sample, struct step **step)
+static int trace_pixel(const struct prepared *p, const struct tile_pass *pass, int i, long iteration, double share,
+                       struct sample *sample, struct step **step)
 {
     struct vertex *eye = pass->work->eye;
     int most = pass->job->max_depth + 2;
-    struct sampler sampler = sample_stream(pass, RNG_EYE, x, y, (uint64_t)iteration);
-    const struct walk w = {pass->job->scene, &p->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
     arena_reset(&pass->work->arena);
-    *sample = sample_begin(pass, &p->counts, 1, x, y, iteration);
+    *sample = sample_begin(pass, i, iteration);
+    struct sampler sampler = sample_stream(pass, RNG_EYE, sample->x, sample->y, (uint64_t)iteration);
+    const struct walk w = {pass->job->scene, pass->counts, &pass->work->arena, &sampler, pass->job->rr_threshold};
     *step = arena_alloc(&pass->work->arena, (size_t)most * sizeof **step);
-    int n = path_eye_pixel(&w, x, y, eye, 2, &sample->filter_weight);
+    int n = path_eye_pixel(&w, sample->x, sample->y, eye, 2, &sample->filter_weight);
     sample->filter_weight *= share;
     n = walk_guided(&((const struct ppg *)p->own)->tree, &w, eye, *step, n, most);
     for (const struct observer *o = pass->observer; o != NULL; o = o->next)
         if (o->walked != NULL)
             o->walked(o->context, sample, RADIANCE, eye, n);
     for (int t = 2; t <= n; t++) {
-        sample_s0(sample, eye, t);
+        sample_s0(sample, t);
         if (eye[t - 1].kind != VERTEX_ESCAPED && t < most)
             sum_direct(sample, &eye[t - 1], t, (*step)[t - 1].guide);
         (*step)[t - 1].before = sample->value;
@@ -189,9 +189,10 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
     struct sample sample;
     struct step *step;
     for (long iteration = pass->first; iteration < pass->end; iteration++)
-        for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
-            double share = own->trained != NULL ? share_of_training(own, x, y, (double)iteration) : 0;
-            trace_pixel(p, pass, x, y, iteration, 1 - share, &sample, &step);
+        for (int i = 0; pass_goes_on(pass, i); i++) {
+            const int *at = pass->tile->pixel[i];
+            double share = own->trained != NULL ? share_of_training(own, at[0], at[1], (double)iteration) : 0;
+            trace_pixel(p, pass, i, iteration, 1 - share, &sample, &step);
             if (share > 0)
                 add_training(own, &sample, share);
             sample_end(&sample);
@@ -241,13 +242,13 @@ static void trace(struct learning *l, struct workspace *work, long i, struct les
     const struct trainer *trainer = (const void *)l;
     const struct sdtree *tree = &((const struct ppg *)trainer->prepared->own)->tree;
     const struct pixel_rect rect = l->job->film_rect;
-    struct tile tile = {.sum = NULL}; /* counts what is not finite */
-    const struct tile_pass pass = {.job = l->job, .tile = &tile, .work = work};
     long width = rect_width(rect), pixels = width * rect_height(rect), at = i % pixels;
+    int pixel[1][2] = {{rect.x0 + (int)(at % width), rect.y0 + (int)(at / width)}};
+    struct tile tile = {.pixel = pixel, .n_pixels = 1}; /* counts what is not finite */
+    const struct tile_pass pass = {.job = l->job, .counts = &trainer->prepared->counts, .tile = &tile, .work = work};
     struct sample sample;
     struct step *step;
-    int n = trace_pixel(trainer->prepared, &pass, rect.x0 + (int)(at % width), rect.y0 + (int)(at / width),
-                        -(trainer->end + i) / pixels, 1, &sample, &step);
+    int n = trace_pixel(trainer->prepared, &pass, 0, -(trainer->end + i) / pixels, 1, &sample, &step);
     trainer->found[i] = rgb_is_finite(sample.value) ? sample.value : rgb_black();
     for (int t = n; t >= 2; t--)
         if (step[t - 1].guide != NULL && step[t - 1].left && sample.filter_weight != 0) {

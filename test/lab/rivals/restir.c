@@ -85,24 +85,24 @@ static void reuse(struct pixel *pixel, const struct reservoir *all, const int *n
         others += f > 0 && reuse_sees(scene, &l) ? f : 0;
     }
     double m = value_at(scene, &pixel[near[from]].eye[1], &all[near[from]], &l) / others;
-    struct connection made = connect_lit(scene, c->sample.counts, &kept);
-    const struct vertex y = light_vertex(scene, c->sample.counts, &kept.at);
+    struct connection made = connect_lit(scene, c->sample.pass->counts, &kept);
+    const struct vertex y = light_vertex(scene, c->sample.pass->counts, &kept.at);
     sample_add(&c->sample, (struct joined){.s = 1, .t = 2, .path = &y, .z = &c->eye[1], .c = &made, .pmf = 1,
                                            .scale = m * sum / own});
 }
 
 /* All vertices of the pixel's own light sub-path. */
-static void join_own(const struct prepared *p, struct pixel *pixel)
+static void join_own(struct pixel *pixel)
 {
     struct sample *sample = &pixel->sample;
     const struct tile_pass *pass = sample->pass;
     struct arena *arena = &pass->work->pool.arena;
     arena_reset(arena);
     struct vertex *light = arena_alloc(arena, ((size_t)pass->job->max_depth + 1) * sizeof *light);
-    int n = sample_light_path(pass, &p->counts, sample->x, sample->y, (uint64_t)sample->iteration, arena, light);
+    int n = sample_light_path(pass, sample->i, (uint64_t)sample->iteration, arena, light);
     for (int t = 2; t <= pixel->n; t++)
         if (vertex_connectible(&pixel->eye[t - 1]))
-            sample_pairs(sample, &(struct drawn){light, 1, n, 1}, &pixel->eye[t - 1], t, 1);
+            sample_pairs(sample, &(struct drawn){light, 1, n, 1}, t, 1);
     sample_lens(sample, light, n, 1);
 }
 
@@ -115,9 +115,9 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
     for (int i = 0; i < n; i++) {
         all[i] = resample(&pixel[i], own->candidates);
         for (int t = 2; t <= pixel[i].n; t++) {
-            sample_s0(&pixel[i].sample, pixel[i].eye, t);
+            sample_s0(&pixel[i].sample, t);
             if (t > 2)
-                sample_s1(&pixel[i].sample, &pixel[i].eye[t - 1], t);
+                sample_s1(&pixel[i].sample, t);
         }
     }
     for (int i = 0; i < n; i++) {
@@ -126,15 +126,17 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
         int near[MOST_NEIGHBOURS + 1], found = reuse_neighbours(pixel, n, i, own->neighbours, near);
         if (found > 0)
             reuse(pixel, all, near, found);
-        join_own(p, &pixel[i]);
+        join_own(&pixel[i]);
     }
 }
 
 static void render(const struct prepared *p, const struct tile_pass *pass)
 {
-    struct prepared counted = *p;
-    counted.counts.s1[FIRST_HIT] = ((const struct restir *)p->own)->credit;
-    together_render(&counted, pass, connect_all);
+    struct counts counts = p->counts;
+    struct tile_pass counted = *pass;
+    counts.s1[FIRST_HIT] = ((const struct restir *)p->own)->credit;
+    counted.counts = &counts;
+    together_render(p, &counted, connect_all);
 }
 
 #define AT(member) offsetof(struct restir, member)

@@ -104,7 +104,7 @@ static void offer_point(struct pixel *p, struct reservoir *r, const struct verte
     double density = l.pdf / l.at_light;
     x.kind = delta ? LATER : POINT;
     x.w = l.w;
-    x.y = light_vertex(scene, p->sample.counts, &at);
+    x.y = light_vertex(scene, p->sample.pass->counts, &at);
     x.L = light_Le(&scene->lights, &l.at, neg(l.w));
     x.light = delta ? 1 : density;
     x.ends_on = l.at.light;
@@ -128,7 +128,7 @@ static void offer_later(struct pixel *p, struct reservoir *r, const struct verte
         for (x.s = 0; x.s <= (at.kind == VERTEX_SURFACE && x.t <= job->max_depth + 1); x.s++) {
             struct connection c =
                 x.s == 0 ? reuse_hit(sample, &p->eye[x.t - 2], &p->eye[x.t - 1], beta)
-                         : connect_s1(job->scene, sample->counts, &at, &sample->sampler, 0, 1, &x.y);
+                         : connect_s1(job->scene, sample->pass->counts, &at, &sample->sampler, 0, 1, &x.y);
             x.kind = x.s == 0 && x.t == 4 ? HIT : LATER;
             x.light = x.kind == HIT ? pdf * reuse_hit_density(job->scene, &z[1]) : c.weight;
             x.L = c.value;
@@ -151,11 +151,11 @@ static struct reservoir resample(struct pixel *p, bool shares)
     struct reservoir r = {.weight = 0, .shares = shares};
     double sum = 0;
     if (!shares || p->n < 3 || z->prev_delta || z->kind != VERTEX_SURFACE || !vertex_connectible(z)) {
-        sample_alone(&p->sample, p->eye, p->n);
+        sample_alone(&p->sample, p->n);
         return r;
     }
-    sample_alone(&p->sample, p->eye, 2);
-    sample_s0(&p->sample, p->eye, 3);
+    sample_alone(&p->sample, 2);
+    sample_s0(&p->sample, 3);
     offer_point(p, &r, z, &sum);
     if (p->n > 3)
         offer_later(p, &r, z, &sum);

@@ -385,12 +385,12 @@ void ris_join(struct cache *r, struct sample *sample, const struct vertex *z, in
 }
 
 /* As sample_alone. */
-static void sum_eye(struct cache *r, struct sample *sample, const struct vertex *eye, int n)
+static void sum_eye(struct cache *r, struct sample *sample, int n)
 {
     for (int t = 2; t <= n; t++) {
-        const struct vertex *z = &eye[t - 1];
+        const struct vertex *z = &sample->eye[t - 1];
         struct connection hit = ris_hit(r, z - 1, z, t);
-        int points = z->eye_end == FIRST_HIT ? sample->light_points : 1;
+        int points = sample->pass->counts->light_points[z->eye_end];
         sample_add(sample, (struct joined){.t = t, .z = z, .c = &hit, .pmf = 1, .scale = 1});
         if (z->kind != VERTEX_SURFACE || t > sample->pass->job->max_depth + 1)
             continue;
@@ -411,15 +411,15 @@ static void sum_eye(struct cache *r, struct sample *sample, const struct vertex 
 
 static void render_weighed(const struct prepared *p, const struct tile_pass *pass)
 {
-    struct vertex *eye = pass->work->eye;
+    const struct vertex *eye = pass->work->eye;
     struct cache r = {.scene = NULL};
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         ris_begin(&r, p, pass, iteration);
-        for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
+        for (int i = 0; pass_goes_on(pass, i); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);
-            int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
-            sum_eye(&r, &sample, eye, n);
+            int n = loop_begin(p, pass, i, iteration, &sample);
+            sum_eye(&r, &sample, n);
             for (int t = 2; t <= n && t <= pass->job->max_depth; t++)
                 if (vertex_connectible(&eye[t - 1]))
                     ris_join(&r, &sample, &eye[t - 1], t);

@@ -364,20 +364,20 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
     for (long iteration = pass->first; iteration < pass->end; iteration++) {
         loop_fill(p, pass, iteration);
         const struct cache *cache = build(p, pass, iteration);
-        for (int i = 0, x, y; pass_pixel(pass, i, &x, &y); i++) {
+        for (int i = 0; pass_goes_on(pass, i); i++) {
             struct sample sample;
             arena_reset(&pass->work->arena);
-            int n = loop_begin(p, pass, i, x, y, iteration, &sample, eye);
+            int n = loop_begin(p, pass, i, iteration, &sample);
             classify(p, eye, n, &pass->work->arena, RADIANCE);
             for (int t = 2; t <= n; t++) {
                 const struct vertex *z = &eye[t - 1];
                 int C = t <= pass->job->max_depth && vertex_connectible(z) ? p->numbers.draws[z->eye_end] : 0;
                 struct drawn light;
-                sample_s0(&sample, eye, t);
-                sample_s1(&sample, z, t);
+                sample_s0(&sample, t);
+                sample_s1(&sample, t);
                 for (int j = 0; j < C; j++)
                     if (draw(p, cache, &sample, z, j, C, &light))
-                        sample_pairs(&sample, &light, z, t, 1 / ((double)C * pool->n) / light.pmf);
+                        sample_pairs(&sample, &light, t, 1 / ((double)C * pool->n) / light.pmf);
             }
             if (i % each == 0)
                 splat(p, &sample, &pool->vertex[pool->start[i / each]], pool->length[i / each],

@@ -5,14 +5,14 @@
 
 #include "caustics/delta.h"
 
-struct pixel together_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y,
-                            long iteration)
+struct pixel together_begin(const struct prepared *p, const struct tile_pass *pass, int i, long iteration)
 {
     struct pixel pixel;
-    pixel.n = loop_begin(p, pass, number, x, y, iteration, &pixel.sample, pass->work->eye);
-    pixel.sample.choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
+    struct sample *sample = &pixel.sample;
+    pixel.n = loop_begin(p, pass, i, iteration, sample);
+    sample->choice = sample_stream(pass, RNG_SELECT, sample->x, sample->y, (uint64_t)iteration);
     size_t size = (size_t)pixel.n * sizeof *pixel.eye;
-    pixel.eye = memcpy(arena_alloc(&pass->work->arena, size), pass->work->eye, size);
+    pixel.eye = sample->eye = memcpy(arena_alloc(&pass->work->arena, size), pass->work->eye, size);
     return pixel;
 }
 
@@ -28,8 +28,8 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
     }
     arena_reset(arena);
     struct pixel *all = arena_alloc(arena, (size_t)pixels_count(pass->tile->pixels) * sizeof *all);
-    for (int x, y; pass_pixel(pass, n, &x, &y); n++)
-        all[n] = together_begin(p, pass, n, x, y, iteration);
+    for (; pass_goes_on(pass, n); n++)
+        all[n] = together_begin(p, pass, n, iteration);
     connect_all(p, pass, cache, all, n);
     for (int i = 0; i < n; i++)
         sample_end(&all[i].sample);
@@ -103,7 +103,7 @@ struct connection reuse_hit(const struct sample *sample, const struct vertex *pr
     struct vertex at = z->lamp != NULL ? *z->lamp : *z;
     at.lamp = NULL;
     at.beta = beta;
-    return connect_s0(sample->pass->job->scene, sample->counts, prev, &at);
+    return connect_s0(sample->pass->job->scene, sample->pass->counts, prev, &at);
 }
 
 void reuse_prepare(const struct render_job *job, struct prepared *p)

@@ -21,10 +21,9 @@ struct pixel {
 typedef void connect_all_fn(const struct prepared *p, const struct tile_pass *pass, const struct cache *cache,
                             struct pixel *pixel, int n);
 
-/* together_begin: a sample of the tile's pixel of this number that is not connected, in the workspace's arena.
+/* together_begin: a sample of pixel i of the tile that is not connected, in the workspace's arena.
  * together_render: a tile pass by such a method. If it has a `build`, its pixels share light sub-paths. */
-struct pixel together_begin(const struct prepared *p, const struct tile_pass *pass, int number, int x, int y,
-                            long iteration);
+struct pixel together_begin(const struct prepared *p, const struct tile_pass *pass, int i, long iteration);
 void together_render(const struct prepared *p, const struct tile_pass *pass, connect_all_fn *connect_all);
 
 /* lit_draw: connect_light to a point that light_draw draws, number i of n. */
@@ -34,7 +33,7 @@ static inline bool lit_draw(const struct sample *sample, const struct vertex *z,
     const struct scene *scene = sample->pass->job->scene;
     double pdf;
     at->light = -1;
-    return light_draw(scene, sample->counts, z, sampler, i, n, at, &pdf) && pdf > 0 &&
+    return light_draw(scene, sample->pass->counts, z, sampler, i, n, at, &pdf) && pdf > 0 &&
            connect_light(scene, z, at, pdf, out);
 }
 

@@ -92,11 +92,11 @@ static void splat(const struct cache *m, struct sample *sample, const struct ver
 {
     const struct scene *scene = sample->pass->job->scene;
     const struct camera *camera = &scene->camera;
-    double S = sample->counts->lens, px, py, raster[2];
+    double S = sample->pass->counts->lens, px, py, raster[2];
     for (int s = 2; s <= n && s <= sample->pass->job->max_depth + 1; s++) {
         const struct vertex *y = &light[s - 1];
         vec3 lens = lens_drawn(camera, y->p, sample->sampler), d = sub(y->p, lens);
-        struct connection c = connect_lens(scene, sample->counts, y, &sample->sampler, raster);
+        struct connection c = connect_lens(scene, sample->pass->counts, y, &sample->sampler, raster);
         if (!rgb_is_black(c.value)) {
             vec3 w = normalize(d);
             double R = camera_project(camera, lens, w, &px, &py) * camera_falloff(camera, length2(d)) *
@@ -186,9 +186,9 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
         struct vertex *eye = pixel[i].eye;
         const struct drawn light = {pool_path(pool, i), 1, pool->length[i], 1};
         know_merges(m, &pass->work->arena, eye, pixel[i].n, RADIANCE);
-        sample_alone(sample, eye, pixel[i].n);
+        sample_alone(sample, pixel[i].n);
         for (int t = 2; t <= pixel[i].n; t++) {
-            sample_pairs(sample, &light, &eye[t - 1], t, 1);
+            sample_pairs(sample, &light, t, 1);
             if (can_merge(&eye[t - 1]))
                 merge_all(m, sample, &eye[t - 1], t);
         }
