@@ -5,15 +5,15 @@
  * worth to an eye vertex in region e (table.h), and L_v the luminance of beta_v. Then
  *     P(v|z) = ratio(e(z), l(v)) L_v / sum over the pool.
  * It draws by bisection of cumulative sums, first the region, then the vertex: that keeps the C strata of an eye vertex
- * apart. Alias tables cost 3 to 9 % more instructions, because a region draws from its table too rarely to pay for
- * building it.
+ * apart, and a region draws too rarely to pay for an alias table.
  *
- * The strategies count in the MIS weights as
+ * How many samples is that, where BDPT takes one? Each of the K sub-paths might have had its vertex at y, and y is
+ * drawn C P(y|z) times: C K P(y|z). The sum over the pool is about K N times the mean of L, as ratios have the mean 1
+ * and a light sub-path has N connectible vertices. Other strategies cannot know L of a walk that they have not made, so
+ * to them it is the mean: C ratio / N is left. With the credit of a draw and the bound (counts.h) the strategies count
+ * as
  *     n = x / (1 + x / M),      x = 2 C ratio(e(z), l(y)) / N,      M = K / 4
- * samples, where N is the mean number of connectible vertices of a light sub-path (1/N: prepare.c), and K that of light
- * sub-paths of a full tile. 2 is the credit of a draw, and M a bound (counts.h). The other strategies cannot know L_v
- * of a walk that they have not made, so n has its mean. Any n that is a function of the path alone keeps the weights
- * valid.
+ * samples, K being that of a full tile. Any n that is a function of the path alone keeps the weights valid.
  *
  * [Su 2022] has subspaces of eye and light sub-paths and a matrix of probabilities between them. Here the regions are
  * cubes, and the table is learnt from trial connections.
@@ -35,26 +35,27 @@ struct cache {
     double *before;              /* [n], sum of L of the candidates before it in its group */
     struct group *group;         /* [n_groups], in the order of their regions */
     int n_groups;
-    double **row; /* [regions][n_groups + 1] cumulative sums of ratio(e,.) L over the groups; NULL: not made yet */
+    double **row; /* [regions][n_groups + 1] cumulative sums of ratio(e,.) L over the groups; NULL until a draw needs
+                   * them */
 };
 
 /* --- the pool's vertices by region ------------------------------------------------------------------- */
 
 /* The groups, with places for their members, but no members yet.
  *   group_of  out, [n_regions], number of the region's group, if it has one */
-static void make_groups(struct cache *v, struct pool *pool, int *group_of, int n_regions)
+static void make_groups(struct cache *cache, struct pool *pool, int *group_of, int n_regions)
 {
     memset(group_of, 0, (size_t)n_regions * sizeof *group_of);
     for (int i = 0; i < pool->n_candidates; i++)
         group_of[pool->candidate[i]->place]++;
-    v->group = arena_alloc(&pool->arena, (size_t)n_regions * sizeof *v->group);
-    v->n_groups = 0;
+    cache->group = arena_alloc(&pool->arena, (size_t)n_regions * sizeof *cache->group);
+    cache->n_groups = 0;
     for (int region = 0, first = 0; region < n_regions; region++) {
         int n = group_of[region];
         if (n == 0)
             continue;
-        group_of[region] = v->n_groups;
-        v->group[v->n_groups++] = (struct group){region, first, 0, 0};
+        group_of[region] = cache->n_groups;
+        cache->group[cache->n_groups++] = (struct group){region, first, 0, 0};
         first += n;
     }
 }
@@ -64,52 +65,52 @@ static struct cache *build(const struct prepared *p, const struct tile_pass *pas
     struct pool *pool = &pass->work->pool;
     struct arena *arena = &pool->arena;
     int n_regions = p->tables->regions.n;
-    struct cache *v = arena_alloc(arena, sizeof *v);
+    struct cache *cache = arena_alloc(arena, sizeof *cache);
     int *group_of = arena_alloc(arena, (size_t)n_regions * sizeof *group_of);
     (void)iteration;
     pool_find_candidates(pool);
-    make_groups(v, pool, group_of, n_regions);
-    v->candidate = arena_alloc(arena, (size_t)pool->n_candidates * sizeof *v->candidate);
-    v->before = arena_alloc(arena, (size_t)pool->n_candidates * sizeof *v->before);
+    make_groups(cache, pool, group_of, n_regions);
+    cache->candidate = arena_alloc(arena, (size_t)pool->n_candidates * sizeof *cache->candidate);
+    cache->before = arena_alloc(arena, (size_t)pool->n_candidates * sizeof *cache->before);
     for (int i = 0; i < pool->n_candidates; i++) {
         const struct vertex *y = pool->candidate[i];
-        struct group *g = &v->group[group_of[y->place]];
-        v->candidate[g->first + g->n] = y;
-        v->before[g->first + g->n++] = g->L;
+        struct group *g = &cache->group[group_of[y->place]];
+        cache->candidate[g->first + g->n] = y;
+        cache->before[g->first + g->n++] = g->L;
         g->L += rgb_luminance(y->beta);
     }
-    v->row = arena_alloc(arena, (size_t)n_regions * sizeof *v->row);
+    cache->row = arena_alloc(arena, (size_t)n_regions * sizeof *cache->row);
     for (int e = 0; e < n_regions; e++)
-        v->row[e] = NULL;
-    return v;
+        cache->row[e] = NULL;
+    return cache;
 }
 
 /* --- drawing ----------------------------------------------------------------------------------------- */
 
 /* The cumulative sums of an eye region, made at the first draw from it. */
-static const double *row_of_region(const struct cache *v, struct arena *arena, const struct table *pairs, int e)
+static const double *row_of_region(const struct cache *cache, struct arena *arena, const struct table *pairs, int e)
 {
-    if (v->row[e] != NULL)
-        return v->row[e];
-    double *row = v->row[e] = arena_alloc(arena, ((size_t)v->n_groups + 1) * sizeof *row);
+    if (cache->row[e] != NULL)
+        return cache->row[e];
+    double *row = cache->row[e] = arena_alloc(arena, ((size_t)cache->n_groups + 1) * sizeof *row);
     row[0] = 0;
-    for (int g = 0; g < v->n_groups; g++)
-        row[g + 1] = row[g] + table_ratio(pairs, e, v->group[g].region) * v->group[g].L;
+    for (int g = 0; g < cache->n_groups; g++)
+        row[g + 1] = row[g] + table_ratio(pairs, e, cache->group[g].region) * cache->group[g].L;
     return row;
 }
 
 /* Draw a region, then a vertex; stratified over both. */
-static bool draw(const struct prepared *p, const struct cache *v, struct sample *sample, const struct vertex *z, int i,
-                 int n, struct drawn *out)
+static bool draw(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
+                 int i, int n, struct drawn *out)
 {
-    if (v->n_groups == 0)
+    if (cache->n_groups == 0)
         return false;
-    const double *row = row_of_region(v, &sample->pass->work->pool.arena, &p->tables->pairs, z->place);
-    double total = row[v->n_groups], target = (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n * total;
-    int k = cumulative_find(row, v->n_groups, target);
-    const struct group *g = &v->group[k];
+    const double *row = row_of_region(cache, &sample->pass->work->pool.arena, &p->tables->pairs, z->place);
+    double total = row[cache->n_groups], target = (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n * total;
+    int k = cumulative_find(row, cache->n_groups, target);
+    const struct group *g = &cache->group[k];
     double share = row[k + 1] - row[k], within = (target - row[k]) / share * g->L;
-    const struct vertex *y = v->candidate[g->first + cumulative_find(&v->before[g->first], g->n, within)];
+    const struct vertex *y = cache->candidate[g->first + cumulative_find(&cache->before[g->first], g->n, within)];
     *out = drawn_vertex(y, share / total * rgb_luminance(y->beta) / g->L);
     return true;
 }
@@ -131,7 +132,7 @@ static void render_iteration(const struct prepared *p, const struct tile_pass *p
         for (int t = 2; t <= n; t++) {
             const struct vertex *z = &sample.eye[t - 1];
             const bool joins = K > 0 && t <= pass->job->max_depth && vertex_connectible(z);
-            const int C = joins ? p->numbers.draws[z->eye_end] : 0;
+            const int C = joins ? p->numbers.draws[z->eye_hit] : 0;
             struct drawn drawn;
             sample_s0(&sample, t);
             sample_s1(&sample, t);
@@ -159,7 +160,8 @@ static const struct field PARAMETERS[] = {
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 1, 0, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path; 0: trace none", NULL),
     PARAMETER_DELTA(0.1), PARAMETER_CREDITS(true), PARAMETER_BOUND(true),
-    PARAMETERS_SHARED(true, 2, true, 0.2, MAX_TILE_SIZE, POOL_SPREAD),
+    PARAMETER_RACE(true), PARAMETER_POINTS(2), PARAMETER_GUIDE(true), PARAMETER_EMISSION(0.2),
+    PARAMETER_TILES(MAX_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_subspaces = {

@@ -1,9 +1,9 @@
 /* bdpt.c: Veach's bidirectional path tracing, and its two halves, path tracing and light tracing.           [V97 10]
  *
  * A pixel has an eye sub-path, a light sub-path and all their connections. The halves have one of the two. Light
- * tracing has an eye sub-path, too, but only for lights that the camera sees directly (s = 0, t = 2). What a method does follows
- * from its numbers of samples (counts.h). Where a scene has several lights, s = 1 chooses them by the guide unless the
- * user says otherwise; without it they are chosen by power.
+ * tracing has an eye sub-path, too, but only for lights that the camera sees directly (s = 0, t = 2). What a method
+ * does follows from its numbers of samples (counts.h). Where a scene has several lights, s = 1 chooses them by the
+ * guide unless the user says otherwise; without it they are chosen by power.
  *
  * Tests: test_render.c (they agree with each other and with analytic scenes).
  */
@@ -26,7 +26,7 @@ static void render_pixel(const struct prepared *p, const struct tile_pass *pass,
         const struct vertex *z = &sample.eye[t - 1];
         sample_s0(&sample, t);
         sample_s1(&sample, t);
-        if (numbers->draws[z->eye_end] > 0 && vertex_connectible(z)) /* s >= 2 */
+        if (numbers->draws[z->eye_hit] > 0 && vertex_connectible(z)) /* s >= 2 */
             sample_pairs(&sample, &(struct drawn){light_path, 1, n_light, 1}, t, 1);
     }
     if (numbers->path_pixels > 0) /* t = 1 */

@@ -32,22 +32,17 @@ bool method_read(const struct method *m, const struct scene *scene, struct prepa
     return ok;
 }
 
-struct pass_size method_size(const struct prepared *p)
-{
-    bool shared = p->numbers.path_pixels > 0 && numbers_every(&p->numbers) == 1;
-    const struct pass_size alone = {p->size.block, DEFAULT_TILE_SIZE, 1};
-    return p->method->build == NULL || shared ? p->size : alone;
-}
-
-void method_counts(const struct render_job *job, struct prepared *p)
+void method_settle(const struct render_job *job, struct prepared *p)
 {
     const struct parameters *q = &p->parameters;
-    double M = BOUND * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
     int every = numbers_every(&p->numbers);
+    if (p->method->build != NULL && (p->numbers.path_pixels == 0 || every > 1))
+        p->size = (struct pass_size){p->size.block, DEFAULT_TILE_SIZE, 1};
+    double M = BOUND * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
     p->counts = counts_of(p->numbers, q->credits ? DIRECT_CREDIT * every : 1, q->credits ? PAIR_CREDIT : 1,
                           (double)rect_pixels(job->film_rect), p->tables);
-    for (int end = 0; end < EYE_ENDS; end++) {
-        p->counts.pair[end] *= p->draw_worth[end];
-        p->counts.bound[end] = q->bound ? p->counts.pair[end] * every / M : 0;
+    for (int hit = 0; hit < EYE_HITS; hit++) {
+        p->counts.pair[hit] *= p->draw_worth[hit];
+        p->counts.bound[hit] = q->bound ? p->counts.pair[hit] * every / M : 0;
     }
 }

@@ -1,7 +1,7 @@
 /* method.h: a method is a row, and a file if it has code of its own. Methods differ in how many samples they take of
  * each kind, and in how they choose light vertices for an eye vertex. The table of all rows is render/rows.c.
  *
- * A method reads its parameters (method_read), is prepared (prepare.h), and renders tile passes (tile_pass.h) on all
+ * A method reads its parameters (parameters.h), is prepared (prepare.h), and renders tile passes (tile_pass.h) on all
  * threads.
  *
  * doc/add-a-method.md adds one. Tests: test_render.c, test_options.c, test/run/add_method.sh.
@@ -9,77 +9,20 @@
 #ifndef ASBDPT_METHOD_H
 #define ASBDPT_METHOD_H
 
-#include <stddef.h>
-
 #include "base/error.h"
 #include "base/settings.h"
+#include "integrators/parameters.h"
 #include "transport/sample.h"
 
 #define DEFAULT_RR_THRESHOLD 0.5
 
-/* Parameters of several methods. What makes any choice of light sub-paths better has one implementation that all
- * methods share, and a switch, so that one can measure the choice alone:
- *
- *   guide         s = 1 chooses lights by what they are worth to a region
- *   emission      light sub-paths start in directions that the camera can use (emission.h)
- *   race          fewer light sub-paths and connections if a race before the render finds them enough (race.h)
- *   lightpoints   points on lights that a first hit is joined to
- *   later         fewer draws for a later eye vertex than for a first hit
- *   credits       direct light at a first hit and draws count as more samples in the weights (counts.h)
- *   bound         draws count as less than a quarter of the pool's light sub-paths (counts.h)
- *   tile, spread  number of pixels that share light sub-paths, and how far apart they are (tile_pass.h)
- */
-struct parameters {
-    struct numbers numbers; /* those of the row, unless parameters change them; later draws -1: as many as others */
-    int guide, credits, bound; /* off or on */
-    int race;               /* RACE_OFF, RACE_ON, or a runner: RACE_RUNNERS + enum runner_number */
-    double emission;        /* share of light sub-paths that start by power alone; 1: all */
-    double delta;           /* share of choices that ignore what was learnt */
-    int metric;             /* enum metric */
-    int tile, spread;
-};
-
-/* Rows of a method's table of parameters, with these defaults. */
-#define PARAMETER(NAME, KIND, MEMBER, DEFAULT, LEAST, MOST, HELP, WORDS) \
-    {NAME, KIND, offsetof(struct parameters, MEMBER), DEFAULT, LEAST, MOST, HELP, WORDS}
-#define PARAMETER_DELTA(DEFAULT) \
-    PARAMETER("delta", FIELD_NUMBER, delta, DEFAULT, 1e-6, 1, "share of draws that ignore what was learnt", NULL)
-#define PARAMETER_GUIDE(DEFAULT) \
-    PARAMETER("guide", FIELD_WORD, guide, DEFAULT, 0, 0, \
-              "choose lights by what a region sees, where there are several", OFF_ON)
-#define PARAMETER_EMISSION(DEFAULT) \
-    PARAMETER("emission", FIELD_NUMBER, emission, DEFAULT, 1e-6, 1, \
-              "share of light sub-paths that leave lights as if nothing were learnt", NULL)
-#define PARAMETER_RACE(DEFAULT) \
-    PARAMETER("race", FIELD_WORD, race, DEFAULT, 0, 0, \
-              "who renders: the winner of a race before it, or this runner; off: all", RACES)
-#define PARAMETER_POINTS(DEFAULT) \
-    PARAMETER("lightpoints", FIELD_INTEGER, numbers.light_points, DEFAULT, 1, 64, \
-              "points on lights that an eye vertex that the camera sees is joined to", NULL)
-#define PARAMETER_LATER(DEFAULT) \
-    PARAMETER("later", FIELD_INTEGER, numbers.draws[LATER_HIT], DEFAULT, -1, 1024, \
-              "draws of an eye vertex that the camera does not see; -1: as many as of one that it sees", NULL)
-#define PARAMETER_CREDITS(DEFAULT) \
-    PARAMETER("credits", FIELD_WORD, credits, DEFAULT, 0, 0, \
-              "count draws, and direct light that the camera sees, as more samples, for they are stratified", OFF_ON)
-#define PARAMETER_BOUND(DEFAULT) \
-    PARAMETER("bound", FIELD_WORD, bound, DEFAULT, 0, 0, \
-              "count draws as less than a quarter of the light sub-paths of a tile", OFF_ON)
-#define PARAMETER_TILES(TILE, SPREAD) \
-    PARAMETER("tile", FIELD_INTEGER, tile, TILE, 1, MAX_TILE_SIZE, \
-              "pixels along a side of those that share light sub-paths", NULL), \
-    PARAMETER("spread", FIELD_INTEGER, spread, SPREAD, 1, 64, "tiles that are interleaved along each axis", NULL)
-#define PARAMETERS_SHARED(RACE, POINTS, GUIDE, EMISSION, TILE, SPREAD) \
-    PARAMETER_RACE(RACE), PARAMETER_POINTS(POINTS), PARAMETER_GUIDE(GUIDE), PARAMETER_EMISSION(EMISSION), \
-    PARAMETER_TILES(TILE, SPREAD)
-extern const char *const OFF_ON[], *const RACES[];
-enum { RACE_OFF, RACE_ON, RACE_RUNNERS }; /* then all runners */
-
-/* A way to render that competes in a race (race.h), and what the race has found. */
+/* A way to render that competes in a race (race.h), and what the race has found; 0: not measured. */
 struct runner {
     struct numbers numbers;
-    double variance, price; /* of a sample: relative to the square of the brightness; any unit. 0: not measured */
+    double variance, direct; /* of a sample and of its direct light at first hits, relative to the brightness squared */
+    double price;            /* of a sample, any unit */
 };
+/* Those who compete in the first stage come last, and of these the path tracers. As in RACES. */
 enum runner_number { RUNNER_ALL, RUNNER_QUARTER, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
 
 /* runner_name: as -P race= has it. runner_cost: what a race minimises. */
@@ -92,7 +35,7 @@ struct prepared {
     struct parameters parameters;
     void *own;                /* see struct method; owned */
     struct numbers numbers;   /* those of the parameters, or of the winner of a race */
-    double draw_worth[EYE_ENDS]; /* samples of BDPT that a draw counts as, without a credit; `prepare` may change it */
+    double draw_worth[EYE_HITS]; /* samples of BDPT that a draw counts as, without a credit; `prepare` may change it */
     struct counts counts;     /* in the weights */
     struct tables *tables;    /* owned */
     struct scene *uniform;    /* the job's scene if it chooses lights uniformly, else NULL; owned */
@@ -143,10 +86,8 @@ const struct field *method_has(const struct method *m, const char *name);
  * method_release (prepare.h) must follow. */
 bool method_read(const struct method *m, const struct scene *scene, struct prepared *p, struct error *err);
 
-/* method_size: p->size, or that of a path tracer if p->numbers are those of one: its pixels share next to no sub-paths,
- * so those of a tile may be neighbours.
- * method_counts: p->counts, of p->numbers, p->draw_worth and p->tables. */
-struct pass_size method_size(const struct prepared *p);
-void method_counts(const struct render_job *job, struct prepared *p);
+/* method_settle: make p->counts of p->numbers, p->draw_worth and p->tables; and p->size that of a path tracer if the
+ * numbers are those of one: its pixels share next to no sub-paths, so those of a tile may be neighbours. */
+void method_settle(const struct render_job *job, struct prepared *p);
 
 #endif

@@ -28,8 +28,8 @@ static struct learn_options what_to_learn(const struct render_job *job, const st
 static void find_draw_worth(struct prepared *p)
 {
     double n = p->method->vertices ? p->tables->light_vertices : 0;
-    for (int end = 0; end < EYE_ENDS; end++)
-        p->draw_worth[end] = n > 0 ? 1 / n : 1;
+    for (int hit = 0; hit < EYE_HITS; hit++)
+        p->draw_worth[hit] = n > 0 ? 1 / n : 1;
 }
 
 /* Learn tables, and make of them what samples need. */
@@ -42,16 +42,15 @@ static void learn_for(const struct render_job *job, struct prepared *p, int runn
     find_draw_worth(p);
     if (p->method->prepare != NULL)
         p->method->prepare(job, p);
-    method_counts(job, p);
 }
 
 /* Where there is much to learn, a first race finds out whether it may pay. */
 static void learn_and_race(const struct render_job *job, struct prepared *p)
 {
-    bool small = rect_pixels(job->film_rect) < RACE_LEAST_PIXELS;
-    int asked = p->numbers.path_pixels == 0 || (small && p->parameters.race == RACE_ON) ? RACE_OFF : p->parameters.race;
+    const int asked = p->numbers.path_pixels > 0 ? p->parameters.race : RACE_OFF;
+    const bool races = asked == RACE_ON && rect_pixels(job->film_rect) >= RACE_LEAST_PIXELS;
     race_begin(job->scene, p);
-    if (asked == RACE_ON && p->method->learns_pairs) {
+    if (races && p->method->learns_pairs) {
         learn_for(job, p, RUNNER_PATH_TRACER, true);
         if (race_early(job, p)) {
             if (!has_light_paths(p)) /* light sub-paths of a rival have had their tables */
@@ -62,7 +61,7 @@ static void learn_and_race(const struct render_job *job, struct prepared *p)
     p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
     learn_for(job, p, p->winner, p->winner < RUNNER_PATH_TRACER || has_light_paths(p));
     race_begin(job->scene, p); /* `prepare` may have changed the numbers */
-    if (asked == RACE_ON)
+    if (races)
         race(job, p);
 }
 
@@ -83,8 +82,7 @@ void method_prepare(const struct render_job *job, struct prepared *p)
     p->tables = mem_alloc(1, sizeof *p->tables);
     learn_and_race(job, p);
     p->numbers = p->runner[p->winner].numbers;
-    p->size = method_size(p);
-    method_counts(job, p);
+    method_settle(job, p);
     p->hasty = is_hasty(job, p);
 }
 

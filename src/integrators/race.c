@@ -34,7 +34,7 @@ static void joined(void *context, const struct sample *sample, const struct join
     struct pixel_rect film = l->pixels.rect; /* splats around it are left out */
     double x = p->t == 1 ? floor(p->px) : sample->x, y = p->t == 1 ? floor(p->py) : sample->y;
     double value = fabs(rgb_luminance(p->added)); /* that signs of a filter differ is no noise of an image (filter.h) */
-    bool first = p->t > 1 && (p->s == 0 ? p->z - 1 : p->z)->eye_end == FIRST_HIT; /* s = 0: z is on the light */
+    bool first = p->t > 1 && (p->s == 0 ? p->z - 1 : p->z)->eye_hit == FIRST_HIT; /* s = 0: z is on the light */
     int every = p->s < 2 ? 1 : l->every;
     if (p->t > 1 && p->s > 0)
         l->price += (double)PRICE_CONNECTION / every;
@@ -63,9 +63,8 @@ static void start_lap(const struct render_job *job, const struct prepared *p, co
     *l = (struct lap){.job = *job, .by = *p, .every = numbers_every(&k->numbers), .pixels = {film, nx, ny, 0, 0}};
     l->job.seed = l->job.eye_seed = hash_combine(hash_combine(job->seed, 0x3c6ef372fe94f82bu), number);
     l->by.numbers = k->numbers;
-    l->by.size = method_size(&l->by);
-    method_counts(job, &l->by);
-    l->by.numbers.every = 1;
+    method_settle(job, &l->by);
+    l->by.numbers.every = 1; /* counted as in the render, made in each */
 }
 
 static void run_lap(void *context, int64_t number, int slot, int thread)
@@ -115,22 +114,23 @@ static int pixels_lit(const struct lap *a)
     return lit;
 }
 
-/* From the two laps of a runner; most: of pixels_lit. Returns the variance of direct light. */
-static double judge(struct runner *k, const struct lap *a, const double *unit, int most)
+/* From the two laps of a runner; most: of pixels_lit. Of what the render makes in one of `every`
+ * iterations the second moment counts, which is nearly its variance. */
+static void judge(struct runner *k, const struct lap *a, const double *unit, int most)
 {
     const struct lap *b = a + 1;
-    double direct = 0, n = pixels_count(a->pixels), parts = 2 * SAMPLES * a->every * n;
+    double n = pixels_count(a->pixels), parts = 2 * SAMPLES * a->every * n;
     k->price = (a->price + b->price) / (a->samples + b->samples);
     k->variance = NOTHING;
+    k->direct = 0;
     for (int i = 0; i < n; i++) {
-        direct += variance(a->direct[i], b->direct[i], unit[i]) / n;
+        k->direct += variance(a->direct[i], b->direct[i], unit[i]) / n;
         k->variance += variance(a->often[i], b->often[i], unit[i]) / n;
         for (int j = 0; j < SAMPLES; j++)
             k->variance += (huber(a->rare[j][i] / unit[i]) + huber(b->rare[j][i] / unit[i])) / parts;
     }
     if (BLIND_SHARE * pixels_lit(a) < most)
         k->variance = BLIND;
-    return direct;
 }
 
 /* The brightness that noise is relative to: the mean of the pixel's and the picture's, over n laps. */
@@ -148,23 +148,23 @@ static void find_units(const struct lap *lap, int n, double *unit)
         unit[i] = (unit[i] + picture) / 2;
 }
 
-/* Let n runners compete. Returns the variance of direct light of the last one; -1 if the job is cancelled. */
-static double compete(const struct render_job *job, const struct prepared *p, struct runner *first, int n)
+/* Let n runners compete. False if there is no light, or the job is cancelled. */
+static bool compete(const struct render_job *job, const struct prepared *p, struct runner *first, int n)
 {
     struct lap *lap = mem_alloc((size_t)(2 * n), sizeof *lap);
     for (int i = 0; i < 2 * n; i++)
         start_lap(job, p, &first[i / 2], (uint64_t)i % 2, &lap[i]);
     struct parallel_jobs jobs = {2 * n, job->n_threads, 2 * n, lap, run_lap, count_lap, NULL};
-    double unit[MOST_PIXELS], direct = -1;
+    double unit[MOST_PIXELS];
     int most = 0;
     bool all = job->scene->lights.n > 0 && parallel_run(&jobs) == 2 * n && job_cancelled(job) == CANCEL_NOT;
     find_units(lap, 2 * n, unit);
     for (int i = 0; i < n; i++)
         most = most > pixels_lit(&lap[2 * i]) ? most : pixels_lit(&lap[2 * i]);
     for (int i = 0; i < n && all; i++)
-        direct = judge(&first[i], &lap[2 * i], unit, most);
+        judge(&first[i], &lap[2 * i], unit, most);
     free(lap);
-    return direct;
+    return all;
 }
 
 /* --- the race ---------------------------------------------------------------------------------------- */
@@ -203,13 +203,14 @@ static int find_winner(const struct prepared *p, int first)
 bool race_early(const struct render_job *job, struct prepared *p)
 {
     struct runner *quarter = &p->runner[RUNNER_QUARTER], *pt = &p->runner[RUNNER_PATH_TRACER];
-    double direct = compete(job, p, quarter, RUNNERS - RUNNER_QUARTER), all = p->runner[RUNNER_ONE_POINT].variance;
+    const struct runner *one = &p->runner[RUNNER_ONE_POINT];
+    bool raced = compete(job, p, quarter, RUNNERS - RUNNER_QUARTER);
     p->winner = find_winner(p, RUNNER_PATH_TRACER);
-    return direct > 2 * (all - direct) || (direct >= 0 && quarter->variance > USELESS * pt->variance);
+    return raced && (one->direct > 2 * (one->variance - one->direct) || quarter->variance > USELESS * pt->variance);
 }
 
 void race(const struct render_job *job, struct prepared *p)
 {
     int n = p->runner[RUNNER_PATH_TRACER].price > 0 ? RUNNER_PATH_TRACER : RUNNERS; /* the others have competed */
-    p->winner = compete(job, p, p->runner, n) >= 0 ? find_winner(p, RUNNER_ALL) : RUNNER_ALL;
+    p->winner = compete(job, p, p->runner, n) ? find_winner(p, RUNNER_ALL) : RUNNER_ALL;
 }

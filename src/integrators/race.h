@@ -7,7 +7,7 @@
  * The least variance of a sample times its price wins [Grittmann 2022]. Prices count vertices and connections, so the
  * same runner wins on every machine. Each runner renders SAMPLES samples of some pixels twice, with random numbers that
  * the render does not use; splats anywhere in the cell of a pixel count as its own. A runner that meets light
- * in less than 1/BLIND_SHARE as many pixels as another cannot win.
+ * in less than 1/BLIND_SHARE as many pixels as another of its stage cannot win.
  *
  * The race has two stages. First two path tracers, with as many light points as RUNNER_ALL and with one, compete with
  * RUNNER_QUARTER, and little has been learnt for any. The better path tracer wins if light sub-paths cannot help, since

@@ -14,9 +14,10 @@
  */
 #include "base/number.h"
 #include "integrators/loop.h"
+#include "learning/learn.h"
 
 /* What a light sub-path is chosen by: nothing; the dissertation's measure, the mean over RGB of beta at the furthest
- * vertex; or how much of it the camera can use (path_use). */
+ * vertex; or how much of it the camera can use (learn.h). */
 enum metric { METRIC_CONSTANT, METRIC_THROUGHPUT, METRIC_USE };
 static const char *const METRICS[] = {"constant", "throughput", "importance", NULL};
 
@@ -24,7 +25,7 @@ static double importance_of(const struct prepared *p, const struct vertex *path,
 {
     return p->parameters.metric == METRIC_CONSTANT     ? 1
            : p->parameters.metric == METRIC_THROUGHPUT ? path_throughput(path, n)
-                                                       : path_use(p->tables, path, 1, n);
+                                                       : learnt_use(p->tables, path, 1, n);
 }
 
 /* What each pixel of the tile has drawn. */
@@ -63,7 +64,8 @@ static bool draw(const struct prepared *p, const struct cache *cache, struct sam
 static const struct field PARAMETERS[] = {
     PARAMETER("metric", FIELD_WORD, metric, METRIC_USE, 0, 0, "what a light sub-path is chosen by", METRICS),
     PARAMETER_DELTA(0.1), PARAMETER_CREDITS(false), PARAMETER_BOUND(false),
-    PARAMETERS_SHARED(false, 1, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
+    PARAMETER_RACE(false), PARAMETER_POINTS(1), PARAMETER_GUIDE(true), PARAMETER_EMISSION(1),
+    PARAMETER_TILES(DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_pool = {

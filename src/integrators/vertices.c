@@ -56,7 +56,8 @@ static const struct field PARAMETERS[] = {
     PARAMETER("pathpixels", FIELD_INTEGER, numbers.path_pixels, 2, 1, DEFAULT_TILE_SIZE * DEFAULT_TILE_SIZE,
               "pixels for each light sub-path", NULL),
     PARAMETER_DELTA(0.1), PARAMETER_LATER(-1), PARAMETER_CREDITS(true), PARAMETER_BOUND(false),
-    PARAMETERS_SHARED(false, 1, true, 1, DEFAULT_TILE_SIZE, POOL_SPREAD),
+    PARAMETER_RACE(false), PARAMETER_POINTS(1), PARAMETER_GUIDE(true), PARAMETER_EMISSION(1),
+    PARAMETER_TILES(DEFAULT_TILE_SIZE, POOL_SPREAD),
     {.name = NULL}};
 
 const struct method method_vertices = {

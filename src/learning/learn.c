@@ -156,12 +156,21 @@ static void build_guide(struct learning *l)
 
 static const double FIRST_VERTEX = 0.2; /* factor of y_1 in the worth of a ray: s = 1 finds the same light */
 
+double learnt_use(const struct tables *tables, const struct vertex *path, int first, int end)
+{
+    double sum = 0;
+    for (const struct vertex *y = path + first; y < path + end; y++)
+        if (vertex_connectible(y))
+            sum += rgb_luminance(y->beta) * tables->use[y->place];
+    return sum;
+}
+
 static void trace_light_path(struct learning *l, struct workspace *work, long i, struct lessons *out)
 {
     const struct tables *t = l->tables;
     struct vertex *path = arena_alloc(&work->arena, ((size_t)l->job->max_depth + 1) * sizeof *path);
     int column, n = trace_light(l, &work->arena, i, STREAM_LIGHT, path, &column);
-    double worth = n > 1 && t->use != NULL ? FIRST_VERTEX * path_use(t, path, 1, 2) + path_use(t, path, 2, n) : 0;
+    double worth = n > 1 && t->use != NULL ? FIRST_VERTEX * learnt_use(t, path, 1, 2) + learnt_use(t, path, 2, n) : 0;
     lessons_add(out, (struct lesson){RAY, 0, column, sqr(worth), 1});
     for (const struct vertex *y = path + 1; y < path + n; y++)
         if (vertex_connectible(y))

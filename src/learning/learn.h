@@ -1,9 +1,9 @@
 /* learn.h: learn tables about a scene before it is rendered (tables.h).
  *
- * The way of each number from a sample to a weight; functions without a file are in learn.c:
+ * The way of each number from a sample to a weight. What makes tables is in learn.c:
  *
  *   table      samples                     its lesson     made a table by       drawn by           in the weights
- *   use        trace_eye_path              VISIT          - (a sum)             select = pool      -
+ *   use        trace_eye_path              VISIT          - (a sum)             pool, vertices     -
  *   guide      trace_eye_path              GUIDE          build_guide           light_draw         counts.h: n_s1
  *   emission   trace_light_path            RAY            learn_light_paths     emission_sample    emission_pdf
  *   vertices   trace_light_path            LIGHT_VERTEX   count_light_vertices  -                  base of pairs
@@ -39,6 +39,10 @@ struct learn_options {
     double emission;        /* delta of the table of emission, which needs `use`; 1: do not learn it */
     double delta;           /* of the table of pairs */
 };
+
+/* learnt_use: how much the camera can use of vertices [first, end) of a light sub-path: the sum of luminance(beta)
+ * times `use` of the place over those that can be connected to. */
+double learnt_use(const struct tables *tables, const struct vertex *path, int first, int end);
 
 /* learn: fill *out, which is empty; tables_free releases it. */
 void learn(const struct render_job *job, const struct learn_options *options, struct tables *out);

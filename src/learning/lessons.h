@@ -60,7 +60,7 @@ struct learning {
 
 /* lessons_learn: run a round over sub-paths first .. end-1, unless the job is cancelled. `trace` lists the lessons of
  * sub-path number i, whose vertices and lobes are in the workspace. l->take takes one in. Walks and connections use the
- * tables `known`, which do not change meanwhile. After each chunk it calls job->progress. */
+ * tables `known`, of which those that are being learnt count as empty. After each chunk it calls job->progress. */
 void lessons_learn(struct learning *l, void (*trace)(struct learning *, struct workspace *, long, struct lessons *),
                    const struct tables *known, long first, long end);
 

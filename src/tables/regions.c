@@ -99,7 +99,7 @@ int regions_add(struct regions *r, uint64_t key) { return add_region(r, key, 0);
 
 int regions_find(const struct regions *r, uint64_t key)
 {
-    for (int level = 0; r->n_slots > 0 && level < REGION_LEVELS; level++, key = key_above(key)) {
+    for (int level = 0; level < REGION_LEVELS; level++, key = key_above(key)) {
         size_t slot = slot_of(r, key);
         if (r->key[slot] == key)
             return r->number[slot];

@@ -7,7 +7,8 @@
  * pairs than there are samples. So the mean of a pair is regularised towards that of the pair above it:
  *     m(r,c) = (sum of w x + PRIOR w_mean m(r',c')) / (sum of w + PRIOR w_mean),      PRIOR = 4 samples.
  * Rows and columns may be nodes of trees, in which a node contains those below it: places on several levels, parts of a
- * light. In the pair above, both nodes are one level up. The top pair is regularised towards the mean of all samples.
+ * light. In the pair above, both nodes are one level up, or the finer one alone. The top pair is regularised towards
+ * the mean of all samples.
  *
  * Let base(c) be the probability of a column if nothing were learnt. A choice by row r has the probability
  *     base(c) ratio(r,c),      ratio(r,c) = (1 - delta) m(r,c) / sum_c base(c) m(r,c) + delta,

@@ -21,12 +21,12 @@ struct connection connect_s0(const struct scene *scene, const struct counts *cou
     if (rgb_is_black(c.value) || seen)
         return c;
     /* n of s = 1, which connects prev to z; z->mis_c is n of s >= 2 */
-    double c_e = z->prev_delta ? 0 : n_s1(counts, prev->place, prev->eye_end, at.cell);
+    double c_e = z->prev_delta ? 0 : n_s1(counts, prev->place, prev->eye_hit, at.cell);
     /* density of the direction of the light sub-path's first ray; at infinity, of its origin */
     const vec3 start = z->kind == VERTEX_ESCAPED ? prev->p : z->p;
     double pdf_emit = emission_pdf(&counts->tables->emission, lights, &at, start, z->wo);
     double eye_side = mis_side(at.pdf, z->pdf_fwd, c_e, pdf_emit, z->mis); /* mis.h (5) */
-    c.weight = mis_weight(counts->s0[prev->eye_end], 0, eye_side); /* mis.h (7), A_light being 0 */
+    c.weight = mis_weight(counts->s0[prev->eye_hit], 0, eye_side); /* mis.h (7), A_light being 0 */
     return c;
 }
 
@@ -51,8 +51,8 @@ static inline vec3 line_between(const struct scene *scene, const struct vertex *
 
 /* What an end makes of light, or of importance, that goes on in direction wi: f times the cosine, and the densities,
  * 1/sr, of that direction and of the reverse move to the vertex before. Of a light or the lens beta has what it sends
- * there, except for the cosine at an area light. For the density of a light see emitted_pdf, which costs more than the
- * rest. */
+ * there, except for the cosine at an area light. beta of a lens point that was drawn is J, the density of eye rays in
+ * that direction. The density of a light is not given: see emitted_pdf, which costs more than the rest. */
 static inline struct bsdf_value scatter_towards(const struct vertex *v, vec3 wi, enum transport mode)
 {
     if (v->kind == VERTEX_LENS)
@@ -131,7 +131,7 @@ bool light_draw(const struct scene *scene, const struct counts *counts, const st
 {
     const struct light_set *lights = &scene->lights;
     const struct table *table = &counts->tables->guide;
-    double u[3], pmf;
+    double u[3], pmf; /* taken from the sampler for every vertex, so that those of the next one stay the same */
     u[0] = below_one((i + sampler_number(sampler, DRAW_LIGHT)) / n);
     sampler_pair(sampler, DRAW_LIGHT_POINT, &u[1]);
     if (!vertex_connectible(z) || lights->choice.n == 0)
@@ -157,7 +157,7 @@ struct connection connect_s1(const struct scene *scene, const struct counts *cou
         vec3 w = light_at_infinity(&lights->light[at.light]) ? neg(at.w) : normalize(sub(z->p, at.p));
         sent = rgb_scale(light_Le(lights, &at, w), 1 / pdf);
     }
-    vertex_light(scene, &at, sent, counts->s0[z->eye_end], y);
+    vertex_light(scene, &at, sent, counts->s0[z->eye_hit], y);
     return connect_vertices(scene, counts, y, z);
 }
 

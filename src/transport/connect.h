@@ -37,8 +37,8 @@ struct connection connect_vertices(const struct scene *scene, const struct count
 /* light_draw: draw a point of a light for eye vertex z, as number i of n whose lights are stratified: of two points on
  * a light of two triangles, each triangle has one. Its density is *pdf; 0 where nothing is emitted. False if no
  * connection can end at z, or there is no light.
- * connect_s1: the same as a vertex y_0, which may send nothing to z, and connect both. If there is none, y->light is
- * -1. */
+ * connect_s1: the same as a vertex y_0, which may send nothing to z, and connect both. If light_draw says false,
+ * y->light is -1. */
 bool light_draw(const struct scene *scene, const struct counts *counts, const struct vertex *z, struct sampler *sampler,
                 int i, int n, struct light_point *at, double *pdf);
 struct connection connect_s1(const struct scene *scene, const struct counts *counts, const struct vertex *z,

@@ -6,7 +6,7 @@
  *   lens  s >= 2, t = 1  connection of a light vertex to the lens
  *
  * BDPT takes one sample of each, and of `lens` one for each pixel of the film. In general the number n of a strategy
- * for a path is a function of the two ends of the connecting edge: of the kind of the eye end, and of the places of
+ * for a path is a function of the two ends of the connecting edge: of the kind of the eye vertex, and of the places of
  * both (vertex.h). A walk that arrives at the second end knows both, so every strategy computes the same number for the
  * same path. Places count for methods that learn: these choose one place more often than another, by the *ratio* of a
  * table (table.h). Elsewhere it is 1: take it for 1 at a first reading.
@@ -15,12 +15,12 @@
  * variance and deserve a higher count, a credit [Grittmann 2019]; the weights still add up to 1. Stratified draws have
  * the credit 2. Direct light at a first hit has 4, because the first numbers of an eye sub-path are stratified over the
  * iterations of a pixel (sampler.h). X being its contribution and V_N the variance of the mean of N samples, each
- * should count as E[X^2] / (N V_N). For N = 16 that is between 1 and 64 in most scenes, and one constant costs 3 % more
- * squared error than to measure it before each render. Where light sub-paths are rare (`every` below), so are splats of
- * the same light, which would be noise: there the credit is 4 times `every`.
+ * should count as E[X^2] / (N V_N). Where light sub-paths are rare (`every` below), so are splats of the same light,
+ * which would be noise: there the credit is 4 times `every`.
  *
- * Draws from a pool (asbdpt.c) have a bound M: where few of its light vertices are useful, the same ones are drawn
- * again and again. Draws that would count as x samples of an endless pool count as x / (1 + x / M), less than M.
+ * Draws from a pool (asbdpt.c, with a derivation) have a bound M: where few of its light vertices are useful, the same
+ * ones are drawn again and again. Draws that would count as x samples of an endless pool count as x / (1 + x / M), less
+ * than M; if they happen in one of `every` iterations, as x / every / (1 + x / M).
  */
 #ifndef ASBDPT_COUNTS_H
 #define ASBDPT_COUNTS_H
@@ -35,7 +35,7 @@ enum { DIRECT_CREDIT = 4, PAIR_CREDIT = 2 };
 struct numbers {
     int light_points;    /* points on lights that a first hit is joined to; a later hit is joined to one. 0: the method
                           * does not use the strategies of path tracing, s = 0 (t >= 3) and s = 1 */
-    int draws[EYE_ENDS]; /* light vertices that an eye vertex is joined to; BDPT: all vertices of one sub-path, once */
+    int draws[EYE_HITS]; /* light vertices, or sub-paths, that are drawn for an eye vertex; BDPT: its pixel's, once */
     int path_pixels;     /* pixels per light sub-path; 0: there are no light sub-paths */
     int every;           /* light sub-paths, and draws, happen in one of so many iterations of a tile, and count so
                           * many times. 0, 1: in each. A power of two */
@@ -52,43 +52,43 @@ static inline int numbers_every(const struct numbers *n) { return n->every > 1 ?
  * only at its last vertex if the lens is next (connect.c: light_side). Between any other first hit and the lens there
  * are delta lobes, where no strategy ends. */
 struct counts {
-    double s0[EYE_ENDS];    /* t >= 3; by the kind of z_{t-2} */
-    double s1[EYE_ENDS];    /* times the ratio of tables->guide */
-    double pair[EYE_ENDS];  /* times the ratio of tables->pairs: x of n_pair */
+    double s0[EYE_HITS];    /* t >= 3; by the kind of z_{t-2} */
+    double s1[EYE_HITS];    /* times the ratio of tables->guide */
+    double pair[EYE_HITS];  /* times the ratio of tables->pairs: x / every */
     double lens;            /* light sub-paths, those of all pixels of the film */
     const struct tables *tables;
-    double bound[EYE_ENDS]; /* times the ratio of tables->pairs: x / M; 0: no bound */
-    int light_points[EYE_ENDS]; /* taken for s = 1 */
+    double bound[EYE_HITS]; /* times the ratio of tables->pairs: x / M; 0: no bound */
+    int light_points[EYE_HITS]; /* taken for s = 1 */
 };
 
 /* counts_of: numbers times credits, without a bound.
  *   direct  credit of direct light at a first hit: s = 1, and s = 0 if the edge before the light begins there
- *   pair    x of one draw at ratio 1
+ *   pair    credit of a draw; of single vertices the caller divides by their number (method_settle)
  *   pixels  of the film; a light sub-path may reach each of them */
 struct counts counts_of(struct numbers n, double direct, double pair, double pixels, const struct tables *tables);
 
 /* n_of: n of the strategy that connects light vertex y and eye vertex z. It is a function of both alone.
- * n_if: the same as if z were of the kind `end`.
+ * n_if: the same as if z were of the kind `hit`.
  * n_s1: n of s = 1, of an eye vertex in a region and a point of a light cell.
- * n_pair: n of s >= 2, t >= 2, of an eye vertex in region e and a light vertex in region l: x / (1 + x / M). */
-static inline double n_s1(const struct counts *c, int region, enum eye_end end, int cell)
+ * n_pair: n of s >= 2, t >= 2, of an eye vertex in region e and a light vertex in region l. */
+static inline double n_s1(const struct counts *c, int region, enum eye_hit hit, int cell)
 {
-    return c->s1[end] * table_ratio(&c->tables->guide, region, cell);
+    return c->s1[hit] * table_ratio(&c->tables->guide, region, cell);
 }
-static inline double n_pair(const struct counts *c, int e, enum eye_end end, int l)
+static inline double n_pair(const struct counts *c, int e, enum eye_hit hit, int l)
 {
     double ratio = table_ratio(&c->tables->pairs, e, l);
-    return c->pair[end] * ratio / (1 + c->bound[end] * ratio);
+    return c->pair[hit] * ratio / (1 + c->bound[hit] * ratio);
 }
-static inline double n_if(const struct counts *c, const struct vertex *y, const struct vertex *z, enum eye_end end)
+static inline double n_if(const struct counts *c, const struct vertex *y, const struct vertex *z, enum eye_hit hit)
 {
     return z->kind == VERTEX_LENS    ? c->lens
-           : y->kind == VERTEX_LIGHT ? n_s1(c, z->place, end, y->place)
-                                     : n_pair(c, z->place, end, y->place);
+           : y->kind == VERTEX_LIGHT ? n_s1(c, z->place, hit, y->place)
+                                     : n_pair(c, z->place, hit, y->place);
 }
 static inline double n_of(const struct counts *c, const struct vertex *y, const struct vertex *z)
 {
-    return n_if(c, y, z, z->eye_end);
+    return n_if(c, y, z, z->eye_hit);
 }
 
 #endif

@@ -14,7 +14,8 @@
  * have to connect at a delta vertex [V97 10.3.5]. The eye side, i > s, is the same with the roles exchanged. The sum
  * over one side obeys
  *     (3)  A_e = R_e/F_e (c_e + A_{e-1}),   A_{-1} = 0,
- * where c_e is the n of the strategy that connects vertices e-1 and e: on this side its sub-path ends at e-1.
+ * where c_e is the n of the strategy that connects vertices e-1 and e: on this side its sub-path ends at e-1. It is 0
+ * if one of the two was left by a delta lobe. c_0 is the n of s = 0; on the eye side 0, for nothing finds the lens.
  *
  * Accumulation. When a walk arrives at vertex e, it knows F_e, but R_e and R_{e-1} depend on what e is connected to. It
  * knows all older terms, so it stores at the vertex
@@ -22,7 +23,7 @@
  * Let pdf_rev be the density per steradian of continuing from e to e-1. Then a connection to vertex e needs only
  *     (5)  A_e = R_e/F_e (c_e + pdf_rev mis_e).
  * Since A_{e-1} = pdf_rev mis_e, the walk's own recursion is
- *     (6)  mis_{e+1} = g (c_e + pdf_rev mis_e) / F_e,   c_e = 0 if the walk scattered at e by a delta lobe.
+ *     (6)  mis_{e+1} = g (c_e + pdf_rev mis_e) / F_e.
  * A_e is relative to one sample of strategy s. At the ends of the connection, or where the walk ended, this gives
  *     (7)  w_s = n_s / (n_s + A_light + A_eye).
  *

@@ -78,9 +78,8 @@ static bool arrive(const struct walk *w, struct vertex *v, const struct vertex *
 {
     if (!meet(w, v, prev, from, edge, at))
         return false;
-    bool first_hit =
-        prev->kind == VERTEX_LENS || (prev->kind == VERTEX_SURFACE && prev->eye_end == FIRST_HIT && from->delta);
-    v->eye_end = mode == RADIANCE && first_hit ? FIRST_HIT : LATER_HIT;
+    bool first_hit = prev->kind == VERTEX_LENS || (prev->eye_hit == FIRST_HIT && from->delta);
+    v->eye_hit = mode == RADIANCE && first_hit ? FIRST_HIT : LATER_HIT;
     material_bsdf(w->scene->material, at->material, &w->scene->textures, at, w->arena, &v->bsdf);
     v->place = region_at(&w->counts->tables->regions, v->p, vertex_side(v));
     v->mis_c = n_before(w->counts, prev, v, mode);
@@ -131,7 +130,7 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
         if (mode == RADIANCE)
             lamp = meet_lamp(w, prev, &from, met ? &at : NULL);
         else if (n == 1 && met && scene_lamp_stops(w->scene, &from.ray, &at))
-            break; /* emitted light does not pass see-through lights, or is not there at all */
+            break; /* emitted light does not pass another see-through light, nor one in the place of its own */
         if (!met) {
             if (mode == RADIANCE && escape(w, &path[n], prev, &from, &edge, lamp))
                 n++;
@@ -157,8 +156,8 @@ int path_eye(const struct walk *w, double px, double py, struct vertex *path, in
         sampler_pair(w->sampler, DRAW_LENS_POINT, u);
     struct departure from = {.ray = camera_ray(camera, px, py, u[0], u[1]), .beta = rgb_grey(1)};
     vertex_lens(camera, from.ray.o, rgb_grey(1), &path[0]);
-    /* Eye rays have density 1 per raster area, J per steradian (or per m^2); We J^-1 = 1, so beta stays 1 (camera.h).
-     * [PBRT3 16.1.1] */
+    /* Eye rays have density 1 per raster area, so J per steradian (or per m^2). Importance over density is 1, so beta
+     * stays 1; the filter is the caller's (camera.h). [PBRT3 16.1.1] */
     double x, y;
     from.pdf = camera_project(camera, from.ray.o, from.ray.d, &x, &y);
     return walk_on(w, from, path, 1, max_vertices, RADIANCE);
@@ -186,19 +185,10 @@ int path_light(const struct walk *w, struct vertex *path, int max_vertices, int 
                                   &from.ray, &from.pdf, &ray_column);
     if (column != NULL)
         *column = ray_column;
-    if (max_vertices < 1 || !(from.pdf > 0) || rgb_is_black(emitted))
+    if (!(from.pdf > 0) || rgb_is_black(emitted))
         return 0;
     vertex_light(w->scene, &at, light_Le(&w->scene->lights, &at, from.ray.d), w->counts->s0[LATER_HIT], &path[0]);
     from.beta = rgb_scale(emitted, 1 / (at.pdf * from.pdf)); /* alpha_2 of [V97 eq. 10.6] */
-    from.ray.tmin = ray_margin(from.ray.o) * (at.prim_id != 0 ? -GRAZING : 1);
+    from.ray.tmin = ray_margin(from.ray.o) * (at.prim_id != 0 ? -GRAZING : 1); /* surface.h */
     return walk_on(w, from, path, 1, max_vertices, IMPORTANCE);
-}
-
-double path_use(const struct tables *tables, const struct vertex *path, int first, int end)
-{
-    double sum = 0;
-    for (const struct vertex *y = path + first; y < path + end; y++)
-        if (vertex_connectible(y))
-            sum += rgb_luminance(y->beta) * tables->use[y->place];
-    return sum;
 }

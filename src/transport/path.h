@@ -20,8 +20,6 @@
 #include "transport/counts.h"
 #include "transport/mis.h"
 
-enum { PATH_MAX_DEPTH = 1000 }; /* largest maxdepth accepted */
-
 /* The parameters of a walk. */
 struct walk {
     const struct scene *scene;
@@ -43,7 +41,7 @@ int path_eye_pixel(const struct walk *w, int x, int y, struct vertex *path, int 
 
 /* path_light: choose a light, a point on it and a direction, and walk. Returns the number of vertices; 0 if nothing is
  * emitted.
- *   column  out: by which it left its light (emission.h); may be NULL */
+ *   column  out: of the table by which it left its light (emission.h); may be NULL */
 int path_light(const struct walk *w, struct vertex *path, int max_vertices, int *column);
 
 /* path_throughput: beta of [S24]: mean over RGB of beta at the last vertex of a light sub-path; 0 if it is empty. If
@@ -53,10 +51,6 @@ static inline double path_throughput(const struct vertex *path, int n)
     return n < 1 ? 0 : rgb_mean(path[n - 1].beta);
 }
 
-/* path_use: how much the camera can use of vertices [first, end) of a light sub-path: the sum of luminance(beta) times
- * `use` of the place (tables.h) over those that can be connected to. */
-double path_use(const struct tables *tables, const struct vertex *path, int first, int end);
-
 /* n_before: c_e of mis.h (3) for vertex v of a walk, and prev, the vertex before: n of the strategy that connects
  * these two; 0 if prev was left by a delta lobe. */
 static inline double n_before(const struct counts *c, const struct vertex *prev, const struct vertex *v,
@@ -65,7 +59,7 @@ static inline double n_before(const struct counts *c, const struct vertex *prev,
     return v->prev_delta ? 0 : mode == RADIANCE ? n_of(c, v, prev) : n_of(c, prev, v);
 }
 
-/* --- the walk itself, step by step -------------------------------------------------------------------- */
+/* --- the walk itself, step by step, for methods that make some of the steps themselves ----------------- */
 
 /* How a walk left its last vertex. */
 struct departure {

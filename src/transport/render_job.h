@@ -14,6 +14,8 @@
 #include "parser/messages.h" /* struct message_sink */
 #include "scene/film.h"
 
+enum { PATH_MAX_DEPTH = 1000 }; /* largest maxdepth accepted */
+
 struct method;
 struct observers; /* render/render.h */
 
@@ -40,7 +42,7 @@ struct render_job {
 
     /* The same; job_settle replaces what is 0. */
     uint64_t seed;
-    int max_depth;       /* 0: what the scene says, else 5 */
+    int max_depth;       /* a path has at most max_depth + 2 vertices; 0: what the scene says, else 5 */
     int n_threads;       /* 0: one per processor */
     double noise[N_NOISE_SCALES]; /* stop when the film's are below; 0: never. The film must keep halves */
 

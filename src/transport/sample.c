@@ -70,7 +70,7 @@ void sample_s0(struct sample *sample, int t)
 {
     const struct counts *counts = sample->pass->counts;
     const struct vertex *z = &sample->eye[t - 1], *prev = z - 1;
-    if (t > 2 && !(counts->s0[prev->eye_end] > 0))
+    if (t > 2 && !(counts->s0[prev->eye_hit] > 0))
         return;
     struct connection c = connect_s0(sample->pass->job->scene, counts, prev, z);
     sample_add(sample, (struct joined){.s = 0, .t = t, .z = z, .c = &c, .pmf = 1, .scale = 1});
@@ -81,7 +81,7 @@ void sample_s1(struct sample *sample, int t)
     const struct render_job *job = sample->pass->job;
     const struct counts *counts = sample->pass->counts;
     const struct vertex *z = &sample->eye[t - 1];
-    int n = counts->light_points[z->eye_end];
+    int n = counts->light_points[z->eye_hit];
     if (z->kind == VERTEX_ESCAPED || t > job->max_depth + 1)
         return;
     for (int i = 0; i < n; i++) {

@@ -4,7 +4,8 @@
 struct light_point vertex_light_point(const struct scene *scene, const struct vertex *v)
 {
     const struct light_set *lights = &scene->lights;
-    struct light_point at = {v->light, v->place, v->p, v->ng, v->wo, v->prim_id, 0, v->pdf_fwd};
+    struct light_point at = {.light = v->light, .cell = v->place, .p = v->p, .n = v->ng, .w = v->wo,
+                             .prim_id = v->prim_id, .pdf = v->pdf_fwd};
     if (v->kind == VERTEX_ESCAPED) {
         at.w = neg(v->wo); /* of lights at infinity: towards them */
         at.pdf = light_pdf_sky(lights, at.w, &at.cell);

@@ -6,8 +6,8 @@
 #include "material/bsdf.h"
 #include "scene/scene.h"
 
-/* What an eye sub-path ends at: a vertex that the camera sees directly or by delta lobes alone, or a later one. */
-enum eye_end { FIRST_HIT, LATER_HIT, EYE_ENDS };
+/* An eye vertex is one that the camera sees directly or by delta lobes alone, or a later one. */
+enum eye_hit { FIRST_HIT, LATER_HIT, EYE_HITS };
 
 enum vertex_kind {
     VERTEX_LENS,    /* z_0 */
@@ -41,15 +41,16 @@ enum vertex_kind {
  * beta of a LIGHT or LENS is what it sends to the next vertex. An end that belongs to no walk (connect.h) has this
  * divided by its density: Le / pdf, or J of camera_project.
  *
- * A see-through light is an area light without a material (scene.h). Walks may start on it, and pass it without a
- * vertex. The first such light that an eye walk passes on an edge is the `lamp` of the vertex at the edge's end. It is
- * the last vertex of a path of its own, and no vertex of the sub-path. Its kind is SURFACE. It has only the fields that
- * connect_s0 needs. The path's last edge ends at the light: densities and throughput have the media as far as that.
+ * At a first reading skip this. A see-through light is an area light without a material (scene.h). Walks may start on
+ * it, and pass it without a vertex. The first such light that an eye walk passes on an edge is the `lamp` of the vertex
+ * at the edge's end. It is the last vertex of a path of its own, and no vertex of the sub-path. Its kind is SURFACE. It
+ * has only the fields that connect_s0 needs. The path's last edge ends at the light: densities and throughput have the
+ * media as far as that.
  */
 struct vertex {
     enum vertex_kind kind;
     bool prev_delta; /* the walk left the previous vertex by a delta lobe */
-    enum eye_end eye_end;
+    enum eye_hit eye_hit;
     int light, place;
     vec3 p, ng;
     uint64_t prim_id;
@@ -57,7 +58,8 @@ struct vertex {
     rgb beta;
     double pdf_fwd;
     int medium;   /* of the edge that ends here; LENS, LIGHT: of the place */
-    double g;     /* of mis.h: turns a density per steradian here into one per area at the previous vertex */
+    double g;     /* of mis.h: turns a density per steradian here into one per area at the previous vertex; for
+                   * connect.c: light_side */
     double mis;   /* mis_e of mis.h */
     double mis_c; /* c_e of mis.h, if this vertex is not left by a delta lobe */
     struct bsdf bsdf;

@@ -178,7 +178,7 @@ static double eye_density(const struct full_path *f, int j)
 }
 
 /* Which eye end x_i is, i >= 1: the first that is not seen by way of delta lobes alone? */
-static enum eye_end end_of(const struct full_path *f, int i)
+static enum eye_hit end_of(const struct full_path *f, int i)
 {
     for (int j = i + 1; j < f->n - 1; j++)
         if (!f->delta[j])

@@ -205,7 +205,7 @@ static void test_bound(struct test *t)
         if (!scene_from_text(t, BALL, &scene) || !bench_new(t, &scene, set_method(&scene, cases[i].name), 4, 0, &b))
             return;
         const struct counts *c = &b.prepared.counts;
-        for (int end = 0; end < EYE_ENDS; end++)
+        for (int end = 0; end < EYE_HITS; end++)
             CHECK(t, c->pair[end] > 0 && fabs(c->bound[end] - c->pair[end] / cases[i].M) < 1e-12,
                   "%s: draws that count as %g have the bound %g, not %g", cases[i].name, c->pair[end],
                   c->pair[end] / c->bound[end], cases[i].M);

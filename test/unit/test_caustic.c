@@ -204,7 +204,7 @@ static bool first_hit(const struct scene *scene, struct arena *arena, vec3 eye, 
         return false;
     vec3 d = sub(hit.p, eye), w = normalize(d);
     double pdf = camera_project(&scene->camera, eye, w, &px, &py) * camera_falloff(&scene->camera, length2(d));
-    *z = (struct vertex){.kind = VERTEX_SURFACE, .eye_end = FIRST_HIT, .light = -1, .p = hit.p,
+    *z = (struct vertex){.kind = VERTEX_SURFACE, .eye_hit = FIRST_HIT, .light = -1, .p = hit.p,
                          .ng = hit.ng, .prim_id = hit.prim_id, .wo = neg(w), .beta = rgb_grey(1),
                          .pdf_fwd = pdf * abs_dot(hit.ng, w)};
     material_bsdf(scene->material, hit.material, &scene->textures, &hit, arena, &z->bsdf);

@@ -62,7 +62,7 @@ static struct drawn draw_one(const struct drawer *d, const struct cache *cache, 
 {
     struct sample sample = d->sample;
     struct drawn out = {.end = 0};
-    sample.choice = sampler_start(d->b.job.seed, RNG_TEST, k, 4 + (uint64_t)z->eye_end);
+    sample.choice = sampler_start(d->b.job.seed, RNG_TEST, k, 4 + (uint64_t)z->eye_hit);
     sample.i = d->number;
     d->b.prepared.method->draw(&d->b.prepared, cache, &sample, z, i, n, &out);
     return out;
@@ -99,21 +99,21 @@ static size_t thing_of(const struct drawer *d, const struct drawn *drawn)
 static void check_vertex(struct test *t, struct drawer *d, const struct cache *cache, const struct vertex *z,
                          const char *name)
 {
-    int C = d->b.prepared.numbers.draws[z->eye_end];
+    int C = d->b.prepared.numbers.draws[z->eye_hit];
     struct tally c = tally_new(WAYS, d->b.work->pool.used + 1);
     for (uint64_t k = 0; k < 2 * DRAWS; k++) {
         struct drawn drawn = draw_one(d, cache, z, k, (int)(k % (uint64_t)C), C);
         c.collects = k < DRAWS;
         tally_note(&c, thing_of(d, &drawn), stated(d, cache, &drawn));
     }
-    tally_judge(t, &c, DRAWS, 1, name, z->eye_end == FIRST_HIT ? "first hit" : "later hit");
+    tally_judge(t, &c, DRAWS, 1, name, z->eye_hit == FIRST_HIT ? "first hit" : "later hit");
     tally_free(&c);
 }
 
 /* The same of 10^5 indices, each of which has drawn for all pixels: the draws of one, and those of all. */
 static void check_indices(struct test *t, struct drawer *d, const struct vertex *z, const char *name)
 {
-    int n = d->b.tile.n_pixels, C = d->b.prepared.numbers.draws[z->eye_end], own = d->number;
+    int n = d->b.tile.n_pixels, C = d->b.prepared.numbers.draws[z->eye_hit], own = d->number;
     struct tally one = tally_new(WAYS, d->b.work->pool.used + 1), all = tally_new(WAYS, d->b.work->pool.used + 1);
     for (uint64_t k = 0; k < 2 * DRAWS; k++) {
         const struct cache *cache = build_again(d, k);

@@ -87,7 +87,7 @@ static void test_where_nothing_pays(struct test *t)
 }
 
 /* How often runner k takes what eye vertices of this kind draw (t > 1), or splats, for each time of the first. */
-static double how_often(const struct settled *s, int k, enum eye_end end, bool splats)
+static double how_often(const struct settled *s, int k, enum eye_hit end, bool splats)
 {
     const struct numbers *n = &s->runner[k].numbers, *all = &s->runner[RUNNER_ALL].numbers;
     if (n->path_pixels == 0)

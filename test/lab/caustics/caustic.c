@@ -223,7 +223,7 @@ static int connect(const struct one_more *self, struct sample *sample, const str
     double pdf = t == 2 ? z->pdf_fwd : 0;
     struct light_point y;
     struct specular_chain c[ONE_MORE_MOST];
-    if (z->eye_end != FIRST_HIT || !vertex_connectible(z) || all->left[t > 2])
+    if (z->eye_hit != FIRST_HIT || !vertex_connectible(z) || all->left[t > 2])
         return 0;
     if (!lamp_draw(scene, &sample->sampler, &y) || !(y.pdf > 0))
         return 0;
@@ -274,7 +274,7 @@ static void weigh_hit(const struct caustics *all, const struct sample *sample, c
     struct light_point y = vertex_light_point(sample->pass->job->scene, end);
     y.w = neg(end->wo);
     struct arrival at = {z->wo, z == first ? z->pdf_fwd : 0};
-    if (z->kind == VERTEX_SURFACE && z->eye_end == FIRST_HIT && in_psi(all, sample, z, 1, k, &y, at, &m))
+    if (z->kind == VERTEX_SURFACE && z->eye_hit == FIRST_HIT && in_psi(all, sample, z, 1, k, &y, at, &m))
         *weight = share(m.hit, m);
 }
 

@@ -62,13 +62,13 @@ struct connection connect_lit(const struct scene *scene, const struct counts *co
     struct edge edge;
     if (rgb_is_black(l->value) || !see(scene, z, l->w, l->distance, at->prim_id, true, &edge))
         return (struct connection){.light = -1};
-    double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->s0[z->eye_end];
+    double hit = light_is_delta(&lights->light[at->light]) ? 0 : counts->s0[z->eye_hit];
     /* mis.h (5); the light side has the strategy s = 0 alone */
     double light = mis_side(l->pdf_z * l->at_light, at->pdf, hit, 0, 0);
     double pdf_emit = emission_pdf(&counts->tables->emission, lights, at, z->p, neg(l->w));
     double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->falloff;
     double eye = mis_side(pdf_z, z->pdf_fwd, z->mis_c, l->pdf_rev_z, z->mis);
-    double count = n_s1(counts, z->place, z->eye_end, at->cell);
+    double count = n_s1(counts, z->place, z->eye_hit, at->cell);
     struct connection c = {.value = rgb_mul(l->value, edge.left), .light = at->light};
     c.weight = mis_weight(count, light * edge.density[1], eye * edge.density[0]); /* mis.h (7) */
     return c;
@@ -108,7 +108,7 @@ struct connection connect_joint(const struct scene *scene, const struct counts *
     double light = mis_side(j->pdf_z * j->area_y, y->pdf_fwd, y->mis_c, j->pdf_rev_y, y->mis);
     double eye = mis_side(j->pdf_y * j->area_z, z->pdf_fwd, z->mis_c, j->pdf_rev_z, z->mis);
     c.value = rgb_mul(j->value, edge.left);
-    double n = n_pair(counts, z->place, z->eye_end, y->place);
+    double n = n_pair(counts, z->place, z->eye_hit, y->place);
     c.weight = mis_weight(n, light * edge.density[1], eye * edge.density[0]); /* mis.h (7) */
     return c;
 }

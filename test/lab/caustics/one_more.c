@@ -49,7 +49,7 @@ static void sum_more(struct sample *sample, const struct one_more *more, const s
 static void sum_direct(struct sample *sample, const struct one_more *more, int t)
 {
     const struct vertex *z = &sample->eye[t - 1];
-    int n = sample->pass->counts->light_points[z->eye_end];
+    int n = sample->pass->counts->light_points[z->eye_hit];
     for (int i = 0; i < n; i++) {
         struct vertex y;
         struct connection c = connect_s1(sample->pass->job->scene, sample->pass->counts, z, &sample->sampler, i, n, &y);
@@ -108,7 +108,7 @@ static void fill_pool(const struct prepared *p, const struct tile_pass *pass, in
 static void join(const struct prepared *p, const struct cache *cache, struct sample *sample, const struct vertex *z,
                  int t)
 {
-    int C = p->numbers.draws[z->eye_end];
+    int C = p->numbers.draws[z->eye_hit];
     for (int i = 0; i < C && t <= sample->pass->job->max_depth && vertex_connectible(z); i++) {
         struct drawn drawn;
         if (p->method->draw(p, cache, sample, z, i, C, &drawn))

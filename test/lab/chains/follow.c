@@ -40,7 +40,7 @@ int follow_light(const struct walk *w, const struct path_stop *stop, int n, stru
         v->wo = neg(d);
         v->beta = from.beta;
         walk_measure(w, v, prev, &from, d2);
-        v->eye_end = LATER_HIT;
+        v->eye_hit = LATER_HIT;
         v->mis_c = n_before(w->counts, prev, v, IMPORTANCE);
     }
     return n;

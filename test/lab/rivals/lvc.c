@@ -40,7 +40,7 @@ static void prepare(const struct render_job *job, struct prepared *p)
 {
     bool as_many = p->numbers.draws[FIRST_HIT] == 0;
     (void)job;
-    for (int end = 0; end < EYE_ENDS && as_many; end++)
+    for (int end = 0; end < EYE_HITS && as_many; end++)
         if (p->numbers.draws[end] == 0)
             p->numbers.draws[end] = int_within(ceil(p->tables->light_vertices), 1, 1024);
 }

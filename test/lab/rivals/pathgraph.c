@@ -138,7 +138,7 @@ static int by_place(const void *a, const void *b)
 static void place(struct node *node, const struct scene *scene, double side, vec3 shift)
 {
     node->face = ALONE;
-    if (node->z->eye_end == FIRST_HIT || !vertex_connectible(node->z))
+    if (node->z->eye_hit == FIRST_HIT || !vertex_connectible(node->z))
         return;
     vec3 p = add(mul(sub(node->z->p, scene->lights.center), 1 / side), shift);
     vec3 n = dot(node->z->ng, node->z->wo) < 0 ? neg(node->z->ng) : node->z->ng;

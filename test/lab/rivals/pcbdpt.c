@@ -20,7 +20,7 @@
 static void prepare(const struct render_job *job, struct prepared *p)
 {
     (void)job;
-    for (int end = 0; end < EYE_ENDS; end++) /* all draws count as one */
+    for (int end = 0; end < EYE_HITS; end++) /* all draws count as one */
         p->draw_worth[end] = 1.0 / most_of(p->numbers.draws[end], 1);
 }
 

@@ -348,7 +348,7 @@ static void prepare(const struct render_job *job, struct prepared *p)
     vec3 low, high;
     int passes = 0;
     bool going = job->scene->lights.n > 0;
-    method_counts(job, p);
+    method_settle(job, p);
     find_box(job, &low, &high);
     sdtree_init(&own->tree, low, high);
     for (long n = 1; 2 * n - 1 <= own->training && going; n *= 2) {

@@ -128,7 +128,7 @@ static void count(struct sums *a, double ratio, double plain, double N)
 }
 
 /* s = 1: of an eye end z and a point of a light's cell. */
-static void count_direct(const struct cache *r, struct sums *a, double ratio, const struct vertex *z, enum eye_end end,
+static void count_direct(const struct cache *r, struct sums *a, double ratio, const struct vertex *z, enum eye_hit end,
                          int cell)
 {
     double n = n_s1(r->counts, z->place, end, cell);
@@ -169,7 +169,7 @@ static void sum_eye_side(struct cache *r, int s, const struct path_end *end, dou
             return;
         }
         if (!passed && !v->prev_delta && light)
-            count_direct(r, a, ratio, before, before->eye_end, vertex_light_point(r->scene, v).cell);
+            count_direct(r, a, ratio, before, before->eye_hit, vertex_light_point(r->scene, v).cell);
         else if (!passed && !v->prev_delta) {
             const struct vertex *lens = before;
             while (lens->kind != VERTEX_LENS)
@@ -217,7 +217,7 @@ struct connection ris_hit(struct cache *r, const struct vertex *prev, const stru
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &at,
                                    end->kind == VERTEX_ESCAPED ? prev->p : end->p, end->wo);
     const struct path_end z_end = {end, prev, at.pdf, pdf_emit};
-    c.weight = weigh(r, 0, r->counts->s0[prev->eye_end], NULL, &z_end);
+    c.weight = weigh(r, 0, r->counts->s0[prev->eye_hit], NULL, &z_end);
     return c;
 }
 
@@ -228,11 +228,11 @@ struct connection ris_lit(struct cache *r, const struct lit *l)
     if (rgb_is_black(c.value))
         return c;
     struct vertex y = light_vertex(r->scene, r->counts, &l->at);
-    y.mis_c = y.mis_c > 0 ? r->counts->s0[z->eye_end] : 0;
+    y.mis_c = y.mis_c > 0 ? r->counts->s0[z->eye_hit] : 0;
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &r->scene->lights, &l->at, z->p, neg(l->w));
     double pdf_z = pdf_emit * vertex_cosine(z, l->w) * l->falloff;
     const struct path_end y_end = {&y, NULL, l->pdf_z * l->at_light, 0}, z_end = {z, z - 1, pdf_z, l->pdf_rev_z};
-    c.weight = weigh(r, 1, n_s1(r->counts, z->place, z->eye_end, l->at.cell), &y_end, &z_end);
+    c.weight = weigh(r, 1, n_s1(r->counts, z->place, z->eye_hit, l->at.cell), &y_end, &z_end);
     return c;
 }
 
@@ -390,7 +390,7 @@ static void sum_eye(struct cache *r, struct sample *sample, int n)
     for (int t = 2; t <= n; t++) {
         const struct vertex *z = &sample->eye[t - 1];
         struct connection hit = ris_hit(r, z - 1, z, t);
-        int points = sample->pass->counts->light_points[z->eye_end];
+        int points = sample->pass->counts->light_points[z->eye_hit];
         sample_add(sample, (struct joined){.t = t, .z = z, .c = &hit, .pmf = 1, .scale = 1});
         if (z->kind != VERTEX_SURFACE || t > sample->pass->job->max_depth + 1)
             continue;
@@ -435,7 +435,7 @@ void ris_prepare(const struct render_job *job, struct prepared *p)
     const struct ris *own = p->own;
     int M = own->sub_paths;
     (void)job;
-    for (int end = 0; end < EYE_ENDS; end++)
+    for (int end = 0; end < EYE_HITS; end++)
         p->draw_worth[end] = own->nabata ? M / ((M - 1) * p->tables->light_vertices + 1) : 1;
 }
 

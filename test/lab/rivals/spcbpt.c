@@ -107,7 +107,7 @@ static void note_hit(struct trainer *r, const struct vertex *eye, int t)
     if (t == 2 || rgb_is_black(c.value))
         return;
     struct light_point y0 = vertex_light_point(scene, x);
-    double ratio = y0.pdf / x->pdf_fwd, direct = n_s1(r->counts, z->place, z->eye_end, y0.cell);
+    double ratio = y0.pdf / x->pdf_fwd, direct = n_s1(r->counts, z->place, z->eye_hit, y0.cell);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &y0,
                                    x->kind == VERTEX_ESCAPED ? z->p : x->p, x->wo);
     struct found f = {1, x->prev_delta ? 0 : ratio * direct, ratio, pdf_emit * x->g, vertex_pdf_rev(z, x, RADIANCE),
@@ -126,7 +126,7 @@ static void note_lit(struct trainer *r, const struct vertex *z, struct sampler *
         return;
     bool hit = !light_is_delta(&scene->lights.light[at.light]);
     double pdf_emit = emission_pdf(&r->counts->tables->emission, &scene->lights, &at, z->p, neg(l.w));
-    struct found f = {n_s1(r->counts, z->place, z->eye_end, at.cell), hit ? l.pdf_z * l.at_light / at.pdf : 0, 1,
+    struct found f = {n_s1(r->counts, z->place, z->eye_hit, at.cell), hit ? l.pdf_z * l.at_light / at.pdf : 0, 1,
                       pdf_emit * vertex_cosine(z, l.w) * l.falloff, l.pdf_rev_z, false};
     note(r, connect_lit(scene, r->counts, &l).value, f, z);
 }
@@ -217,7 +217,7 @@ static void prepare(const struct render_job *job, struct prepared *p)
     struct spcbpt *own = p->own;
     double pixels = (double)rect_pixels(job->film_rect), K = fmin(sqr(p->size.tile), pixels) / p->numbers.path_pixels;
     int n = int_within(own->training * pixels, LEARN_LEAST, LEARN_MOST), n_light = n < LEARN_LIGHT ? n : LEARN_LIGHT;
-    method_counts(job, p);
+    method_settle(job, p);
     struct trainer r = {job, &p->counts, workspaces_new(1, job->max_depth), {.n = 0}};
     double *vertices = mem_alloc((size_t)own->subspaces, sizeof *vertices);
     for (int i = 0; i < n && goes_on(&r); i++)
@@ -371,7 +371,7 @@ static void render(const struct prepared *p, const struct tile_pass *pass)
             classify(p, eye, n, &pass->work->arena, RADIANCE);
             for (int t = 2; t <= n; t++) {
                 const struct vertex *z = &eye[t - 1];
-                int C = t <= pass->job->max_depth && vertex_connectible(z) ? p->numbers.draws[z->eye_end] : 0;
+                int C = t <= pass->job->max_depth && vertex_connectible(z) ? p->numbers.draws[z->eye_hit] : 0;
                 struct drawn light;
                 sample_s0(&sample, t);
                 sample_s1(&sample, t);
