@@ -42,7 +42,7 @@ struct cache {
 /* --- the pool's vertices by region ------------------------------------------------------------------- */
 
 /* The groups, with places for their members, but no members yet.
- *   group_of  out, [n_regions], number of the region's group, if it has one */
+ *   group_of  out, [n_regions], number of the region's group, if it has one; on the way its number of candidates */
 static void make_groups(struct cache *cache, struct pool *pool, int *group_of, int n_regions)
 {
     memset(group_of, 0, (size_t)n_regions * sizeof *group_of);

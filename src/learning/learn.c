@@ -216,7 +216,7 @@ static void learn_light_paths(struct learning *l, long n)
 /* --- trial connections: pairs ------------------------------------------------------------------------- */
 
 enum {
-    POOL = 64, /* number of light sub-paths of a chunk */
+    TRIAL_PATHS = 64, /* number of light sub-paths of a chunk */
     TRIALS = 4 /* number of trial connections of each eye vertex */
 };
 
@@ -224,9 +224,9 @@ enum {
 static void fill_pool(struct learning *l, struct pool *pool, long i)
 {
     pool_clear(pool);
-    for (long k = 0; k < POOL && job_cancelled(l->job) == CANCEL_NOT; k++) {
+    for (long k = 0; k < TRIAL_PATHS && job_cancelled(l->job) == CANCEL_NOT; k++) {
         struct vertex *path = pool_room(pool, (size_t)l->job->max_depth + 1);
-        pool_add(pool, trace_light(l, &pool->arena, i * POOL + k, STREAM_POOL, path, NULL));
+        pool_add(pool, trace_light(l, &pool->arena, i * TRIAL_PATHS + k, STREAM_POOL, path, NULL));
     }
     pool_find_candidates(pool);
     double *L = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *L);
@@ -236,8 +236,9 @@ static void fill_pool(struct learning *l, struct pool *pool, long i)
 }
 
 /* The worth of a trial: unweighted, what light of luminance 1 at y sends to the camera by an eye vertex of throughput 1
- * at z. It counts by the throughput of z. The share of light vertices in a region is its base (table.h), so ratios have
- * the mean 1. */
+ * at z. It counts by the throughput of z. y is drawn by its luminance and this is divided out, so m is the mean over
+ * light, as draws need it (asbdpt.c). The share of light vertices in a region is its base (table.h), so ratios have the
+ * mean 1. */
 static void trace_trials(struct learning *l, struct workspace *work, long i, struct lessons *out)
 {
     const struct pool *pool = &work->pool;

@@ -52,6 +52,12 @@ bool job_adapt(struct scene *scene, const struct method *const *readers, const s
 bool job_settle(struct render_job *job, const struct scene *scene, struct prepared *out, struct error *err);
 void job_prepare(struct render_job *job, struct prepared *p);
 
+/* job_asks_noise: is there a limit of noise? */
+static inline bool job_asks_noise(const struct render_job *job)
+{
+    return job->noise[NOISE_RELATIVE] > 0 || job->noise[NOISE_8_BIT] > 0;
+}
+
 /* render_crop: the pixels of the scene's crop window, as pbrt rounds it. */
 struct pixel_rect render_crop(const struct scene *scene);
 

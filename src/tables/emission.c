@@ -41,8 +41,8 @@ void emission_axis_free(struct axis *a, double *base)
 
 int emission_column(int cell, const double square[2])
 {
-    int row = int_within(square[0] * SIDE, 0, SIDE - 1), column = int_within(square[1] * SIDE, 0, SIDE - 1);
-    return 1 + cell * NODES + FIRST_LEAF + row * SIDE + column;
+    int i = int_within(square[0] * SIDE, 0, SIDE - 1), j = int_within(square[1] * SIDE, 0, SIDE - 1);
+    return 1 + cell * NODES + FIRST_LEAF + i * SIDE + j;
 }
 
 int emission_column_of(const struct light_set *lights, const struct light_point *y0, vec3 p, vec3 w)

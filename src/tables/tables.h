@@ -1,6 +1,7 @@
 /* tables.h: what is known about the places of a scene: tables (table.h) with rows and columns for its regions and
  * lights. They are a function of scene, film, seed, depth and parameters, not of the number of samples or threads. They
- * do not change while samples are taken, so choices that use them are unbiased. learning/learn.h fills them.
+ * do not change while samples are taken, so choices that use them are unbiased. learning/learn.h fills them, and shows
+ * the way of each number from a sample to a weight.
  */
 #ifndef ASBDPT_TABLES_TABLES_H
 #define ASBDPT_TABLES_TABLES_H
