@@ -1,11 +1,17 @@
 /* asbdpt.c: the default, `select = subspaces`: eye vertices draw light vertices by their worth to the eye's region.
  *
  * A light vertex y_{s-1} represents the sub-path y_0 ... y_{s-1} that ends there. An eye vertex z draws C of the light
- * vertices v that the K sub-paths of a tile and iteration have. Let ratio(e,l) tell what a light vertex in region l is
- * worth to an eye vertex in region e (table.h), and L_v the luminance of beta_v. Then
+ * vertices v that the K sub-paths of a tile and iteration have; usually C = 3 at a first hit, else 1, and K = 32 x 32.
+ * Let ratio(e,l) tell what a light vertex in region l is worth to an eye vertex in region e: the mean light that trial
+ * connections have brought before the render (learn.h), relative to all l (table.h). Let L_v be the luminance of
+ * beta_v. Then
  *     P(v|z) = ratio(e(z), l(v)) L_v / sum over the pool.
  * It draws by bisection of cumulative sums, first the region, then the vertex: that keeps the C strata of an eye vertex
  * apart, and a region draws too rarely to pay for an alias table.
+ *
+ * Why is it unbiased? What is drawn is divided by C K P. So for a given pool, the expectation of the draws is the mean
+ * over its K sub-paths of what BDPT would connect, whatever P > 0 is. P depends on nothing that the eye vertex does
+ * later, and tables do not change.
  *
  * How many samples is that, where BDPT takes one? Each of the K sub-paths might have had its vertex at y, and y is
  * drawn C P(y|z) times: C K P(y|z). The sum over the pool is about K N times the mean of L, as ratios have the mean 1
@@ -35,8 +41,8 @@ struct cache {
     double *before;              /* [n], sum of L of the candidates before it in its group */
     struct group *group;         /* [n_groups], in the order of their regions */
     int n_groups;
-    double **row; /* [regions][n_groups + 1] cumulative sums of ratio(e,.) L over the groups; NULL until a draw needs
-                   * them */
+    double **sums; /* [regions][n_groups + 1] cumulative sums of ratio(e,.) L over the groups; NULL until a draw needs
+                    * them */
 };
 
 /* --- the pool's vertices by region ------------------------------------------------------------------- */
@@ -79,24 +85,24 @@ static struct cache *build(const struct prepared *p, const struct tile_pass *pas
         cache->before[g->first + g->n++] = g->L;
         g->L += rgb_luminance(y->beta);
     }
-    cache->row = arena_alloc(arena, (size_t)n_regions * sizeof *cache->row);
+    cache->sums = arena_alloc(arena, (size_t)n_regions * sizeof *cache->sums);
     for (int e = 0; e < n_regions; e++)
-        cache->row[e] = NULL;
+        cache->sums[e] = NULL;
     return cache;
 }
 
 /* --- drawing ----------------------------------------------------------------------------------------- */
 
 /* The cumulative sums of an eye region, made at the first draw from it. */
-static const double *row_of_region(const struct cache *cache, struct arena *arena, const struct table *pairs, int e)
+static const double *sums_of_region(const struct cache *cache, struct arena *arena, const struct table *pairs, int e)
 {
-    if (cache->row[e] != NULL)
-        return cache->row[e];
-    double *row = cache->row[e] = arena_alloc(arena, ((size_t)cache->n_groups + 1) * sizeof *row);
-    row[0] = 0;
+    if (cache->sums[e] != NULL)
+        return cache->sums[e];
+    double *sums = cache->sums[e] = arena_alloc(arena, ((size_t)cache->n_groups + 1) * sizeof *sums);
+    sums[0] = 0;
     for (int g = 0; g < cache->n_groups; g++)
-        row[g + 1] = row[g] + table_ratio(pairs, e, cache->group[g].region) * cache->group[g].L;
-    return row;
+        sums[g + 1] = sums[g] + table_ratio(pairs, e, cache->group[g].region) * cache->group[g].L;
+    return sums;
 }
 
 /* Draw a region, then a vertex; stratified over both. */
@@ -105,11 +111,11 @@ static bool draw(const struct prepared *p, const struct cache *cache, struct sam
 {
     if (cache->n_groups == 0)
         return false;
-    const double *row = row_of_region(cache, &sample->pass->work->pool.arena, &p->tables->pairs, z->place);
-    double total = row[cache->n_groups], target = (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n * total;
-    int k = cumulative_find(row, cache->n_groups, target);
+    const double *sums = sums_of_region(cache, &sample->pass->work->pool.arena, &p->tables->pairs, z->place);
+    double total = sums[cache->n_groups], target = (i + sampler_number(&sample->choice, DRAW_LIGHT_END)) / n * total;
+    int k = cumulative_find(sums, cache->n_groups, target);
     const struct group *g = &cache->group[k];
-    double share = row[k + 1] - row[k], within = (target - row[k]) / share * g->L;
+    double share = sums[k + 1] - sums[k], within = (target - sums[k]) / share * g->L;
     const struct vertex *y = cache->candidate[g->first + cumulative_find(&cache->before[g->first], g->n, within)];
     *out = drawn_vertex(y, share / total * rgb_luminance(y->beta) / g->L);
     return true;
@@ -151,7 +157,7 @@ void selection_render(const struct prepared *p, const struct tile_pass *pass)
         render_iteration(p, pass, iteration);
 }
 
-/* --- the row ----------------------------------------------------------------------------------------- */
+/* --- the method ----------------------------------------------------------------------------------------- */
 
 static const struct field PARAMETERS[] = {
     PARAMETER("connections", FIELD_INTEGER, numbers.draws[FIRST_HIT], 3, 0, 1024,

@@ -27,7 +27,7 @@ static void render_pixel(const struct prepared *p, const struct tile_pass *pass,
         sample_s0(&sample, t);
         sample_s1(&sample, t);
         if (numbers->draws[z->eye_hit] > 0 && vertex_connectible(z)) /* s >= 2 */
-            sample_pairs(&sample, &(struct drawn){light_path, 1, n_light, 1}, t, 1);
+            sample_pairs(&sample, &(struct drawn){.path = light_path, .first = 1, .end = n_light, .pmf = 1}, t, 1);
     }
     if (numbers->path_pixels > 0) /* t = 1 */
         sample_lens(&sample, light_path, n_light, 1);

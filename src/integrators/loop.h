@@ -1,7 +1,6 @@
 /* loop.h: the loop over the samples of a tile pass whose pixels share light sub-paths (asbdpt.c: render_iteration), and
- * its steps. An eye vertex takes C draws. What it draws with probability P from a pool of K sub-paths is divided by C K
- * P / every (struct numbers). So for a given pool, the expectation of the draws is the mean over the K sub-paths,
- * whatever P is, as long as every vertex that can contribute has a chance, and the estimate is unbiased.
+ * its steps. Where light sub-paths happen in one of `every` iterations (struct numbers), what is drawn counts `every`
+ * times.
  *
  * Tests: test_render.c, test_asbdpt.c.
  */
@@ -12,7 +11,7 @@
 
 /* selection_render: the `render` of such methods. It is in asbdpt.c, with the choice of the default. Its steps:
  *
- *   loop_turn   does the iteration have light sub-paths?
+ *   loop_turn   is it the turn of this iteration, of `every`, to have light sub-paths?
  *   loop_fill   trace the light sub-paths of an iteration, if it has any, into the workspace's pool; K may be 0
  *   loop_begin  begin a sample of pixel i of the tile, and trace its eye sub-path; returns the number of its vertices
  *   loop_splat  connect to the lens the light sub-path of the pixel, if it is one of those that have one

@@ -36,13 +36,12 @@ void method_settle(const struct render_job *job, struct prepared *p)
 {
     const struct parameters *q = &p->parameters;
     int every = numbers_every(&p->numbers);
+    double draw[EYE_HITS];
     if (p->method->build != NULL && (p->numbers.path_pixels == 0 || every > 1))
         p->size = (struct pass_size){p->size.block, DEFAULT_TILE_SIZE, 1};
-    double M = BOUND * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1);
-    p->counts = counts_of(p->numbers, q->credits ? DIRECT_CREDIT * every : 1, q->credits ? PAIR_CREDIT : 1,
+    for (int hit = 0; hit < EYE_HITS; hit++)
+        draw[hit] = (q->credits ? PAIR_CREDIT : 1) * p->draw_worth[hit];
+    double M = q->bound ? BOUND * p->size.tile * p->size.tile / most_of(p->numbers.path_pixels, 1) : 0;
+    p->counts = counts_of(p->numbers, q->credits ? DIRECT_CREDIT * every : 1, draw, M,
                           (double)rect_pixels(job->film_rect), p->tables);
-    for (int hit = 0; hit < EYE_HITS; hit++) {
-        p->counts.pair[hit] *= p->draw_worth[hit];
-        p->counts.bound[hit] = q->bound ? p->counts.pair[hit] * every / M : 0;
-    }
 }

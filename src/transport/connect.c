@@ -170,7 +170,7 @@ bool lens_point(const struct scene *scene, const struct vertex *y, struct sample
     if (camera->lens_radius > 0)
         sampler_pair(sampler, DRAW_LENS_POINT, u);
     vec3 p = camera_sample_lens(camera, y->p, u[0], u[1]), d = sub(y->p, p);
-    if (!vertex_connectible(y) || !(length2(d) > 0) || !bsdf_may_scatter(&y->bsdf, y->wo, neg(d)))
+    if (!(length2(d) > 0) || !may_leave(y, neg(d)))
         return false;
     double J = camera_project(camera, p, normalize(d), &raster[0], &raster[1]);
     if (J == 0 || raster[0] < -radius[0] || raster[1] < -radius[1] || raster[0] > scene->width + radius[0] ||

@@ -6,7 +6,7 @@
  *   lens  s >= 2, t = 1  connection of a light vertex to the lens
  *
  * BDPT takes one sample of each, and of `lens` one for each pixel of the film. In general the number n of a strategy
- * for a path is a function of the two ends of the connecting edge: of the kind of the eye vertex, and of the places of
+ * for a path is a function of the two ends of the connecting edge: of which hit the eye vertex is, and of the places of
  * both (vertex.h). A walk that arrives at the second end knows both, so every strategy computes the same number for the
  * same path. Places count for methods that learn: these choose one place more often than another, by the *ratio* of a
  * table (table.h). Elsewhere it is 1: take it for 1 at a first reading.
@@ -48,27 +48,29 @@ static inline int numbers_every(const struct numbers *n) { return n->every > 1 ?
 
 /* What a method does, and counts in the weights. 0: it does not use the strategy.
  *
- * A light walk cannot know which kind of eye vertex it is at, and takes every vertex for a later hit. This is wrong
+ * A light walk cannot know which hit its vertex would be, and takes every vertex for a later one. This is wrong
  * only at its last vertex if the lens is next (connect.c: light_side). Between any other first hit and the lens there
  * are delta lobes, where no strategy ends. */
 struct counts {
-    double s0[EYE_HITS];    /* t >= 3; by the kind of z_{t-2} */
+    double s0[EYE_HITS];    /* t >= 3; by which hit z_{t-2} is */
     double s1[EYE_HITS];    /* times the ratio of tables->guide */
     double pair[EYE_HITS];  /* times the ratio of tables->pairs: x / every */
     double lens;            /* light sub-paths, those of all pixels of the film */
     const struct tables *tables;
-    double bound[EYE_HITS]; /* times the ratio of tables->pairs: x / M; 0: no bound */
+    double bound[EYE_HITS]; /* times the ratio of tables->pairs: x / M, 0 without a bound */
     int light_points[EYE_HITS]; /* taken for s = 1 */
 };
 
-/* counts_of: numbers times credits, without a bound.
+/* counts_of: what a method counts that takes these numbers of samples.
  *   direct  credit of direct light at a first hit: s = 1, and s = 0 if the edge before the light begins there
- *   pair    credit of a draw; of single vertices the caller divides by their number (method_settle)
+ *   draw    what a draw at ratio 1 counts as: its credit; of single vertices over N (asbdpt.c)
+ *   M       bound of draws; 0: none
  *   pixels  of the film; a light sub-path may reach each of them */
-struct counts counts_of(struct numbers n, double direct, double pair, double pixels, const struct tables *tables);
+struct counts counts_of(struct numbers n, double direct, const double draw[EYE_HITS], double M, double pixels,
+                        const struct tables *tables);
 
 /* n_of: n of the strategy that connects light vertex y and eye vertex z. It is a function of both alone.
- * n_if: the same as if z were of the kind `hit`.
+ * n_if: the same as if z were that hit.
  * n_s1: n of s = 1, of an eye vertex in a region and a point of a light cell.
  * n_pair: n of s >= 2, t >= 2, of an eye vertex in region e and a light vertex in region l. */
 static inline double n_s1(const struct counts *c, int region, enum eye_hit hit, int cell)

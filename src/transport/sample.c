@@ -56,6 +56,8 @@ static void tell_joined(const struct sample *sample, const struct joined *path)
 void sample_add(struct sample *sample, struct joined j)
 {
     bool black = rgb_is_black(j.c->value); /* then it has no weight */
+    if (black && sample->pass->observer == NULL)
+        return;
     j.scale *= sample->filter_weight;
     j.added = black ? rgb_black() : rgb_scale(rgb_scale(j.c->value, j.scale), j.c->weight);
     if (!rgb_is_finite(j.added)) { /* the whole sample would be lost */

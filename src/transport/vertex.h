@@ -6,7 +6,7 @@
 #include "material/bsdf.h"
 #include "scene/scene.h"
 
-/* An eye vertex is one that the camera sees directly or by delta lobes alone, or a later one. */
+/* FIRST_HIT: an eye vertex that the camera sees directly or by delta lobes alone. */
 enum eye_hit { FIRST_HIT, LATER_HIT, EYE_HITS };
 
 enum vertex_kind {
@@ -31,6 +31,7 @@ enum vertex_kind {
  *   pdf_fwd      1            1/m^2; at infinity 1/sr           1/m^2                        1/sr
  *   bsdf         -            -                                 its scattering               -
  *   lamp         -            -                                 eye walk: see below          see below
+ *   eye_hit      -            -                                 light walk: LATER_HIT        -
  *
  * A light cell is a light, a group of lights, or a part of the sky (light.h). A region is a cube of space and a side of
  * its surfaces (regions.h), if a method learns; else the whole scene.

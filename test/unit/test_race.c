@@ -301,18 +301,19 @@ static void test_names(struct test *t)
 /* counts_of: exact. */
 static void test_counts(struct test *t)
 {
+    const double twice[] = {2, 2};
     const struct numbers n = {.path_pixels = 4, .draws = {3, 1}, .light_points = 2};
-    const struct counts c = counts_of(n, 5, 2, 100, &NO_TABLES);
+    const struct counts c = counts_of(n, 5, twice, 0, 100, &NO_TABLES);
     CHECK(t, c.s0[FIRST_HIT] == 5 && c.s1[FIRST_HIT] == 10, "first hit");
     CHECK(t, c.s0[LATER_HIT] == 1 && c.s1[LATER_HIT] == 1, "later");
     CHECK(t, c.pair[FIRST_HIT] == 6 && c.pair[LATER_HIT] == 2 && c.lens == 25, "light sub-paths");
     const struct numbers path_tracer = {.draws = {3, 1}, .light_points = 1};
-    const struct counts pt = counts_of(path_tracer, 1, 1, 100, &NO_TABLES);
+    const struct counts pt = counts_of(path_tracer, 1, twice, 0, 100, &NO_TABLES);
     CHECK(t, pt.pair[FIRST_HIT] == 0 && pt.lens == 0 && pt.s0[LATER_HIT] == 1, "a path tracer");
-    const struct counts lt = counts_of((struct numbers){.path_pixels = 1}, 5, 1, 100, &NO_TABLES);
+    const struct counts lt = counts_of((struct numbers){.path_pixels = 1}, 5, twice, 0, 100, &NO_TABLES);
     struct numbers rare = n;
     rare.every = 8;
-    const struct counts r = counts_of(rare, 5, 2, 100, &NO_TABLES);
+    const struct counts r = counts_of(rare, 5, twice, 0, 100, &NO_TABLES);
     CHECK(t, r.pair[FIRST_HIT] == 6.0 / 8 && r.pair[LATER_HIT] == 2.0 / 8 && r.lens == 25.0 / 8 &&
           r.s1[LATER_HIT] == 1, "light sub-paths in one of 8 iterations");
     CHECK(t, lt.s0[FIRST_HIT] == 0 && lt.s1[LATER_HIT] == 0 && lt.lens == 100, "a light tracer");

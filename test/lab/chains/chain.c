@@ -78,7 +78,7 @@ void chain_prepare(const struct chain_rules *rules, const struct render_job *job
     all->width = rect_width(film) - 1 + 2 * radius[0];
     all->height = rect_height(film) - 1 + 2 * radius[1];
     all->scale = all->width * all->height / pixels;
-    all->counts = counts_of(out->numbers, 1, 1, all->width * all->height, out->tables);
+    all->counts = counts_of(out->numbers, 1, (double[]){1, 1}, 0, all->width * all->height, out->tables);
     all->lengths = rules->by_length ? job->max_depth + 1 : 1;
     int each = rules->by_length ? STATES_BY_LENGTH : STATES_OF_ALL;
     int n = all->starts > 0 ? all->starts : (int)fmin(each * pixels, MOST_STATES);
