@@ -34,19 +34,19 @@ struct connection connect_s0(const struct scene *scene, const struct counts *cou
 struct connection connect_vertices(const struct scene *scene, const struct counts *counts, const struct vertex *y,
                                    const struct vertex *z);
 
-/* light_draw: draw a point of a light for eye vertex z, as number i of n whose lights are stratified: of two points on
- * a light of two triangles, each triangle has one. Its density is *pdf; 0 where nothing is emitted. False if no
- * connection can end at z, or there is no light.
- * connect_s1: the same as a vertex y_0, which may send nothing to z, and connect both. If light_draw says false,
- * y->light is -1. */
+/* connect_s1: draw a point of a light for eye vertex z, and connect it: the vertex y_0, which may send nothing to z. It
+ * is number i of n whose lights are stratified: of two points on a light of two triangles, each triangle has one. If no
+ * connection can end at z, or there is no light, y->light is -1.
+ * light_draw: its first half, for methods with weights of their own. The density of the point is *pdf; 0 where nothing
+ * is emitted. False where connect_s1 has no y. */
 bool light_draw(const struct scene *scene, const struct counts *counts, const struct vertex *z, struct sampler *sampler,
                 int i, int n, struct light_point *at, double *pdf);
 struct connection connect_s1(const struct scene *scene, const struct counts *counts, const struct vertex *z,
                                  struct sampler *sampler, int i, int n, struct vertex *y);
 
-/* lens_point: draw z_0 for light vertex y. False if the camera does not see there.
+/* connect_lens: draw z_0 for light vertex y, and connect both. Black if the camera does not see there.
  *   raster  out: [2] the point at which y arrives, see camera_images
- * connect_lens: the same, and connect both. */
+ * lens_point: its first half. False if the camera does not see there. */
 bool lens_point(const struct scene *scene, const struct vertex *y, struct sampler *sampler, struct vertex *z,
                 double raster[2]);
 struct connection connect_lens(const struct scene *scene, const struct counts *counts, const struct vertex *y,

@@ -7,22 +7,6 @@
 
 enum { MAX_TILE_SIZE = 32, POOL_PATHS = MAX_TILE_SIZE * MAX_TILE_SIZE };
 
-/* Vertices of a light sub-path: those of numbers [first, end). */
-struct drawn {
-    const struct vertex *path; /* the light sub-path, from y_0 on */
-    int first, end;
-    double pmf; /* probability of their choice; 1: there was no choice */
-};
-
-/* drawn_vertex: light vertex y alone. The sub-path that ends there is in front of it in memory. */
-static inline struct drawn drawn_vertex(const struct vertex *y, double pmf)
-{
-    int i = 0;
-    while (y[-i].kind != VERTEX_LIGHT)
-        i++;
-    return (struct drawn){y - i, i, i + 1, pmf};
-}
-
 struct pool {
     struct arena arena;    /* of this iteration: lobes, and what methods make of the sub-paths */
     struct vertex *vertex; /* [used], owned */

@@ -13,6 +13,22 @@
 #include "transport/connect.h"
 #include "transport/tile_pass.h"
 
+/* Vertices of a light sub-path: those of numbers [first, end). */
+struct drawn {
+    const struct vertex *path; /* the light sub-path, from y_0 on */
+    int first, end;
+    double pmf; /* probability of their choice; 1: there was no choice */
+};
+
+/* drawn_vertex: light vertex y alone. The sub-path that ends there is in front of it in memory. */
+static inline struct drawn drawn_vertex(const struct vertex *y, double pmf)
+{
+    int i = 0;
+    while (y[-i].kind != VERTEX_LIGHT)
+        i++;
+    return (struct drawn){y - i, i, i + 1, pmf};
+}
+
 struct sample {
     const struct tile_pass *pass;
     int i, x, y;            /* the pixel: its number in the tile, and where it is */
