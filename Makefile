@@ -16,7 +16,7 @@ LIBDIR  = $(PREFIX)/lib
 # Link-time optimisation saves 6 % of the instructions; `make LTO=` leaves it out. CFLAGS is the user's and comes last.
 WARN    = -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wswitch
 OPT     = -O3 $(LTO)
-FLAGS   = $(WARN) $(OPT) -Isrc -ffp-contract=off -fno-math-errno -pthread
+FLAGS   = $(WARN) $(OPT) -Isrc -ffp-contract=off -fno-math-errno -fPIC -pthread
 LIBS    = -lm -lpthread
 # These are asked of the compiler at the first use, once.
 LTO     = $(eval LTO := $$(shell sh test/run/compiler.sh lto $$(CC)))$(LTO)
@@ -67,23 +67,20 @@ $(BUILD)/obj/%.o: src/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(FLAGS) $(DEPEND) $(CFLAGS) -c -o $@ $<
 
-# Tests are built quickly: without optimisation of the whole, and what only tests with little of its own.
+# All but the renderer is built quickly: without optimisation of the whole, and what only tests with little of its own.
 NO_LTO = $(if $(LTO),-fno-lto)
 $(TESTS): TESTED = $(NO_LTO) -O1
 $(TESTS): | $(BUILD)/suites.h
-$(BUILD)/test: AT_LINK = $(NO_LTO)
+asbdpt-lab $(BUILD)/test $(BUILD)/boxes: AT_LINK = $(NO_LTO)
 $(BUILD)/fuzz: AT_LINK = -fsanitize=fuzzer
 
 # ---- the library ----
-# Its objects are compiled once more, for a shared one must be movable. Who links sees the functions of asbdpt.h, and
-# with the archive the others, too, whose names are the program's own.
-INSIDE = $(patsubst src/%.c,$(BUILD)/lib/%.o,$(filter-out src/cli/%,$(wildcard src/*/*.c)))
-$(BUILD)/lib/%.o: src/%.c $(BUILD)/flags
-	@mkdir -p $(@D)
-	$(SAY)$(CC) $(FLAGS) $(NO_LTO) -fPIC $(DEPEND) $(CFLAGS) -c -o $@ $<
+# Of the renderer's own objects, which are movable for it; the archive is without what optimises the whole. Who links
+# sees the functions of asbdpt.h, and with the archive the others, too, whose names are the program's own.
+INSIDE = $(filter-out $(BUILD)/obj/cli/%,$(OBJECTS))
 $(BUILD)/libasbdpt.a: $(INSIDE)
 	@rm -f $@
-	$(SAY)$(AR) rcs $@ $(INSIDE)
+	$(SAY)$(AR) rcs $@ $(INSIDE) $(if $(LTO),&& objcopy -R '.gnu.lto_*' $@)
 $(BUILD)/libasbdpt.so: $(INSIDE)
 	$(SAY)$(CC) $(FLAGS) $(NO_LTO) -shared $(CFLAGS) -o $@ $(INSIDE) $(LDFLAGS) $(LIBS)
 
@@ -103,7 +100,7 @@ $(BUILD)/suites.h: test/unit/suites.awk $(wildcard test/unit/*.c)
 	@mkdir -p $(@D)
 	@awk -f $^ >$@.new && { cmp -s $@.new $@ || cp $@.new $@; }
 
--include $(wildcard $(BUILD)/lib/*/*.d $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d $(BUILD)/obj/*/*/*/*.d)
+-include $(wildcard $(BUILD)/obj/*/*.d $(BUILD)/obj/*/*/*.d $(BUILD)/obj/*/*/*/*.d)
 
 # ---- what it is for ----
 # All cores, unless make has been told how many jobs.
