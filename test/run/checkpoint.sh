@@ -151,7 +151,7 @@ check [ ! -e x.pfm ]
 no_temporaries "after errors"
 
 # ---- a checkpoint that is made is written again, whatever has become of it meanwhile ----
-"$program" render "$box" --integrator bdpt --res 160x160 --spp 8 --maxdepth 3 --quiet -j 1 --checkpoint state \
+"$program" render "$box" --integrator bdpt --res 80x80 --spp 8 --maxdepth 3 --quiet -j 1 --checkpoint state \
     --interval 0 -o kept.pfm 2>stderr.txt &
 hold [ -e state ]
 echo other >other
@@ -162,7 +162,7 @@ check [ "$(work_in state)" = 8000 ]
 check [ ! -s stderr.txt ]
 
 # ---- a preview: whole pictures, one after the other, of the samples so far; the last has the bytes of none before ----
-size="--integrator bdpt --res 112x112 --maxdepth 3 --quiet"
+size="--integrator bdpt --res 56x56 --maxdepth 3 --quiet"
 newer() { ! cmp -s seen.pfm first.pfm; }
 check "$program" render "$box" $size --spp 24 -o whole.pfm
 makes whole.pfm "$program" render "$box" $size --spp 24 --preview 0.01 -o x.pfm
@@ -170,7 +170,7 @@ near() { # the picture so far is about as bright as the whole one: on a slow mac
     [ -s seen.pfm ] && cp seen.pfm $picture.pfm && "$lab" compare $picture.pfm whole.pfm >stdout.txt 2>/dev/null &&
         awk '$1 == "mean_ratio" && $2 > 0.8 && $2 < 1.25 { near = 1 } END { exit !near }' stdout.txt
 }
-"$program" render "$box" $size --spp 1000000 -j 2 --preview 0.3 --time 100 -o seen.pfm -o late.pfm 2>stderr.txt &
+"$program" render "$box" $size --spp 1000000 -j 2 --preview 0.1 --time 100 -o seen.pfm -o late.pfm 2>stderr.txt &
 for picture in first second; do # far from the end of the render
     hold near || fault "the preview is not of the samples so far"
     check [ ! -e late.pfm ]
@@ -227,7 +227,7 @@ stopped() {
     no_temporaries "$*"
 }
 # A render stops between two tile passes and goes on from there to the same bytes.
-size="--integrator bdpt --res 112x112 --spp 24 --maxdepth 3 --quiet"
+size="--integrator bdpt --res 80x80 --spp 24 --maxdepth 3 --quiet"
 check "$program" render "$box" $size -o whole.pfm -o whole.part
 rm -f state
 further() { [ "$(work_in state)" -gt "$at" ]; }
@@ -254,11 +254,11 @@ expect 1 'state: ends in the middle of a block of samples; --resume it first, or
 expect 0 '' "$program" merge --partial state -o early.pfm
 expect 0 '' "$lab" compare early.pfm caught.pfm --max-rmse 1e-6
 # So it does of several, together with whole parts; their samples are not other parts', as far as they were to go.
-split="--integrator lt --res 1000x1000 --spp 8 --maxdepth 2"
-some() { [ "$(work_in $range.state)" -gt 400 ]; } # of 3969 tile passes
+split="--integrator lt --res 500x500 --spp 8 --maxdepth 2"
+some() { [ "$(work_in $range.state)" -gt 100 ]; } # of 1024 tile passes
 for range in 0:4 5:8; do
     stopped 143 TERM some 'stopped by SIGTERM, at 0 of [34] samples per pixel, [0-9.]+ % ' $split \
-        --samples $range --checkpoint $range.state --interval 0.05
+        --samples $range --checkpoint $range.state --interval 0.02
 done
 for range in 4:5 3:4; do check "$program" render "$box" $split --samples $range --quiet -o $range.part; done
 expect 0 '' "$program" merge --partial 4:5.part 0:4.state 5:8.state -o early.pfm
@@ -323,7 +323,7 @@ expect 0 'at 0 of 64 samples per pixel, [0-9.]+ % of the pixels at 1$' \
 awk 'BEGIN { print "LookAt 0 0 -4 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 1"
     print "WorldBegin LightSource \"infinite\""
     print "MakeNamedMedium \"a\" \"string type\" \"homogeneous\" MediumInterface \"a\" \"\" Material \"\""
-    while (i++ < 30000) printf "Shape \"sphere\" \"float radius\" %.8f\n", 1 + i / 1e8; print "WorldEnd" }' >slow.pbrt
+    while (i++ < 3000) printf "Shape \"sphere\" \"float radius\" %.8f\n", 1 + i / 1e8; print "WorldEnd" }' >slow.pbrt
 expect 0 'stopped after [0-9.]* s, when the samples that had begun were complete, at 0 of 9 samples' \
     "$program" render slow.pbrt --integrator bdpt --res 1x1 --spp 9 --maxdepth 4 -j 1 --time 0.01 -o caught.pfm
 check grep -q 'the image is black: no sample is complete$' stderr.txt
