@@ -213,8 +213,8 @@ closed() { # COMMAND...
     check [ "$(cat status.txt)" = 1 ]
     check [ "$(sed 's/: [^:]*$//' stderr.txt)" = "asbdpt: standard output: cannot be written" ] # and why
 }
-"$program" render "$box" --res 300x300 --spp 1 --quiet -o large.pfm # more than a pipe holds
-closed "$program" render "$box" --res 300x300 --spp 1 --quiet -o -
+"$program" render "$box" --res 100x100 --spp 1 --quiet -o large.pfm # more than a pipe holds
+closed "$program" render "$box" --res 100x100 --spp 1 --quiet -o -
 closed "$program" convert large.pfm --quiet -o -
 rm large.pfm
 

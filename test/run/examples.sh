@@ -26,8 +26,8 @@ examples() {
         n=$((n + 1)) shorter=
         case $line in "asbdpt-lab "equal-time* | "asbdpt-lab "family* | "asbdpt-lab "experiment*)
             shorter=" --spp 1 --res 8 --seeds 3 --reference-spp 4 --methods bdpt,asbdpt" ;;
-        *" render "* | "asbdpt-lab "worth* | "asbdpt-lab "strategies* | "asbdpt-lab "transient* | "asbdpt-lab "bench*)
-            shorter=" --spp 1" ;;
+        *" render "* | "asbdpt-lab "worth* | "asbdpt-lab "bench*) shorter=" --spp 1" ;;
+        "asbdpt-lab "strategies* | "asbdpt-lab "transient*) shorter=" --spp 1 --res 24" ;;
         esac
         [ -z "${FULL-}" ] || shorter=
         [ -z "$brief" ] || case $line$shorter in *--spp* | *" conform "* | *" trace "*) continue ;; esac

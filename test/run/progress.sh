@@ -25,9 +25,9 @@ bars() {
 }
 left='(, [0-9]+ (s|min.*) left)?'
 long() { [ -n "${BRIEF-}" ] || bars "$@"; } # whose bars no script has a part in
-bars "$left" '"$program" render "$box" --res 120 --spp 8 -o box.pfm' file
-long "$left" '"$lab" strategies "$box" --res 96 --spp 16 --maxdepth 3 -o strategies'
-long "$left" '"$lab" transient "$box" --res 96 --spp 16 -o flight'
+bars "$left" '"$program" render "$box" --res 60 --spp 8 -j 1 -o box.pfm' file
+long "$left" '"$lab" strategies "$box" --res 48 --spp 16 -j 1 --maxdepth 3 -o strategies'
+long "$left" '"$lab" transient "$box" --res 48 --spp 16 -j 1 -o flight'
 long "$left" '"$lab" bench "$box" --spp 1'
 export PROGRAM="$lab" LAB="$lab"
 bars ", (area|mirror)$left" 'rm -rf shown; sh test/measure/conform/kit.sh ours shown bdpt 4 16 area mirror'
@@ -39,7 +39,7 @@ bars "$left" '"$lab" conform kit || [ $? = 1 ]'
 bars ", second, [0-9]+ s left" '{ echo first; sleep 3; echo second; } | "$lab" progress --parts 3' file
 # What must not pass.
 if [ -n "$terminal" ]; then
-    bars "$left" '"$program" render "$box" --quiet --res 120 --spp 8 -o box.pfm' >told.txt
+    bars "$left" '"$program" render "$box" --quiet --res 60 --spp 8 -j 1 -o box.pfm' >told.txt
     [ $failures -gt 0 ] && grep -q 'shows no bar' told.txt && failures=$((failures - 1)) ||
         fault "no bar is not noticed"
 fi

@@ -62,13 +62,13 @@ static const struct agreement QUICK[] = {
      "asbdpt select=subspaces pathpixels=2 race=off, asbdpt select=subspaces pathpixels=5 race=off,"
      "asbdpt select=subspaces pathpixels=9 race=off, lvc connections=1 pathpixels=5, lvc connections=1 pathpixels=9,"
      "cbdpt connections=3 pathpixels=2, cbdpt connections=3 pathpixels=5, cbdpt connections=1 pathpixels=9",
-     64, 64, 16, 3, true, 0.1},
-    {"scenes/test/light-kinds", 18, 12, 4, "bdpt", ALONE ", " RIVALS, 8, 8, 16, 8, true, 0.1},
+     32, 32, 16, 3, true, 0.1},
+    {"scenes/test/light-kinds", 18, 12, 4, "bdpt", ALONE ", " RIVALS, 4, 4, 16, 8, true, 0.1},
     {"scenes/media/inside", 18, 12, 4, "bdpt", ALONE, 2, 2, 16, 8, true, 0.6},
-    {"scenes/test/light-kinds", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0.1},
-    {"scenes/test/mirror-glass", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0.1},
-    {"scenes/test/all-materials", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0.1},
-    {"scenes/test/smooth-normals", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0.1}};
+    {"scenes/test/light-kinds", 16, 16, 4, "bdpt", EVERY, 2, 2, 16, 8, true, 0.1},
+    {"scenes/test/mirror-glass", 16, 16, 4, "bdpt", EVERY, 2, 2, 16, 8, true, 0.1},
+    {"scenes/test/all-materials", 16, 16, 4, "bdpt", EVERY, 2, 2, 16, 8, true, 0.1},
+    {"scenes/test/smooth-normals", 16, 16, 4, "bdpt", EVERY, 2, 2, 16, 8, true, 0.1}};
 /* Cameras, copies and holes; services where they matter. */
 static const struct agreement LONG[] = {
     {"scenes/test/thin-lens", 16, 16, 4, "bdpt", EVERY, 4, 4, 16, 8, true, 0},
@@ -81,15 +81,15 @@ static const struct agreement LONG[] = {
 /* What small pictures of few lights do not have: columns far to the right, paths of many edges. */
 #define POOLED "asbdpt select=pool, asbdpt select=vertices, asbdpt race=off, lvc connections=2"
 static const struct agreement LARGE[] = {
-    {"scenes/cornell-box-modified", 136, 5, 4, "bdpt", POOLED, 8, 8, 16, 8, true, 0},
-    {"scenes/corridor", 18, 6, 12, "bdpt", POOLED, 16, 16, 16, 6, true, 0}};
+    {"scenes/cornell-box-modified", 136, 5, 4, "bdpt", POOLED, 2, 2, 16, 8, true, 0},
+    {"scenes/corridor", 18, 6, 12, "bdpt", POOLED, 4, 4, 16, 6, true, 0}};
 
 /* n lamps and a sky above a room without a ceiling, in a crop window. So many lamps share cells, and with the sky there
  * are more than 256 cells. */
 static void test_many_lamps(struct test *t, int n)
 {
     static const struct agreement by = {"many lamps", 24, 16, 3, "bdpt",
-                                        "asbdpt race=off, asbdpt select=vertices guide=on", 16, 16, 16, 8, true, 0};
+                                        "asbdpt race=off, asbdpt select=vertices guide=on", 4, 4, 16, 8, true, 0};
     enum { LINE = 120 };
     size_t size = (size_t)(n + 12) * LINE, used = 0;
     char *text = mem_alloc(size, 1);

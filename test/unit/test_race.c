@@ -331,7 +331,7 @@ void test_race(struct test *t)
     test_names(t);
     test_turns(t);
     test_streams_of_turns(t);
-    test_expectations(t, 16);
+    test_expectations(t, 4);
 }
 
 void test_race_long(struct test *t) { test_expectations(t, 64); }

@@ -51,15 +51,15 @@ static const struct agreement EXPECTATIONS[] = {
      "ris records=.3 subpaths=4, ris2 records=.3 presampled=2 subpaths=2, spcbpt pathpixels=9,"
      "spcbpt pathpixels=5 subspaces=3 connections=1, spcbpt pathpixels=2 guide=on emission=.2,"
      "restir candidates=1 neighbours=2,"
-     "restir candidates=4 neighbours=8, restirgi neighbours=8", 64, 64, 32, 1, true, 0.2},
-    {"scenes/test/light-kinds", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0.1},
-    {"scenes/test/mirror-glass", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0.1},
-    {"scenes/test/all-materials", 24, 24, 4, "bdpt", EVERY, 2, 2, 12, 12, true, 0.1},
-    {"scenes/test/light-kinds", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0.2},
-    {"scenes/test/mirror-glass", 24, 24, 4, "pt", SHARED, 16, 16, 12, 12, true, 0.2},
-    {"scenes/test/all-materials", 24, 24, 4, "pt", SHARED, 4, 4, 12, 12, true, 0.2},
-    {SLOPE, 0, 0, 4, "pt", "restirgi neighbours=8", 1024, 1024, 16, 1, false, 0.1},
-    {LAMP, 0, 0, 4, "pt", "ppg cell=50, ppg cell=1000", 16, 16, 16, 32, false, 0.15}};
+     "restir candidates=4 neighbours=8, restirgi neighbours=8", 64, 64, 16, 1, true, 0.2},
+    {"scenes/test/light-kinds", 16, 16, 4, "bdpt", EVERY, 2, 2, 12, 8, true, 0.1},
+    {"scenes/test/mirror-glass", 16, 16, 4, "bdpt", EVERY, 2, 2, 12, 8, true, 0.1},
+    {"scenes/test/all-materials", 16, 16, 4, "bdpt", EVERY, 2, 2, 12, 8, true, 0.1},
+    {"scenes/test/light-kinds", 24, 24, 4, "pt", SHARED, 2, 2, 12, 12, true, 0.2},
+    {"scenes/test/mirror-glass", 24, 24, 4, "pt", SHARED, 8, 8, 12, 12, true, 0.2},
+    {"scenes/test/all-materials", 24, 24, 4, "pt", SHARED, 2, 2, 12, 12, true, 0.2},
+    {SLOPE, 0, 0, 4, "pt", "restirgi neighbours=8", 512, 512, 16, 1, false, 0.1},
+    {LAMP, 0, 0, 4, "pt", "ppg cell=50, ppg cell=1000", 8, 8, 16, 32, false, 0.15}};
 enum { N_EXPECTATIONS = sizeof EXPECTATIONS / sizeof EXPECTATIONS[0] };
 
 /* All methods that can have credits, with all services that they can have (lab/methods.h), and with each alone. */
@@ -68,8 +68,8 @@ static void test_services(struct test *t, int more)
     static const char *const alone[] = {"credits=on", "bound=on", "later=1", "lightpoints=2", "guide=on"};
     static char all[METHODS_TEXT], ways[METHODS_TEXT];
     const struct agreement agreements[] = {
-        {"doc/mini/rooms", 6, 6, 4, "bdpt", ways, 32, 16, 16, 6, true, 0.2},
-        {"scenes/test/light-kinds", 24, 24, 4, "bdpt", ways, 2, 2, 12, 12, true, 0.1}};
+        {"doc/mini/rooms", 6, 6, 4, "bdpt", ways, 16, 8, 16, 6, true, 0.2},
+        {"scenes/test/light-kinds", 16, 16, 4, "bdpt", ways, 2, 2, 16, 16, true, 0.1}};
     struct methods served;
     struct error err = {.text = ""};
     int n = 0, rows = 0;
@@ -99,7 +99,7 @@ static void test_services(struct test *t, int more)
 
 /* In three pixels, where sub-paths of a rank would meet too often if the lattice were not shifted at random. */
 static const struct agreement THREE_PIXELS = {"doc/mini/rooms", 3, 1, 4, "bdpt", "mbdpt pathpixels=1",
-                                              1024, 1024, 32, 3, true, 0};
+                                              512, 512, 16, 3, true, 0};
 
 /* The two rooms with pools of a hundred light vertices, in which records differ. */
 static const struct agreement ROOMS = {

@@ -79,7 +79,7 @@ static void test_strategy_numbers(struct test *t)
 
 /* --- bridges ----------------------------------------------------------------------------------------- */
 
-enum { VERTICES = DEPTH + 2, BRIDGE_BATCHES = 64, BRIDGE_SPP = 64 };
+enum { VERTICES = DEPTH + 2, BRIDGE_BATCHES = 64, BRIDGE_SPP = 32 };
 
 struct bridges {
     const struct scene *scene;
