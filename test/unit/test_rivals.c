@@ -99,7 +99,7 @@ static void test_services(struct test *t, int more)
 
 /* In three pixels, where sub-paths of a rank would meet too often if the lattice were not shifted at random. */
 static const struct agreement THREE_PIXELS = {"doc/mini/rooms", 3, 1, 4, "bdpt", "mbdpt pathpixels=1",
-                                              512, 512, 16, 3, true, 0};
+                                              1024, 1024, 32, 3, true, 0};
 
 /* The two rooms with pools of a hundred light vertices, in which records differ. */
 static const struct agreement ROOMS = {
