@@ -80,7 +80,7 @@ $(BUILD)/fuzz: AT_LINK = -fsanitize=fuzzer
 INSIDE = $(filter-out $(BUILD)/obj/cli/%,$(OBJECTS))
 $(BUILD)/libasbdpt.a: $(INSIDE)
 	@rm -f $@
-	$(SAY)$(AR) rcs $@ $(INSIDE) $(if $(LTO),&& objcopy -R '.gnu.lto_*' $@)
+	$(SAY)$(AR) rcs $@ $(INSIDE) $(if $(LTO),&& objcopy -R '.gnu.lto_*' -R '.llvm.lto*' $@)
 $(BUILD)/libasbdpt.so: $(INSIDE)
 	$(SAY)$(CC) $(FLAGS) $(NO_LTO) -shared $(CFLAGS) -o $@ $(INSIDE) $(LDFLAGS) $(LIBS)
 
@@ -152,7 +152,8 @@ web: asbdpt ## build and test the page that renders, out/asbdpt.html, where clan
 	sh doc/web/build.sh out/asbdpt.html
 	sh test/run/web.sh out/asbdpt.html
 
-bench: asbdpt-lab ## measure speed and memory on the scenes (or SCENES="...")
+bench: asbdpt-lab ## measure speed and memory on the scenes (or SCENES="..."), the laboratory linked as the renderer is
+	rm -f asbdpt-lab && $(MAKE) NO_LTO= asbdpt-lab
 	$(LAB) bench $(SCENES) scenes/test/many-lamps.pbrt
 
 ref: asbdpt asbdpt-lab ## render the stored references of ref/ again (an hour; goes on where it stopped)

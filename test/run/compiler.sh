@@ -1,6 +1,7 @@
 #!/bin/sh
 # compiler.sh lto CC:    print the options for link-time optimisation if this compiler, its linker and its run-time can
-#                        do it, and can link the same objects without it, as the tests are linked.
+#                        do it, and can link the same objects without it, as all but the renderer is linked; and if
+#                        there is an objcopy, which the library needs then.
 # compiler.sh depend CC: print the options that write which headers a file includes, if this compiler has them.
 wanted=$1
 shift
@@ -10,7 +11,7 @@ echo 'int main(void) { return 0; }' >"$dir/a.c"
 case $wanted in
 lto)
     options="-flto=auto -ffat-lto-objects"
-    "$@" $options -c -o "$dir/a.o" "$dir/a.c" && "$@" -fno-lto -o "$dir/a" "$dir/a.o" && "$dir/a" &&
+    command -v objcopy && "$@" $options -c -o "$dir/a.o" "$dir/a.c" && "$@" -fno-lto -o "$dir/a" "$dir/a.o" && "$dir/a" &&
         "$@" $options -o "$dir/a" "$dir/a.o" && "$dir/a"
     ;;
 depend)
