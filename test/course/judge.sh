@@ -231,8 +231,8 @@ answer() {
 
 # page DIR TITLE: DIR/index.html has the pictures and the words of DIR/report.txt, in the style of all other reports.
 page() {
-    style=$(sed -n '/^const char \*const PAGE_STYLE/,/NULL/s/^    "\(.*\)",$/\1/p' "$original/test/lab/page_parts.c")
-    [ -n "$style" ] || die "test/lab/page_parts.c has no style"
+    style=$(sed -n '/^static const char \*const PAGE_STYLE/,/NULL/s/^    "\(.*\)",$/\1/p' "$original/test/lab/page.c")
+    [ -n "$style" ] || die "test/lab/page.c has no style"
     {
         say "<!DOCTYPE html><html lang=\"en\"><meta charset=\"utf-8\">" \
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>$2</title>" \

@@ -1,7 +1,7 @@
 /* lists.h: many small files in one list, NAME.txt. A line "== NAME" begins each of them; a "!" behind the name leaves
  * out its last newline. Below "== NAME packed" bytes are plain characters or a backslash and three octal digits, as
  * printf reads them; ends of lines are none of them. What is above the first such line is for readers.
- * scenes/unpack.sh makes the files in a script. Tests: test_parser.c, test_hdr.c, test_fuzz.c read such lists. */
+ * scenes/unpack.sh makes the files in a script. Tests: test_parser.c, test_hdr.c, test_hostile.c read such lists. */
 #ifndef ASBDPT_FUZZ_LISTS_H
 #define ASBDPT_FUZZ_LISTS_H
 

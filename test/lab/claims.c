@@ -1,7 +1,7 @@
 /* claims.c: see claims.h. */
 #include "lab/claims.h"
 
-#include "lab/md_table.h"
+#include "lab/text.h"
 
 static const struct claim CLAIMS[] = {
     {.method = "cbdpt", .over = "bdpt", .below = 0.1, .lacks = "the paper's runs on CPU and GPU together",

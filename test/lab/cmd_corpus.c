@@ -23,7 +23,7 @@
 #include "lab/commands.h"
 #include "lab/mark.h"
 #include "lab/methods.h"
-#include "lab/plan_scene.h"
+#include "lab/plan.h"
 #include "lab/race_table.h"
 #include "lab/rays.h"
 #include "lab/results.h"

@@ -6,7 +6,7 @@
 #include "lab/bar.h"
 #include "lab/files.h"
 #include "lab/commands.h"
-#include "lab/pyramid.h"
+#include "lab/strategies.h"
 #include "lab/sheet.h"
 #include "render/job.h"
 

@@ -1,9 +1,9 @@
-/* cmd_trace.c: asbdpt-lab trace SCENE --pixel X,Y: one sample of a pixel in full. See trace_report.h. */
+/* cmd_trace.c: asbdpt-lab trace SCENE --pixel X,Y: one sample of a pixel in full. See trace.h. */
 #include <stdio.h>
 
 #include "lab/commands.h"
 #include "library/job_options.h"
-#include "lab/trace_report.h"
+#include "lab/trace.h"
 
 struct trace_options {
     struct render_job job;

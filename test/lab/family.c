@@ -6,7 +6,7 @@
 
 #include "lab/claims.h"
 #include "lab/equal.h"
-#include "lab/md_table.h"
+#include "lab/text.h"
 #include "lab/page.h"
 #include "lab/pictures.h"
 

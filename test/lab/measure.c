@@ -10,7 +10,7 @@
 #include "base/progress.h"
 #include "lab/files.h"
 #include "lab/equal.h"
-#include "lab/plan_scene.h"
+#include "lab/plan.h"
 #include "lab/subject.h"
 #include "lab/timed.h"
 

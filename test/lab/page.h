@@ -2,7 +2,7 @@
  *
  * It holds the page of Markdown that lies next to it, and for each scene the curves of error over CPU time and over
  * samples on logarithmic axes, and every compared method's picture with its errors as colours. The script of the page
- * (page_parts.c) makes tables, curves and colours of what is in it: text, numbers and PNGs.
+ * makes tables, curves and colours of what is in it: text, numbers and PNGs.
  *
  * Tests: test_report.c, test_equal_time.c, test/run/report.sh.
  */
@@ -19,6 +19,5 @@
 bool page_write(const struct results *r, const char *title, const char *markdown,
                 double (*printed)(const char *scene, const char *method, long spp), struct error *err);
 
-extern const char *const PAGE_STYLE[], *const PAGE_SCRIPT[]; /* lines; the last is NULL */
 
 #endif

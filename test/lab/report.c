@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "lab/numbers.h"
-#include "lab/md_table.h"
+#include "lab/text.h"
 #include "lab/page.h"
 
 #define PLUS_MINUS "\xc2\xb1" /* U+00B1 in UTF-8 */

@@ -1,7 +1,7 @@
-/* sheet.h: a sheet that pictures are pasted on and labels written on: figures as one file; its letters (font.c) and
- * colours (colormap.c).
+/* sheet.h: a sheet that pictures are pasted on and labels written on: figures as one file; its letters and
+ * colours.
  *
- * Tests: test_sheet.c.
+ * Tests: test_pictures.c.
  */
 #ifndef ASBDPT_SHEET_H
 #define ASBDPT_SHEET_H

@@ -1,10 +1,16 @@
-/* strategies.h: images of single strategies (s,t), all from one render.
+/* strategies.h: images of single strategies (s,t), all from one render, and the pyramid of all of them on one sheet: a
+ * row per number of bounces, a column per s. The upper half has each strategy's whole estimate, the lower half its
+ * weighted share. The sum of the lower images is the image [V97 10.2.3].
+ *
+ * Longer paths carry less light, so every row is multiplied by the power of two that its label names. The first rows
+ * are left out if they have no light.
  *
  * Tests: test_strategies.c, test_pictures.c.
  */
 #ifndef ASBDPT_STRATEGIES_H
 #define ASBDPT_STRATEGIES_H
 
+#include "base/error.h"
 #include "lab/paths.h"
 
 /* Sums, [strategy_count(max_depth)][pixels*3], numbered by strategy_index. */
@@ -31,5 +37,11 @@ bool strategies_render(const struct scene *scene, const struct render_job *optio
 /* strategies_picture: that of one, [height*width*3] linear, to be given to free().
  *   scale  as film_develop takes it */
 float *strategies_picture(const struct strategy_images *images, double scale, int s, int t, bool weighted);
+
+enum { PYRAMID_DEPTH = 15 }; /* longer paths are left out */
+
+/* pyramid_write: as DIRECTORY/pyramid.png. False with a message.
+ *   scale  as film_develop takes it */
+bool pyramid_write(const char *directory, const struct strategy_images *images, double scale, struct error *err);
 
 #endif

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab/trace_report.h"
+#include "lab/trace.h"
 
 enum { WIDTH = 560, MARGIN = 20, TOP = 64, CELLS = 320, PIECES = 48 };
 static const char BLUE[] = "#1d5fbf", ORANGE[] = "#d97a00", GREEN[] = "#1a8f4c", GREY[] = "#8a8a8a";

@@ -1,7 +1,7 @@
-/* trace_values.c: a pixel sample as names and numbers; see trace_report.h. */
+/* trace_values.c: a pixel sample as names and numbers; see trace.h. */
 #include <stdio.h>
 
-#include "lab/trace_report.h"
+#include "lab/trace.h"
 
 enum { NAME = 32 };
 

@@ -4,7 +4,7 @@
  * All else is drawn, independently of the kind's order: sizes, albedos, roughness, how many lamps there are, how large
  * and of what power, camera, longest path, and the film from 96x72 to 320x240. Nothing is read from other files.
  *
- * Tests: test_structure.c. `build/test --structure N` prints scene N.
+ * Tests: test_random.c. `build/test --structure N` prints scene N.
  */
 #ifndef ASBDPT_TEST_RANDOM_STRUCTURE_H
 #define ASBDPT_TEST_RANDOM_STRUCTURE_H

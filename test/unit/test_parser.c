@@ -5,7 +5,7 @@
  * them where others come; further lines "# also: ..." say so of the other errors and "# warn: ..." of the warnings, in
  * order, "# has: ..." parts of what a scene holds (parser_words.c), "# mean: ..." the mean of its image of 8x8 pixels,
  * "# integrator: ..." the one that the user names, and "# row: ..." a row of a table that it shows (test_format.c).
- * Damaged scenes, which must be accepted or refused and never crash, are in test_fuzz.c.
+ * Damaged scenes, which must be accepted or refused and never crash, are in test_hostile.c.
  */
 #define _POSIX_C_SOURCE 200809L
 

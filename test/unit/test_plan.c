@@ -5,7 +5,7 @@
 
 #include "image/image.h"
 #include "lab/files.h"
-#include "lab/plan_scene.h"
+#include "lab/plan.h"
 #include "suites.h"
 
 static void test_methods(struct test *t)

@@ -1,7 +1,7 @@
 /* joint.h: connections in two steps, for methods that compare many and trace few shadow rays: first the value without
  * visibility, then whether both ends see each other, and the weight. Both steps are what connect.h does in one.
  *
- * Tests: test_ris.c, test_rivals.c.
+ * Tests: test_rival_parts.c, test_rivals.c.
  */
 #ifndef ASBDPT_JOINT_H
 #define ASBDPT_JOINT_H

@@ -1,7 +1,7 @@
 /* lamp.h: a point drawn on a light, as a vertex sees it: what strategies begin with that join vertices to lights in
  * ways of their own.
  *
- * Tests: test_caustic.c, test_ellipse.c, test_rivals.c.
+ * Tests: test_caustic.c, test_rival_parts.c, test_rivals.c.
  */
 #ifndef CAUSTICS_LAMP_H
 #define CAUSTICS_LAMP_H

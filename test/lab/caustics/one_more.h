@@ -2,7 +2,7 @@
  *
  * Paths that other strategies make as well have weights that it knows: it is asked for those of s <= 1 and t = 1.
  *
- * Tests: test_caustic.c, test_ellipse.c.
+ * Tests: test_caustic.c, test_rival_parts.c.
  */
 #ifndef ASBDPT_ONE_MORE_H
 #define ASBDPT_ONE_MORE_H

@@ -13,7 +13,7 @@
  * space, with no delta lobe at x or z, x being on a triangle. The original finds triangles that are cut by a hierarchy;
  * here most draws miss in scenes of many triangles. With `to` 0 this is pt, and has paths of all lengths.
  *
- * Tests: test_ellipse.c, test_gates.c.
+ * Tests: test_rival_parts.c, test_gates.c.
  */
 #include "rivals/ellipse.h"
 

@@ -1,6 +1,6 @@
 /* ellipse.h: points by which light's way has a given length. See ellipse.c.
  *
- * Tests: test_ellipse.c.
+ * Tests: test_rival_parts.c.
  */
 #ifndef ASBDPT_ELLIPSE_H
 #define ASBDPT_ELLIPSE_H

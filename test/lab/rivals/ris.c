@@ -21,7 +21,7 @@
  *
  * `weights = counts` draws the same and has the weights of pcbdpt.c, whose draws by place alone it is to the byte.
  *
- * Tests: test_ris.c, test_rivals.c.
+ * Tests: test_rival_parts.c, test_rivals.c.
  */
 #include "rivals/ris.h"
 

@@ -8,7 +8,7 @@
  * Q_g being the expectation of the sum of g over a light sub-path: the second moment over both stages. So records cost
  * M2 shadow rays each however many sub-paths there are. The paper's g could not be read; L_v is our choice.
  *
- * Tests: test_ris.c, test_rivals.c.
+ * Tests: test_rival_parts.c, test_rivals.c.
  */
 #include "base/alias.h"
 #include "caustics/surfaces.h"

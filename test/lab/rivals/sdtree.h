@@ -5,7 +5,7 @@
  * from `known`, which is from the pass before. `next` is filled by the running pass and then becomes `known`. Sums
  * depend on the order in which records are added, which the caller has to fix.
  *
- * Tests: test_sdtree.c.
+ * Tests: test_rival_parts.c.
  */
 #ifndef ASBDPT_SDTREE_H
 #define ASBDPT_SDTREE_H

@@ -30,7 +30,7 @@
  * squared error times CPU time: 64 subspaces (of 16, 32, 64, 96, 128), 4 eye sub-paths per pixel to learn from (2, 4,
  * 16), 2 steps (0, 2, 4, 10, 40), C = 3 (1, 2, 3), delta = 0.2 (0.1, 0.2).
  *
- * Tests: test_spcbpt.c, test_rivals.c, test_family.c.
+ * Tests: test_rival_parts.c, test_rivals.c.
  */
 #include "rivals/spcbpt.h"
 

@@ -1,5 +1,5 @@
 /* spcbpt.h: what spcbpt.c learns: classification trees, and the matrix Gamma, from paths of a path tracer. Nothing here
- * knows how paths are traced. Tests: test_spcbpt.c. */
+ * knows how paths are traced. Tests: test_rival_parts.c. */
 #ifndef ASBDPT_SPCBPT_H
 #define ASBDPT_SPCBPT_H
 
