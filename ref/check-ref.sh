@@ -8,10 +8,10 @@ spp=${2:-256}
 failures=0
 said=$(mktemp) || exit 1
 trap 'rm -f "$said"' EXIT
-for text in ref/*.txt; do
-    name=$(basename "$text" .txt)
-    methods=$(sed -n 's/^origin .*: \([a-z:=]*\) with seeds .* and \([a-z:=]*\) with seeds .*/\1 \2/p' "$text")
-    [ -n "$methods" ] || { echo "FAILED  $text names no two methods"; failures=$((failures + 1)); }
+for name in $(sed -n 's/^== //p' ref/made.txt); do
+    methods=$(awk -v name="$name" '/^== / { here = $2 == name } here' ref/made.txt |
+        sed -n 's/^origin .*: \([a-z:=]*\) with seeds .* and \([a-z:=]*\) with seeds .*/\1 \2/p')
+    [ -n "$methods" ] || { echo "FAILED  $name: ref/made.txt names no two methods"; failures=$((failures + 1)); }
     for method in $methods; do
         if "$lab" verify "scenes/$name.pbrt" --methods $method --reference "ref/$name.pfm" --filter box --spp "$spp" \
             --batches 16 --seed 777000 --quiet >"$said"; then

@@ -5,7 +5,7 @@
 # per pixel (4096 to 16384 in all) with seeds of their own. `asbdpt-lab verify --files` tests that the two agree, tile by tile, and only then stores
 #     ref/NAME.pfm        the mean of both methods, weighted by the inverse of their variances
 #     ref/NAME.error.pfm  its standard errors
-#     ref/NAME.txt        how it was made: commands, seeds, version, mean, p-values
+#     ref/made.txt        how each was made: commands, seeds, version, mean, p-values
 # SCENES=DIR takes DIR/NAME/scene.pbrt of another folder instead, REFS=DIR keeps what is made there, RES=, SPP= (of a batch)
 # and MAXDEPTH= choose size, samples and longest path:
 #     SCENES=published REFS=published/refs RES=128 SPP=256 MAXDEPTH=8 sh ref/make-ref.sh ./asbdpt build/pub cornell-box
@@ -79,12 +79,23 @@ demo() {
         echo "origin $("$program" --version), ref/make-ref.sh demo: asbdpt with seed 3000, 96 samples per pixel, 240x160 \
 pixels, box filter"
         echo "scene scenes/corridor.pbrt"
-        grep '^content ' ref/corridor.txt
+        awk '/^== / { here = $2 == "corridor" } here && /^content /' ref/made.txt
         echo "resolution 240x160"
         echo "maxdepth 10"
         "$lab" compare "$work/demo-3000.png" "$work/demo-3001.png" |
             awk '$1 == "rmse8" { printf "noise8 %.3g\n", $2 / sqrt(2) }'
     } >ref/demo/corridor.txt
+}
+
+# note SCENE: its text becomes the last of the list.
+note() {
+    {
+        [ ! -f "$refs/made.txt" ] || awk -v name="$1" '/^== / { other = $2 != name } other' "$refs/made.txt"
+        echo "== $1"
+        cat "$refs/$1.txt"
+    } >"$work/made.txt"
+    mv "$work/made.txt" "$refs/made.txt"
+    rm "$refs/$1.txt"
 }
 
 mkdir -p "$work" "$refs"
@@ -94,8 +105,9 @@ for scene; do
     a=${pair% *} b=${pair#* }
     render "$scene" "$a" 1000
     render "$scene" "$b" 2000
-    note="$("$program" --version), ref/make-ref.sh: $a with seeds 1000 to $((999 + batches)) and $b with seeds 2000"
-    note="$note to $((1999 + batches)), each with $(samples "$scene") samples per pixel, $(resolution "$scene") pixels, box filter"
+    how="$("$program" --version), ref/make-ref.sh: $a with seeds 1000 to $((999 + batches)) and $b with seeds 2000"
+    how="$how to $((1999 + batches)), each with $(samples "$scene") samples per pixel, $(resolution "$scene") pixels, box filter"
     "$lab" verify "$(file "$scene")" ${MAXDEPTH:+--maxdepth "$MAXDEPTH"} --files "$work/$scene-$a-"*.pfm --against "$work/$scene-$b-"*.pfm \
-        --store "$refs/$scene" --note "$note"
+        --store "$refs/$scene" --note "$how"
+    note "$scene"
 done

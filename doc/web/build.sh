@@ -42,8 +42,7 @@ files() {
     echo '<script type="text/plain" id="worker">'
     cat doc/web/worker.js
     echo '</script>'
-    for reference in ref/*.txt; do
-        name=$(basename "$reference" .txt)
+    for name in $(sed -n 's/^== //p' ref/made.txt); do
         embed "data-path=\"ref/$name.pfm\"" "ref/$name.pfm"
         embed "data-path=\"fine/$name.webp\"" "doc/web/reference/$name.webp"
         files "scenes/$name.pbrt" >&3

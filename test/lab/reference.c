@@ -43,21 +43,16 @@ static void read_line(char *line, struct reference *r)
         snprintf(r->origin, sizeof r->origin, "%.1199s", line + 7);
 }
 
-/* Reads NAME.txt next to NAME.pfm; a missing file is empty. */
+/* Reads the text of a picture; a missing one is empty. */
 static void read_text(const char *picture, struct reference *r)
 {
-    char path[PATH_SIZE], line[2048];
+    char path[SIDE_PATH], line[2048];
     *r = (struct reference){.noise8 = NAN, .mean_error = NAN, .noise = {NAN, NAN, NAN}};
-    const char *dot = strrchr(picture, '.');
-    snprintf(path, sizeof path, "%.*s.txt", (int)(dot != NULL ? dot - picture : (long)strlen(picture)), picture);
-    FILE *f = os_open_input(path);
-    if (f == NULL)
-        return;
-    while (fgets(line, sizeof line, f) != NULL) {
-        line[strcspn(line, "\r\n")] = '\0';
+    FILE *f = side_text(picture, path);
+    while (f != NULL && side_line(f, line, sizeof line))
         read_line(line, r);
-    }
-    fclose(f);
+    if (f != NULL)
+        fclose(f);
 }
 
 /* --- stored references ------------------------------------------------------------------------------- */

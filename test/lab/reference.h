@@ -1,6 +1,6 @@
 /* reference.h: the picture that errors are measured against, and how far it may itself be off.
  *
- * A stored reference is a picture NAME.pfm with an optional text NAME.txt of lines "key value", of which
+ * A stored reference is a picture NAME.pfm with an optional text (side_text) of lines "key value", of which
  *     content     H   the scene it is of: the hash of its files, hexadecimal, as the parts of its renders have it
  *     files     H H   hashes of NAME.pfm and NAME.error.pfm: a file with another hash is refused
  *     maxdepth    N   it holds paths up to this length

@@ -22,20 +22,48 @@
 enum {
     PIXELS = 1024,    /* of the pictures, unless somebody says otherwise */
     MOST_TILES = 196, /* of a picture */
-    PILOT_SPP = 4
+    PILOT_SPP = 4,
+    LINE = 2048 /* of a text */
 };
 
 /* --- reading ----------------------------------------------------------------------------------------- */
 
+FILE *side_text(const char *picture, char *path)
+{
+    const char *slash = os_last_separator(picture), *name = slash != NULL ? slash + 1 : picture;
+    const char *dot = strrchr(name, '.');
+    int n = dot != NULL ? (int)(dot - name) : (int)strlen(name), folder = (int)(name - picture);
+    n -= file_has_extension(picture, ".error.pfm") ? 6 : 0;
+    snprintf(path, SIDE_PATH, "%.*s%.*s.txt", folder, picture, n, name);
+    FILE *f = os_open_input(path);
+    if (f != NULL)
+        return f;
+    char line[LINE];
+    snprintf(path, SIDE_PATH, "%.*smade.txt", folder, picture);
+    f = os_open_input(path);
+    while (f != NULL && fgets(line, LINE, f) != NULL)
+        if (strncmp(line, "== ", 3) == 0 && (int)strcspn(line + 3, "\r\n") == n && strncmp(line + 3, name, (size_t)n) == 0)
+            return f;
+    if (f != NULL)
+        fclose(f);
+    return NULL;
+}
+
+bool side_line(FILE *text, char *line, int size)
+{
+    if (fgets(line, size, text) == NULL || strncmp(line, "== ", 3) == 0)
+        return false;
+    line[strcspn(line, "\r\n")] = '\0';
+    return true;
+}
+
 bool side_intact(const char *path, uint64_t content, struct error *err)
 {
-    char text[4096], line[2048];
+    char text[SIDE_PATH], line[LINE];
     bool errors = file_has_extension(path, ".error.pfm");
-    int stem = (int)strlen(path) - (errors ? 10 : 4);
     uint64_t said[2] = {0, 0};
-    snprintf(text, sizeof text, "%.*s.txt", stem > 0 ? stem : 0, path);
-    FILE *f = os_open_input(text);
-    while (f != NULL && fgets(line, sizeof line, f) != NULL)
+    FILE *f = side_text(path, text);
+    while (f != NULL && side_line(f, line, LINE))
         sscanf(line, "files %" SCNx64 " %" SCNx64, &said[0], &said[1]);
     if (f != NULL)
         fclose(f);

@@ -6,6 +6,8 @@
 #ifndef ASBDPT_SIDES_H
 #define ASBDPT_SIDES_H
 
+#include <stdio.h>
+
 #include "lab/verify.h"
 #include "render/render.h"
 
@@ -15,7 +17,15 @@ struct side {
     struct batches pixels; /* [height*width*3] values; owned, to be released also when reading or rendering failed */
 };
 
-/* side_intact: is NAME.pfm, or NAME.error.pfm, the file that NAME.txt was written for? image.h tells `content`. A text
+/* side_text: open the text about NAME.pfm or NAME.error.pfm: NAME.txt, or else what is below "== NAME" in made.txt of its
+ * folder. NULL if there is none; to be given to fclose.
+ *   path  out, [SIDE_PATH]: the file
+ * side_line: the next line of it, without its end. False after the last. */
+enum { SIDE_PATH = 4096 };
+FILE *side_text(const char *picture, char *path);
+bool side_line(FILE *text, char *line, int size);
+
+/* side_intact: is NAME.pfm, or NAME.error.pfm, the file that its text was written for? image.h tells `content`. A text
  * that does not say so, or none, is no reason to doubt it. Returns false with a message. */
 bool side_intact(const char *path, uint64_t content, struct error *err);
 

@@ -521,7 +521,7 @@ check [ "$(grep -c ', seed ' stderr.txt)" = 0 ]
 mkdir -p bathroom/ref
 echo 'Film "image" "integer xresolution" 32 "integer yresolution" 32 WorldBegin
 LightSource "point" "point from" [0 0 -3] Shape "sphere" WorldEnd' >bathroom/scene.pbrt
-cp ref/bathroom.pfm ref/bathroom.txt bathroom/ref
+cp ref/bathroom.pfm ref/made.txt bathroom/ref
 tiny="--seeds 3 --spp 1 --reference-spp 4 --methods bdpt"
 expect 0 'bathroom.pfm.* is of another scene: measured at 32x32 pixels' \
     "$lab" equal-time bathroom/scene.pbrt $tiny -o foreign

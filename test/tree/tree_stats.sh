@@ -2,7 +2,7 @@
 # tree_stats.sh: how large the tree is: for every room of src and every other part, its files, lines, lines of code and
 # share of comment; and words of the documents. Some totals have a goal, which is shown beside them. Run from the top.
 # A line of code holds something else than comment. Words to be read are those outside of tables; pages that are looked
-# up are not counted, as in words/limits.txt. Scripts are shell and awk.
+# up are not counted, as in words.txt. Scripts are shell and awk.
 set -u
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT

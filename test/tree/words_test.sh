@@ -2,11 +2,21 @@
 # words_test.sh: does words.sh find what is wrong in pages and sources, and nothing else?
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
-mkdir -p "$dir/lists" "$dir/src" "$dir/doc" "$dir/test/lab"
-printf '150 doc/short.md doc/more.md\n- doc/*.md\n175 all\n' >"$dir/lists/limits.txt"
-printf '# comment\nbut for = except\nlamps? = light\nwhoever needs = anyone who needs\n' >"$dir/lists/phrases.txt"
-printf 'doc/good.md | lamps | an exception\n' >"$dir/lists/exceptions.txt"
-words() { sh test/tree/words.sh "$dir" "$dir/lists" >"$dir/told"; }
+mkdir -p "$dir/src" "$dir/doc" "$dir/test/lab"
+cat >"$dir/words.txt" <<'END'
+== limits
+150 doc/short.md doc/more.md
+- doc/*.md
+175 all
+== phrases
+# comment
+but for = except
+lamps? = light
+whoever needs = anyone who needs
+== exceptions
+doc/good.md | lamps | an exception
+END
+words() { sh test/tree/words.sh "$dir" "$dir/words.txt" >"$dir/told"; }
 # repeat COUNT TEXT
 repeat() { awk -v count="$1" -v text="$2" 'BEGIN { while (count-- > 0) printf "%s ", text }'; }
 
@@ -30,17 +40,17 @@ grep -q ', 0 findings$' "$dir/told" || { echo "words.sh finds something in what 
 repeat 3 "Here $(repeat 16 word)word." >"$dir/doc/mean.md"
 echo 'A word.' >"$dir/other.md"
 printf 'int a; /* a value\n * whoever\n * needs */ char *s = "is %%d lamps";\n' >"$dir/src/bad.c"
-printf 'doc/short.md | lamps | an exception that nobody needs\n' >>"$dir/lists/exceptions.txt"
+printf 'doc/short.md | lamps | an exception that nobody needs\n' >>"$dir/words.txt"
 words
 cat >"$dir/expected" <<'END'
 doc/mean.md:1: long sentences -> 18.0 words in the mean
 doc/short.md:1: lamp -> light
 doc/short.md:3: but for -> except
 doc/short.md:6: long sentence -> 36 words
-exceptions.txt:2: an exception without use -> lamps
-limits.txt:1: too many words -> 164 of 150 in doc/short.md doc/more.md
-other.md:1: a page in no row of limits.txt
+other.md:1: a page without a limit
 src/bad.c:2: whoever needs -> anyone who needs
 src/bad.c:3: lamps -> light
+words.txt:12: an exception without use -> lamps
+words.txt:2: too many words -> 164 of 150 in doc/short.md doc/more.md
 END
 grep '^[a-z/]*\.[a-z]*:' "$dir/told" | sort | diff "$dir/expected" -

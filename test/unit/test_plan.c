@@ -154,6 +154,14 @@ static void test_stored(struct test *t)
     fclose(f);
     CHECK(t, !reference_find(test_tmp(t), "", "room", &r, &err) && strstr(err.text, "damaged") != NULL,
           "a picture of another hash is a reference");
+    remove(path);
+    snprintf(path, sizeof path, "%s/made.txt", test_tmp(t));
+    f = fopen(path, "w");
+    fputs("== roo\nfiles 1 2\n== room\nmaxdepth 7\n== rooms\nmaxdepth 8\n", f);
+    fclose(f);
+    CHECK(t, reference_find(test_tmp(t), "", "room", &r, &err) && r.max_depth == 7, "made.txt: depth %ld; %s", r.max_depth,
+          err.text);
+    reference_free(&r);
     CHECK(t, !reference_find("no-such-file.pfm", "", "room", &r, &err), "what was given is needed");
     CHECK(t, reference_find(NULL, "nowhere/room.pbrt", "no-such-room", &r, &err) && r.pixels == NULL, "none is found");
 }
