@@ -113,7 +113,7 @@ for folder in material parser geometry image; do
             -e 's/&shape_curve,/\&shape_planted,/' -e 's/{"sinc", SINC/{"planted", SINC/' \
             -e 's/{"\.png", png/{".planted", png/' \
             -e 's/{"environment", ENVIRONMENT, CAMERA_ENVIRONMENT/{"planted", P, CAMERA_PLANTED/' \
-            -e 's/"homogeneous") != 0/"planted") != 0/' -e 's/{"Rotate", ANY/{"Planted", ANY/' "$file" \
+            -e 's/"homogeneous") != 0/"unplanted") != 0/' -e 's/{"Rotate", ANY/{"Planted", ANY/' "$file" \
             >"$work/src/$folder/${file##*/}"
     done
 done
