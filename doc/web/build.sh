@@ -17,8 +17,8 @@ fi
 printf 'web_show\nweb_learns\n' >"$dir/page" # what the page has to give
 # Of the laboratory the other methods, and what tells of a sample.
 sources="$(ls src/*/*.c | grep -v -e '/main\.c' -e '/program\.c' -e 'render/rows\.c') $(ls test/lab/rivals/*.c test/lab/chains/*.c test/lab/caustics/*.c)
-    test/lab/rows.c test/lab/methods.c test/lab/compare.c test/lab/sheet.c test/lab/cmd_trace.c test/lab/load_job.c test/lab/trace.c
-    test/lab/trace_text.c test/lab/trace_svg.c test/lab/trace_values.c
+    test/lab/rows.c test/lab/methods.c test/lab/compare.c test/lab/sheet.c test/lab/cmd_trace.c test/lab/trace.c
+    test/lab/trace_text.c test/lab/trace_svg.c
     test/lab/race_table.c"
 "$clang" $target -std=c99 -Werror -Oz -Isrc -Itest -Itest/lab -ffp-contract=off -D_WASI_EMULATED_SIGNAL -Wl,-z,stack-size=4194304,-s \
     -Wl,--allow-undefined-file="$dir/page",--export=web_words,--export=web_command,--export=web_begin,--export=web_step \

@@ -1,7 +1,7 @@
 /* warp.h: maps from the unit square to disks, hemispheres and spheres, each with its density.
  *
  * Every warp takes (u1,u2) uniform in [0,1)^2. pdf_w is a density per steradian, pdf_a per unit area.
- * Tests: test_warp.c, chi-square of each map against its density. */
+ * Tests: test_sampler.c, chi-square of each map against its density. */
 #ifndef ASBDPT_WARP_H
 #define ASBDPT_WARP_H
 

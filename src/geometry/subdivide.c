@@ -6,7 +6,7 @@
  *
  * A mesh is its half-edges: half-edge h = 3 f + k of triangle f runs from corner k to the next.
  *
- * Tests: test_subdivide.c.
+ * Tests: test_mesh.c.
  */
 #include <stdlib.h>
 #include <string.h>

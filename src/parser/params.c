@@ -9,7 +9,6 @@
 #include "base/file.h"
 #include "base/near.h"
 #include "base/number.h"
-#include "parser/spd.h"
 #include "parser/spectrum.h"
 
 /* --- reading ------------------------------------------------------------------------------------------ */

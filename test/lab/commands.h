@@ -11,6 +11,10 @@ extern const struct command command_verify, command_experiment, command_equal_ti
     command_strategies, command_conform, command_render_more, command_sum, command_progress, command_corpus;
 
 /* load_job: job_load (render/job.h). Returns EXIT_OK, or another status after saying why. */
-int load_job(struct render_job *job, struct scene *scene, struct prepared *out);
+static inline int load_job(struct render_job *job, struct scene *scene, struct prepared *out)
+{
+    struct error err;
+    return job_load(job, scene, out, &err) ? EXIT_OK : job_failed(&err);
+}
 
 #endif

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "caustics/delta.h"
 #include "caustics/derived.h"
 #include "integrators/prepare.h"
 #include "lab/methods.h"

@@ -1,6 +1,6 @@
 /* trace.h: a witness of one pixel sample: what was walked, connected and added to the film, by an observer
  * (transport/observer.h). What comes of it is no second computation that might differ: added up in their order, the
- * contributions are the film's value to the last bit. The rest is what it tells: trace_text.c, _values.c, _svg.c.
+ * contributions are the film's value to the last bit. The rest is what it tells: trace_text.c, trace_svg.c.
  *
  * Tests: test_trace.c, test/run/cli.sh.
  */
@@ -16,7 +16,7 @@
 /* Copies of vertices, without their lobes and `lamp`, which do not outlive the sample. */
 struct trace_path {
     struct vertex *vertex; /* [n], owned */
-    double *pdf_rev;       /* [n - 1] vertex_pdf_rev (caustics/delta.h) of all but the last; owned */
+    double *pdf_rev;       /* [n - 1] vertex_pdf_rev (caustics/derived.h) of all but the last; owned */
     int n;
     size_t capacity, pdf_capacity;
     const struct vertex *source; /* what was copied: how a sub-path is recognised */

@@ -32,7 +32,32 @@ start_slurm() {
     mkdir -p "$work/state" "$work/spool"
     chmod 711 "$work"
     export SLURM_CONF="$work/slurm.conf"
-    sed "s|HOST|$host|g; s|WORK|$work|g" "$top/test/run/cluster.conf" >"$SLURM_CONF"
+    # a controller and a node on this machine
+    cat >"$SLURM_CONF" <<END
+ClusterName=test
+SlurmctldHost=$host(127.0.0.1)
+SlurmctldPort=16817
+SlurmdPort=16818
+AuthType=auth/munge
+CredType=cred/munge
+AuthInfo=socket=$work/munge.socket
+SlurmUser=root
+SlurmdUser=root
+StateSaveLocation=$work/state
+SlurmdSpoolDir=$work/spool
+SlurmctldPidFile=$work/ctld.pid
+SlurmdPidFile=$work/slurmd.pid
+SlurmctldLogFile=$work/ctld.log
+SlurmdLogFile=$work/slurmd.log
+ProctrackType=proctrack/pgid
+TaskPlugin=task/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+MpiDefault=none
+ReturnToService=2
+NodeName=$host NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN
+PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP
+END
     dd if=/dev/urandom of="$work/munge.key" bs=1024 count=1 2>/dev/null
     chmod 600 "$work/munge.key"
     munged --key-file="$work/munge.key" --socket="$socket" --pid-file="$work/munge.pid" \

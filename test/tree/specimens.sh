@@ -36,7 +36,7 @@ files() {
     material.unit) echo $unit/test_material.c ;;
     light.unit) echo $unit/test_emission.c $unit/test_light_sent.c ;;
     texture.unit) echo $unit/test_texture.c ;;
-    shape.unit) echo $unit/test_shape.c $unit/test_curve.c $unit/test_subdivide.c $unit/test_smooth.c ;;
+    shape.unit) echo $unit/test_shape.c $unit/test_curve.c $unit/test_mesh.c ;;
     filter.unit) echo $unit/test_film.c ;;
     camera.unit) echo $unit/test_camera.c ;;
     format.unit) echo $unit/test_file.c $unit/test_image.c $unit/test_hdr.c ;;

@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "format_parts.h"
 #include "parser/parser.h"
 #include "parser_parts.h"
 

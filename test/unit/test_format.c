@@ -16,7 +16,6 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "format_parts.h"
 #include "fuzz/lists.h"
 #include "parser/parse.h"
 #include "parser/scene_files.h"

@@ -12,7 +12,7 @@
  *
  * Tests: test_caustic.c.
  */
-#include "caustics/delta.h"
+#include "caustics/derived.h"
 #include "caustics/lamp.h"
 #include "caustics/one_more.h"
 #include "caustics/surfaces.h"

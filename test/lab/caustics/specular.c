@@ -1,6 +1,6 @@
 /* specular.c: see specular.h. */
 #include "caustics/specular.h"
-#include "caustics/delta.h"
+#include "caustics/derived.h"
 
 /* --- a ray and its derivatives ------------------------------------------------------------------------- */
 

@@ -27,7 +27,7 @@
 
 #include <string.h>
 
-#include "caustics/delta.h"
+#include "caustics/derived.h"
 #include "caustics/surfaces.h"
 #include "rivals/together.h"
 #include "tables/emission.h"

@@ -38,7 +38,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "caustics/delta.h"
+#include "caustics/derived.h"
 #include "caustics/surfaces.h"
 #include "integrators/prepare.h"
 #include "learning/learn.h"

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "caustics/delta.h"
+#include "caustics/derived.h"
 
 struct pixel together_begin(const struct prepared *p, const struct tile_pass *pass, int i, long iteration)
 {

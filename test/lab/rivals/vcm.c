@@ -21,7 +21,6 @@
 #include <string.h>
 
 #include "base/maths.h"
-#include "caustics/delta.h"
 #include "caustics/derived.h"
 #include "caustics/surfaces.h"
 #include "rivals/together.h"
