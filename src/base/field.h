@@ -9,7 +9,8 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
 
 /* What a parameter is, and the type of its place in the struct. Methods have those of the second line alone. */
 enum field_kind {
@@ -47,7 +48,19 @@ struct field_list {
 
 /* field_find: the one of that name in a table, which ends with one without, or NULL. field_fallback: of the three kinds
  * that methods have: the default as text [size]. */
-const struct field *field_find(const struct field *table, const char *name);
-void field_fallback(const struct field *f, char *text, size_t size);
+static inline const struct field *field_find(const struct field *table, const char *name)
+{
+    while (table->name != NULL && strcmp(table->name, name) != 0)
+        table++;
+    return table->name != NULL ? table : NULL;
+}
+
+static inline void field_fallback(const struct field *f, char *text, size_t size)
+{
+    if (f->kind == FIELD_WORD)
+        snprintf(text, size, "%s", f->words[(int)f->fallback]);
+    else
+        snprintf(text, size, "%g", f->fallback);
+}
 
 #endif

@@ -1,4 +1,4 @@
-/* exr.h: what the files about OpenEXR share: exr_read.c, piz.c, exr_write.c.
+/* exr.h: what the files about OpenEXR share: exr.c, piz.c.
  *
  * A file is a magic number, a version, a header of attributes, a table of offsets, and blocks of rows of the picture.
  * In a block come row after row; in a row channel after channel, in the order of the header, all samples
