@@ -155,14 +155,17 @@ exercise() {
 # variant NUMBER: the same for the same number, and different for neighbours.
 variant() {
     case $1 in '' | *[!0-9]*) die "variant NUMBER" ;; esac
-    awk -v number="$1" '!/^#/ {
+    awk -v number="$1" '$1 == "assignment" { part_of = substr($2, 1, 1) }
+    $1 == "second" {
+        sub(/^ *second /, part_of ": ")
+        n_second++
         while (match($0, /[{][^}]*[}]/)) {
             n = split(substr($0, RSTART + 1, RLENGTH - 2), part, ";")
-            choice = part[(number + NR) % n + 1]
+            choice = part[(number + n_second + 1) % n + 1]
             $0 = substr($0, 1, RSTART - 1) choice substr($0, RSTART + RLENGTH)
         }
         print
-    }' test/course/variants.txt
+    }' $list
 }
 
 . test/course/judge.sh
