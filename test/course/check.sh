@@ -58,7 +58,7 @@ copies() {
 
 # quiz: of the answers on standard input. Every question of the sheet has one row, `| 7b | result | computation |`; each
 # result is its computation, rounded as it is written; at least half of the questions have one.
-answers=doc/course/teacher/quiz-answers.md
+answers=doc/course/teacher/answers.md
 quiz() {
     awk -f test/course/quiz.awk doc/course/teacher/quiz.md - >"$dir/quiz.awk" && awk -f "$dir/quiz.awk"
 }

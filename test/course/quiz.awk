@@ -1,5 +1,5 @@
 # quiz.awk: an awk program that computes the answers of the quiz.
-#   awk -f test/course/quiz.awk doc/course/teacher/quiz.md doc/course/teacher/quiz-answers.md >X && awk -f X
+#   awk -f test/course/quiz.awk doc/course/teacher/quiz.md doc/course/teacher/answers.md >X && awk -f X
 # Every question needs one answer, and at least half of the questions a computation. X fails unless each of these,
 # rounded to the digits of its answer, is that answer; else it prints how many there are. An awk may lack sqrt and exp: X
 # has its own.

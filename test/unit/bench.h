@@ -1,4 +1,5 @@
-/* bench.h: a method made ready to be rendered by hand, a tile pass or a step of a chain at a time, on one thread. */
+/* bench.h: a method made ready to be rendered by hand, a tile pass or a step of a chain at a time, on one thread;
+ * and scenes of several suites. */
 #ifndef ASBDPT_TEST_BENCH_H
 #define ASBDPT_TEST_BENCH_H
 
@@ -27,5 +28,8 @@ struct tile_pass bench_pass(struct bench *b, long first, long end);
  * roulette; for paths of CHAIN_DEPTH. */
 enum { CHAIN_DEPTH = 4 };
 bool chain_room(struct test *t, int width, int height, const char *lens, const char *filter, struct scene *out);
+
+/* Fog about the lens, a point light and a lamp, in the sky, with a ball of milk in glass: three groups of lights. */
+extern const char FOGGY[];
 
 #endif

@@ -7,9 +7,9 @@
 
 #include "base/os.h"
 #include "lab/paths.h"
-#include "foggy.h"
 #include "lab/methods.h"
 #include "agree.h"
+#include "bench.h"
 #include "helpers.h"
 #include "suites.h"
 

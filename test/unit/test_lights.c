@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/os.h"
-#include "foggy.h"
+#include "bench.h"
 #include "lab/methods.h"
 #include "lab/planes.h"
 #include "helpers.h"
