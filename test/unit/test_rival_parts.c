@@ -151,8 +151,10 @@ static void check_weights(struct test *t, const char *path, const char *method)
             if (light[s - 1].prev_delta)
                 break;
             struct sample sample = sample_begin(&pass, k, 3);
-            struct vertex *eye = sample.eye;
-            if (sample_eye_path(&sample, 2) < 2 || !oracle_weights(&scene, r.counts, light, s, eye, 2, weight))
+            struct vertex eye[16]; /* longer than the sample's: light vertices follow */
+            int n_eye = sample_eye_path(&sample, 2);
+            memcpy(eye, sample.eye, 2 * sizeof *eye);
+            if (n_eye < 2 || !oracle_weights(&scene, r.counts, light, s, eye, 2, weight))
                 continue;
             if (s == 2)
                 check_mixture(t, &r, &eye[1]);
