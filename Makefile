@@ -207,7 +207,6 @@ layers: ## check that no file includes a higher folder, that no includes go in a
 
 standard: ## check that src calls and includes nothing that differs from machine to machine, except in base/os*.c; nor scripts
 	@sh test/tree/standard.sh
-	@sh test/tree/scripts.sh
 
 references: ## check that every source named in a comment is in doc/references.md, and that all there are used
 	@sh test/tree/references.sh

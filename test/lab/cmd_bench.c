@@ -12,7 +12,7 @@
 #include "lab/bar.h"
 #include "lab/commands.h"
 #include "lab/methods.h"
-#include "lab/rays.h"
+#include "lab/tree.h"
 #include "lab/timed.h"
 #include "parser/parser.h"
 #include "render/job.h"

@@ -25,7 +25,7 @@
 #include "lab/methods.h"
 #include "lab/plan.h"
 #include "lab/race_table.h"
-#include "lab/rays.h"
+#include "lab/tree.h"
 #include "lab/results.h"
 #include "lab/timed.h"
 

@@ -1,7 +1,7 @@
 /* embree.c: rays through the kd-tree and through Embree 3, robust and with one thread: the same rays of the same
  * triangles. Prints of each scene a line: its path, its triangles, then of three queries Mray/s of CPU by the kd-tree,
  * by Embree, and the ratio, which is the median of nine taken in turn. The queries: first hits of incoherent rays
- * (lab/rays.h), any hit of the same, any hit between two places that neighbours of them meet.
+ * (lab/tree.h), any hit of the same, any hit between two places that neighbours of them meet.
  *     build/embree SCENE.pbrt...
  */
 #include <embree3/rtcore.h>
@@ -10,7 +10,7 @@
 
 #include "base/mem.h"
 #include "base/os.h"
-#include "lab/rays.h"
+#include "lab/tree.h"
 #include "parser/parser.h"
 
 enum query { CLOSEST, ANY, BETWEEN, N_QUERIES };
