@@ -169,7 +169,7 @@ LONG  = $(foreach name,mini cli checkpoint build examples progress embed,"sh tes
 SHORT = $(foreach name,lab sample corpus outputs boxes install suites_test hashes_test hashes,"sh test/run/$(name).sh $(PROGRAM)") \
     "LIST=test/lab/hashes.txt sh test/run/hashes.sh $(LAB)" "sh test/tree/words_test.sh" \
     "sh test/run/readme.sh $(PROGRAM) doc/scene-format.md doc/tour/trace.md"
-test: ## build with all cores, and run the test suite (three minutes on two cores)
+test: ## build with all cores, and run the test suite (four minutes on two cores)
 	@$(MAKE) $(CORES) asbdpt asbdpt-lab $(BUILD)/test $(BUILD)/boxes lib
 	@sh test/run/suites.sh $(LONG) $(FACTS) $(BUILD)/test $(SHORT)
 
