@@ -53,7 +53,7 @@ static double flight(const struct full_path *f, int i, int j, int channel)
     int a = at_infinity(f, i) ? j : i, b = i + j - a; /* it is as likely both ways, but for the ends */
     const struct vertex *v = f->x[a];
     vec3 w = direction(f, a, b);
-    struct ray ray = {v->p, w, ray_margin(v->p), INFINITY, v->prim_id, f->x[b]->prim_id};
+    struct ray ray = {v->p, w, end_margin(v->p, v->prim_id), INFINITY, v->prim_id, f->x[b]->prim_id};
     int medium = v->medium;
     double q = 1;
     if (s->space == NULL)
