@@ -114,8 +114,8 @@ static int pixels_lit(const struct lap *a)
     return lit;
 }
 
-/* From the two laps of a runner; most: of pixels_lit. Of what the render makes in one of `every`
- * iterations the second moment counts, which is nearly its variance. */
+/* From the two laps of a runner; most: of pixels_lit. For what the render makes in one of `every` iterations we take the
+ * second moment, which is nearly the variance. */
 static void judge(struct runner *k, const struct lap *a, const double *unit, int most)
 {
     const struct lap *b = a + 1;

@@ -34,8 +34,8 @@ struct tile_pass {
     struct tile *tile; /* started; receives the result */
     struct workspace *work;
     const struct observer *observer; /* sample.h; NULL: none */
-    enum cancel ends_at; /* the least answer of job_cancelled at which it ends early: CANCEL_NOW; of a pass that no
-                          * picture has CANCEL_BLOCK */
+    enum cancel ends_at; /* always set: the least answer of job_cancelled at which it ends early: CANCEL_NOW; of a pass
+                          * that no picture has CANCEL_BLOCK */
 };
 
 /* pass_cancelled: should the tile pass end early? After the first yes the answer stays yes, and the tile is discarded.

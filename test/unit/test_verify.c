@@ -139,7 +139,7 @@ static struct batches rare(struct rng *r, int n_batches, double chance, double s
  * half as bright again, or black, is found. */
 static void test_rare(struct test *t)
 {
-    enum { TRIALS = 40, FAULTS = 5 };
+    enum { TRIALS = 80, FAULTS = 10 };
     static const double chance[4] = {0.1, 0.03, 0.01, 0.003};
     struct rng r = rng_stream(test_seed(t), RNG_TEST, 804, 0);
     int differ = 0, welch = 0, found[2] = {0, 0};

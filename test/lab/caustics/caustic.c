@@ -396,7 +396,7 @@ bool caustics_pay(struct one_more *self, const struct render_job *job, const str
         sampler_r2(i, &u, &v);
         int x = film.x0 + (int)(u * rect_width(film)), y = film.y0 + (int)(v * rect_height(film));
         struct tile_pass pass = {.job = &other, .counts = counts, .first = i, .end = i + 1, .tile = &tile,
-                                 .work = work};
+                                 .work = work, .ends_at = CANCEL_NOW};
         tile_start(&tile, (struct tile_pixels){{x, y, x + 1, y + 1}, 1, 1, 0, 0}, film, &job->scene->filter);
         arena_reset(&work->arena);
         struct sample sample = sample_begin(&pass, 0, i);

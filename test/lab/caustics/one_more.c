@@ -182,8 +182,10 @@ void one_more_release(struct prepared *p) { method_release(&((struct one_more_ow
 void one_more_pass(const struct prepared *p, const struct tile_pass *pass)
 {
     const struct one_more_own *own = p->own;
+    struct tile_pass inner = *pass;
+    inner.counts = &own->method.counts;
     if (own->more != NULL)
-        one_more_render(&own->method, own->more, pass);
+        one_more_render(&own->method, own->more, &inner);
     else
-        own->method.method->render(&own->method, pass);
+        own->method.method->render(&own->method, &inner);
 }

@@ -12,7 +12,8 @@
 static void sample(struct chain *c, bool small)
 {
     const struct render_job *job = c->job;
-    const struct tile_pass pass = {.job = job, .counts = &c->all->counts, .tile = &c->next.heard, .work = c->work};
+    const struct tile_pass pass = {.job = job, .counts = &c->all->counts, .tile = &c->next.heard,
+                                   .work = c->work, .ends_at = CANCEL_NOW};
     struct primary p;
     double px, py;
     primary_begin(&p, c, small);

@@ -245,7 +245,8 @@ static void trace(struct learning *l, struct workspace *work, long i, struct les
     long width = rect_width(rect), pixels = width * rect_height(rect), at = i % pixels;
     int pixel[1][2] = {{rect.x0 + (int)(at % width), rect.y0 + (int)(at / width)}};
     struct tile tile = {.pixel = pixel, .n_pixels = 1}; /* counts what is not finite */
-    const struct tile_pass pass = {.job = l->job, .counts = &trainer->prepared->counts, .tile = &tile, .work = work};
+    const struct tile_pass pass = {.job = l->job, .counts = &trainer->prepared->counts, .tile = &tile, .work = work,
+                                   .ends_at = CANCEL_NOW};
     struct sample sample;
     struct step *step;
     int n = trace_pixel(trainer->prepared, &pass, 0, -(trainer->end + i) / pixels, 1, &sample, &step);
