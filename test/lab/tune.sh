@@ -32,7 +32,9 @@ build() {
 render() {
     integrator=asbdpt
     case $1 in bdpt | pt) integrator=$1 ;; esac
-    "$dir/programs/$1" render "scenes/$2.pbrt" --integrator $integrator --res "$RES" --spp "$4" --seed "$3" -j1 \
+    from=$dir/scenes/$2.pbrt # that lies in a list
+    [ -f "$from" ] || from=scenes/$2.pbrt
+    "$dir/programs/$1" render "$from" --integrator $integrator --res "$RES" --spp "$4" --seed "$3" -j1 \
         -o "$5" --stats "$5.json" >"$dir/log.txt" 2>&1
 }
 
@@ -52,6 +54,7 @@ measure() {
 }
 
 mkdir -p "$dir/tree" "$dir/programs" "$TRUTH"
+sh scenes/unpack.sh scenes/features "$dir/scenes/features" || exit 1
 touch "$dir/runs.txt"
 cp -R Makefile src test "$dir/tree/"
 for name in asbdpt-lab $names; do

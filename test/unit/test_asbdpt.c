@@ -62,7 +62,7 @@ static const struct agreement QUICK[] = {
      "asbdpt select=subspaces pathpixels=2 race=off, asbdpt select=subspaces pathpixels=5 race=off,"
      "asbdpt select=subspaces pathpixels=9 race=off, lvc connections=1 pathpixels=5, lvc connections=1 pathpixels=9,"
      "cbdpt connections=3 pathpixels=2, cbdpt connections=3 pathpixels=5, cbdpt connections=1 pathpixels=9",
-     32, 32, 16, 3, true, 0.1},
+     64, 64, 16, 3, true, 0.1},
     {"scenes/test/light-kinds", 18, 12, 4, "bdpt", ALONE ", " RIVALS, 4, 4, 16, 8, true, 0.1},
     {"scenes/media/inside", 18, 12, 4, "bdpt", ALONE, 2, 2, 16, 8, true, 0.6},
     {"scenes/test/light-kinds", 16, 16, 4, "bdpt", EVERY, 2, 2, 16, 8, true, 0.1},
