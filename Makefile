@@ -152,7 +152,7 @@ web: asbdpt ## build and test the page that renders, out/asbdpt.html, where clan
 	sh doc/web/build.sh out/asbdpt.html
 	sh test/run/web.sh out/asbdpt.html
 
-bench: asbdpt-lab ## measure speed and memory on the scenes (or SCENES="..."), the laboratory linked as the renderer is
+bench: ## measure speed and memory on the scenes (or SCENES="..."), the laboratory linked as the renderer is
 	rm -f asbdpt-lab && $(MAKE) NO_LTO= asbdpt-lab
 	$(LAB) bench $(SCENES) scenes/test/many-lamps.pbrt
 

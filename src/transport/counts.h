@@ -28,7 +28,7 @@
 #include "tables/tables.h"
 #include "transport/vertex.h"
 
-/* For methods that have them. */
+/* Of methods whose parameter `credits` is on. */
 enum { DIRECT_CREDIT = 4, PAIR_CREDIT = 2 };
 
 /* How many samples a method takes, in each iteration of a pixel. */

@@ -177,8 +177,8 @@ static double eye_density(const struct full_path *f, int j)
     return per_area(f, j + 1, j, pdf);
 }
 
-/* Which eye end x_i is, i >= 1: the first that is not seen by way of delta lobes alone? */
-static enum eye_hit end_of(const struct full_path *f, int i)
+/* Which hit x_i is, i >= 1: the first that is not seen by way of delta lobes alone? */
+static enum eye_hit hit_of(const struct full_path *f, int i)
 {
     for (int j = i + 1; j < f->n - 1; j++)
         if (!f->delta[j])
@@ -213,16 +213,16 @@ static double samples(const struct full_path *f, int i)
     int t = f->n - i;
     if (i == 0) {
         bool delta_light = f->x[0]->kind == VERTEX_LIGHT && light_is_delta(&f->scene->lights.light[f->x[0]->light]);
-        return delta_light ? 0 : m->s0[end_of(f, 1)];
+        return delta_light ? 0 : m->s0[hit_of(f, 1)];
     }
     if (t < 1 || f->delta[i - 1] || f->delta[i])
         return 0;
     if (t == 1)
         return m->lens;
     if (i == 1)
-        return m->s1[end_of(f, i)] * learnt_direct(f);
+        return m->s1[hit_of(f, i)] * learnt_direct(f);
     double ratio = table_ratio(&m->tables->pairs, region(f, i, i + 1), region(f, i - 1, i - 2));
-    double x = m->pair[end_of(f, i)] * ratio, bound = m->bound[end_of(f, i)] * ratio;
+    double x = m->pair[hit_of(f, i)] * ratio, bound = m->bound[hit_of(f, i)] * ratio;
     return x - x * bound / (1 + bound);
 }
 

@@ -40,9 +40,9 @@ static void prepare(const struct render_job *job, struct prepared *p)
 {
     bool as_many = p->numbers.draws[FIRST_HIT] == 0;
     (void)job;
-    for (int end = 0; end < EYE_HITS && as_many; end++)
-        if (p->numbers.draws[end] == 0)
-            p->numbers.draws[end] = int_within(ceil(p->tables->light_vertices), 1, 1024);
+    for (int hit = 0; hit < EYE_HITS && as_many; hit++)
+        if (p->numbers.draws[hit] == 0)
+            p->numbers.draws[hit] = int_within(ceil(p->tables->light_vertices), 1, 1024);
 }
 
 static const struct field PARAMETERS[] = {

@@ -89,7 +89,7 @@ static void connect_length(const struct prepared *p, const struct pool *pool, co
 {
     int64_t step = lattice_step(n);
     for (int i = 0; i < n; i++)
-        rank(row, i, pixel[i].eye, pixel[i].n, t, false, ((const struct mbdpt *)p->own)->throughput);
+        rank(row, i, pixel[i].sample.eye, pixel[i].n, t, false, ((const struct mbdpt *)p->own)->throughput);
     qsort(row, (size_t)n, sizeof *row, by_key);
     for (int i = 0; i < n && row[i].key < INFINITY; i++)
         for (int s = 2; s <= pixel->sample.pass->job->max_depth + 2 - t; s++) {

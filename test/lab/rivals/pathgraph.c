@@ -215,7 +215,7 @@ static void sweep(const struct pathgraph *s, struct pixel *pixel, struct node **
     struct node **node = arena_alloc(&pass->work->arena, (size_t)n * (size_t)(at_once ? longest : 1) * sizeof *node);
     for (int t = longest, here = 0; t >= 2 && !pass_cancelled(pass); t--) {
         for (int i = 0; i < n; i++)
-            if (t <= pixel[i].n && pixel[i].eye[t - 1].kind == VERTEX_SURFACE)
+            if (t <= pixel[i].n && pixel[i].sample.eye[t - 1].kind == VERTEX_SURFACE)
                 node[here++] = &of[i][t - 1];
         if (at_once && t > 2)
             continue;
@@ -250,7 +250,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
         of[i] = arena_alloc(arena, (size_t)x->n * sizeof **of);
         for (int t = 1; t <= x->n; t++) {
             bool last = t > pass->job->max_depth + 1;
-            struct node node = {.z = &x->eye[t - 1], .ends = t == x->n, .led = !last,
+            struct node node = {.z = &x->sample.eye[t - 1], .ends = t == x->n, .led = !last,
                                 .number = i * (pass->job->max_depth + 2) + t};
             if (node.z->kind == VERTEX_SURFACE && (!last || s->iterations > 0))
                 draw_light(&x->sample, &node);

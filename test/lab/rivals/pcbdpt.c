@@ -20,8 +20,8 @@
 static void prepare(const struct render_job *job, struct prepared *p)
 {
     (void)job;
-    for (int end = 0; end < EYE_HITS; end++) /* all draws count as one */
-        p->draw_worth[end] = 1.0 / most_of(p->numbers.draws[end], 1);
+    for (int hit = 0; hit < EYE_HITS; hit++) /* all draws count as one */
+        p->draw_worth[hit] = 1.0 / most_of(p->numbers.draws[hit], 1);
 }
 
 static const struct field PARAMETERS[] = {

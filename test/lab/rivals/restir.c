@@ -43,11 +43,11 @@ static struct reservoir resample(struct pixel *p, int M)
 {
     struct reservoir r = {.weight = 0};
     double sum = 0, own = 0;
-    bool surface = p->n >= 2 && p->eye[1].kind == VERTEX_SURFACE;
+    bool surface = p->n >= 2 && p->sample.eye[1].kind == VERTEX_SURFACE;
     for (int m = 0; surface && m < M; m++) {
         struct light_point at;
         struct lit y;
-        bool lit = lit_draw(&p->sample, &p->eye[1], &p->sample.sampler, m, M, &at, &y);
+        bool lit = lit_draw(&p->sample, &p->sample.eye[1], &p->sample.sampler, m, M, &at, &y);
         double f = lit ? rgb_luminance(y.value) : 0;
         sum += f;
         if (f > 0 && sampler_number(&p->sample.choice, DRAW_ORDER) * sum < f) {
@@ -70,7 +70,7 @@ static void reuse(struct pixel *pixel, const struct reservoir *all, const int *n
     int from = 0;
     for (int j = 0; j < n; j++) {
         const struct reservoir *r = &all[near[j]];
-        double f = r->weight > 0 ? value_at(scene, &c->eye[1], r, &l) : 0;
+        double f = r->weight > 0 ? value_at(scene, &c->sample.eye[1], r, &l) : 0;
         sum += f * r->weight;
         if (f > 0 && sampler_number(&c->sample.choice, DRAW_ORDER) * sum < f * r->weight) {
             kept = l;
@@ -81,13 +81,13 @@ static void reuse(struct pixel *pixel, const struct reservoir *all, const int *n
     if (!(own > 0))
         return;
     for (int k = 0; k < n; k++) {
-        double f = value_at(scene, &pixel[near[k]].eye[1], &all[near[from]], &l);
+        double f = value_at(scene, &pixel[near[k]].sample.eye[1], &all[near[from]], &l);
         others += f > 0 && reuse_sees(scene, &l) ? f : 0;
     }
-    double m = value_at(scene, &pixel[near[from]].eye[1], &all[near[from]], &l) / others;
+    double m = value_at(scene, &pixel[near[from]].sample.eye[1], &all[near[from]], &l) / others;
     struct connection made = connect_lit(scene, c->sample.pass->counts, &kept);
     const struct vertex y = light_vertex(scene, c->sample.pass->counts, &kept.at);
-    sample_add(&c->sample, (struct joined){.s = 1, .t = 2, .path = &y, .z = &c->eye[1], .c = &made, .pmf = 1,
+    sample_add(&c->sample, (struct joined){.s = 1, .t = 2, .path = &y, .z = &c->sample.eye[1], .c = &made, .pmf = 1,
                                            .scale = m * sum / own});
 }
 
@@ -101,7 +101,7 @@ static void join_own(struct pixel *pixel)
     struct vertex *light = arena_alloc(arena, ((size_t)pass->job->max_depth + 1) * sizeof *light);
     int n = sample_light_path(pass, sample->i, (uint64_t)sample->iteration, arena, light);
     for (int t = 2; t <= pixel->n; t++)
-        if (vertex_connectible(&pixel->eye[t - 1]))
+        if (vertex_connectible(&pixel->sample.eye[t - 1]))
             sample_pairs(sample, &(struct drawn){light, 1, n, 1}, t, 1);
     sample_lens(sample, light, n, 1);
 }

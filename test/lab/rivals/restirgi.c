@@ -52,7 +52,7 @@ struct reservoir {
 /* What pixel p has of a tail, if z1 and z2 see each other. Returns f; *g as above. */
 static double value_at(const struct pixel *p, const struct tail *x, struct connection *out, double *g)
 {
-    const struct vertex *z = &p->eye[1];
+    const struct vertex *z = &p->sample.eye[1];
     vec3 d = sub(x->z->p, z->p);
     double d2 = length2(d);
     struct connection c = {.light = x->ends_on, .weight = x->light};
@@ -123,31 +123,31 @@ static void offer_later(struct pixel *p, struct reservoir *r, const struct verte
     reuse_step(z, &z[1], &roulette);
     double pdf = bsdf_eval(&z->bsdf, z->wo, x.w, RADIANCE).pdf, density = z->pdf_fwd * pdf / roulette;
     for (x.t = 4; x.t <= p->n; x.t++) {
-        struct vertex at = p->eye[x.t - 1];
+        struct vertex at = p->sample.eye[x.t - 1];
         at.beta = beta;
         for (x.s = 0; x.s <= (at.kind == VERTEX_SURFACE && x.t <= job->max_depth + 1); x.s++) {
             struct connection c =
-                x.s == 0 ? reuse_hit(sample, &p->eye[x.t - 2], &p->eye[x.t - 1], beta)
+                x.s == 0 ? reuse_hit(sample, &p->sample.eye[x.t - 2], &p->sample.eye[x.t - 1], beta)
                          : connect_s1(job->scene, sample->pass->counts, &at, &sample->sampler, 0, 1, &x.y);
             x.kind = x.s == 0 && x.t == 4 ? HIT : LATER;
             x.light = x.kind == HIT ? pdf * reuse_hit_density(job->scene, &z[1]) : c.weight;
             x.L = c.value;
             x.ends_on = c.light;
             if (own)
-                sample_add(sample, (struct joined){.s = x.s, .t = x.t, .z = &p->eye[x.t - 1], .c = &c,
+                sample_add(sample, (struct joined){.s = x.s, .t = x.t, .z = &p->sample.eye[x.t - 1], .c = &c,
                                                    .path = x.s == 1 ? &x.y : NULL, .pmf = 1, .scale = 1});
             else if (!rgb_is_black(c.value))
                 offer(p, r, &x, density, sum);
         }
         if (x.t < p->n)
-            beta = rgb_mul(beta, reuse_step(&p->eye[x.t - 1], &p->eye[x.t], &later));
+            beta = rgb_mul(beta, reuse_step(&p->sample.eye[x.t - 1], &p->sample.eye[x.t], &later));
     }
 }
 
 /* The pixel's own reservoir; what is not shared is added. */
 static struct reservoir resample(struct pixel *p, bool shares)
 {
-    const struct vertex *z = &p->eye[2];
+    const struct vertex *z = &p->sample.eye[2];
     struct reservoir r = {.weight = 0, .shares = shares};
     double sum = 0;
     if (!shares || p->n < 3 || z->prev_delta || z->kind != VERTEX_SURFACE || !vertex_connectible(z)) {
@@ -172,11 +172,11 @@ static bool near_enough(double g, double h) { return g < 10 * h && h < 10 * g; }
 static void add_made(struct pixel *c, const struct tail *x, const struct connection *made, double scale)
 {
     const struct tile_pass *pass = c->sample.pass;
-    size_t t = (size_t)x->t, size = sizeof *c->eye;
+    size_t t = (size_t)x->t, size = sizeof *c->sample.eye;
     struct joined j = {.s = x->s, .t = x->t, .c = made, .path = x->s == 1 ? &x->y : NULL, .pmf = 1, .scale = scale};
     if (pass->observer != NULL) {
         struct vertex *path = arena_alloc(&pass->work->arena, t * size);
-        memcpy(path, c->eye, 2 * size);
+        memcpy(path, c->sample.eye, 2 * size);
         memcpy(path + 2, x->z, (t - 2) * size);
         j.z = &path[t - 1];
     }
@@ -205,7 +205,7 @@ static void reuse(struct pixel *pixel, const struct reservoir *all, const int *n
     }
     const struct tail *x = &all[near[from]].x;
     for (int k = 0; own > 0 && k < n; k++) {
-        const struct vertex *z = &pixel[near[k]].eye[1];
+        const struct vertex *z = &pixel[near[k]].sample.eye[1];
         double f = all[near[k]].shares ? value_at(&pixel[near[k]], x, &made, &h) : 0;
         bool seen = f > 0 && near_enough(h, g) &&
                     (k == from || scene_visible(c->sample.pass->job->scene, z->p, z->prim_id, x->z->p, x->z->prim_id));

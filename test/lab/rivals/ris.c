@@ -127,11 +127,11 @@ static void count(struct sums *a, double ratio, double plain, double N)
     a->N += ratio * N;
 }
 
-/* s = 1: of an eye end z and a point of a light's cell. */
-static void count_direct(const struct cache *r, struct sums *a, double ratio, const struct vertex *z, enum eye_hit end,
+/* s = 1: of an eye vertex z and a point of a light's cell. */
+static void count_direct(const struct cache *r, struct sums *a, double ratio, const struct vertex *z, enum eye_hit hit,
                          int cell)
 {
-    double n = n_s1(r->counts, z->place, end, cell);
+    double n = n_s1(r->counts, z->place, hit, cell);
     count(a, ratio, n, n);
 }
 
@@ -255,7 +255,7 @@ static void gather(struct cache *r, const struct prepared *p, const struct tile_
     struct pool *pool = &pass->work->pool;
     r->own = p->own;
     r->scene = pass->job->scene;
-    r->counts = &p->counts;
+    r->counts = pass->counts;
     r->credit = p->parameters.credits ? PAIR_CREDIT : 1;
     r->pool = pool;
     r->K = r->own->sub_paths < pool->n ? r->own->sub_paths : pool->n;
@@ -435,8 +435,8 @@ void ris_prepare(const struct render_job *job, struct prepared *p)
     const struct ris *own = p->own;
     int M = own->sub_paths;
     (void)job;
-    for (int end = 0; end < EYE_HITS; end++)
-        p->draw_worth[end] = own->nabata ? M / ((M - 1) * p->tables->light_vertices + 1) : 1;
+    for (int hit = 0; hit < EYE_HITS; hit++)
+        p->draw_worth[hit] = own->nabata ? M / ((M - 1) * p->tables->light_vertices + 1) : 1;
 }
 
 void ris_render(const struct prepared *p, const struct tile_pass *pass)

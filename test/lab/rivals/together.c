@@ -11,8 +11,8 @@ struct pixel together_begin(const struct prepared *p, const struct tile_pass *pa
     struct sample *sample = &pixel.sample;
     pixel.n = loop_begin(p, pass, i, iteration, sample);
     sample->choice = sample_stream(pass, RNG_SELECT, sample->x, sample->y, (uint64_t)iteration);
-    size_t size = (size_t)pixel.n * sizeof *pixel.eye;
-    pixel.eye = sample->eye = memcpy(arena_alloc(&pass->work->arena, size), pass->work->eye, size);
+    size_t size = (size_t)pixel.n * sizeof *sample->eye;
+    sample->eye = memcpy(arena_alloc(&pass->work->arena, size), pass->work->eye, size);
     return pixel;
 }
 
@@ -66,7 +66,7 @@ int reuse_neighbours(struct pixel *pixel, int n, int i, int tries, int *near)
     for (int k = 0; k < tries; k++) {
         struct sampler *choice = &pixel[i].sample.choice;
         int x = near_to(choice, i % columns, columns), j = x + columns * near_to(choice, i / columns, rows);
-        if (j != i && j < n && reuse_first(&pixel[j]) && alike(pixel[i].eye, pixel[j].eye))
+        if (j != i && j < n && reuse_first(&pixel[j]) && alike(pixel[i].sample.eye, pixel[j].sample.eye))
             near[found++] = j;
     }
     return found;

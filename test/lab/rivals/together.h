@@ -13,8 +13,7 @@
 /* A pixel of a tile in an iteration, with its eye sub-path. */
 struct pixel {
     struct sample sample;
-    struct vertex *eye; /* [n] */
-    int n;
+    int n; /* of its vertices */
 };
 
 /* All strategies of all n pixels. `cache` is what the method's `build` has made of the pool, if it has one. */
@@ -40,7 +39,10 @@ static inline bool lit_draw(const struct sample *sample, const struct vertex *z,
 enum { MOST_NEIGHBOURS = 32, NEAR = 4 };
 
 /* reuse_first: is the pixel's first vertex one to connect to? */
-static inline bool reuse_first(const struct pixel *p) { return p->n >= 2 && vertex_connectible(&p->eye[1]); }
+static inline bool reuse_first(const struct pixel *p)
+{
+    return p->n >= 2 && vertex_connectible(&p->sample.eye[1]);
+}
 
 /* reuse_neighbours: pixel i, and of `tries` others of the tile's n, at most NEAR columns and rows away, those whose first
  * vertex is like its own in depth and normal, into near [tries + 1]; of a pixel without such a vertex none. Returns how

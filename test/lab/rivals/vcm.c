@@ -182,7 +182,7 @@ static void connect_all(const struct prepared *p, const struct tile_pass *pass, 
     (void)p;
     for (int i = 0; i < n && !pass_cancelled(pass); i++) {
         struct sample *sample = &pixel[i].sample;
-        struct vertex *eye = pixel[i].eye;
+        struct vertex *eye = pixel[i].sample.eye;
         const struct drawn light = {pool_path(pool, i), 1, pool->length[i], 1};
         know_merges(m, &pass->work->arena, eye, pixel[i].n, RADIANCE);
         sample_alone(sample, pixel[i].n);
