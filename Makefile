@@ -187,6 +187,7 @@ check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject #
 	sh test/run/cluster.sh $(PROGRAM)
 	BUILD=$(BUILD) sh test/measure/structures.sh out/structures
 	BUILD=$(BUILD) COUNT=10 SPP=16 sh test/measure/predictions.sh out/race
+	RES=8x6 SPP=1 REFERENCE_SPP=1 SEEDS=61 sh test/lab/tune.sh out/tune pt
 
 check-ref: asbdpt asbdpt-lab ## check that the program still converges to the stored references
 	sh ref/check-ref.sh $(PROGRAM)
