@@ -19,10 +19,10 @@
 /* A way to render that competes in a race (race.h), and what the race has found; 0: not measured. */
 struct runner {
     struct numbers numbers;
-    double variance, direct; /* of a sample and of its direct light at first hits, relative to the brightness squared */
-    double price;            /* of a sample, any unit */
+    double variance; /* of a sample, relative to the brightness squared */
+    double price;    /* of a sample, any unit */
 };
-/* Those who compete in the first stage come last, and of these the path tracers. As in RACES. */
+/* As in RACES. The path tracers come last. */
 enum runner_number { RUNNER_ALL, RUNNER_QUARTER, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
 
 /* runner_name: as -P race= has it. runner_cost: what a race minimises. */

@@ -8,20 +8,15 @@
 
 enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
 
-static bool has_light_paths(const struct prepared *p) { return p->runner[p->winner].numbers.path_pixels > 0; }
-
-/* What to learn for a runner. A path tracer of a method that learns much needs little, and has it from few sub-paths.
- *   light_paths  for light sub-paths, too */
-static struct learn_options what_to_learn(const struct render_job *job, const struct prepared *p, int runner,
-                                          bool light_paths)
+static struct learn_options what_to_learn(const struct render_job *job, const struct prepared *p)
 {
     const struct method *m = p->method;
     const struct parameters *q = &p->parameters;
-    bool few = runner >= RUNNER_PATH_TRACER && m->learns_pairs;
+    bool light_paths = p->runner[p->winner].numbers.path_pixels > 0;
     return (struct learn_options){
-        .use = light_paths && (m->learns_use || q->emission < 1), .pairs = !few && m->learns_pairs,
+        .use = light_paths && (m->learns_use || q->emission < 1), .pairs = light_paths && m->learns_pairs,
         .guide = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
-        .emission = q->emission, .delta = q->delta, .count = light_paths && m->vertices, .few = few};
+        .emission = q->emission, .delta = q->delta, .count = light_paths && m->vertices};
 }
 
 /* Of single vertices, a draw is one of so many of a light sub-path. */
@@ -32,43 +27,26 @@ static void find_draw_worth(struct prepared *p)
         p->draw_worth[hit] = n > 0 ? 1 / n : 1;
 }
 
-/* Learn tables, and make of them what samples need. */
-static void learn_for(const struct render_job *job, struct prepared *p, int runner, bool light_paths)
+/* Learn tables, and let runners compete if they may: for p->winner, or RUNNER_ALL before a race. */
+static void learn_and_race(const struct render_job *job, struct prepared *p)
 {
-    const struct learn_options options = what_to_learn(job, p, runner, light_paths);
-    tables_free(p->tables);
-    *p->tables = NO_TABLES;
+    const int asked = p->numbers.path_pixels > 0 ? p->parameters.race : RACE_OFF;
+    race_begin(job->scene, p);
+    p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
+    const struct learn_options options = what_to_learn(job, p);
     learn(job, &options, p->tables);
     find_draw_worth(p);
     if (p->method->prepare != NULL)
         p->method->prepare(job, p);
-}
-
-/* Where there is much to learn, a first race finds out whether it may pay. */
-static void learn_and_race(const struct render_job *job, struct prepared *p)
-{
-    const int asked = p->numbers.path_pixels > 0 ? p->parameters.race : RACE_OFF;
-    const bool races = asked == RACE_ON && rect_pixels(job->film_rect) >= RACE_LEAST_PIXELS;
-    race_begin(job->scene, p);
-    if (races && p->method->learns_pairs) {
-        learn_for(job, p, RUNNER_PATH_TRACER, true);
-        if (race_early(job, p)) {
-            if (!has_light_paths(p)) /* light sub-paths of a rival have had their tables */
-                learn_for(job, p, p->winner, false);
-            return;
-        }
-    }
-    p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
-    learn_for(job, p, p->winner, p->winner < RUNNER_PATH_TRACER || has_light_paths(p));
     race_begin(job->scene, p); /* `prepare` may have changed the numbers */
-    if (races)
+    if (asked == RACE_ON && rect_pixels(job->film_rect) >= RACE_LEAST_PIXELS)
         race(job, p);
 }
 
 /* Was the job cancelled before all was learnt and raced? A race is of methods that learn. */
 static bool is_hasty(const struct render_job *job, const struct prepared *p)
 {
-    const struct learn_options o = what_to_learn(job, p, p->winner, has_light_paths(p));
+    const struct learn_options o = what_to_learn(job, p);
     bool learns = o.use || o.pairs || o.guide || o.count;
     return (learns || p->method->prepare != NULL) && job_cancelled(job) != CANCEL_NOT;
 }
@@ -80,6 +58,7 @@ void method_prepare(const struct render_job *job, struct prepared *p)
         p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
     p->size = (struct pass_size){0, p->parameters.tile, p->parameters.spread};
     p->tables = mem_alloc(1, sizeof *p->tables);
+    *p->tables = NO_TABLES;
     learn_and_race(job, p);
     p->numbers = p->runner[p->winner].numbers;
     method_settle(job, p);

@@ -6,8 +6,8 @@
 #include "base/number.h"
 #include "base/parallel.h"
 
-enum { SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32, BLIND_SHARE = 8 };
-static const double FIREFLY = 11, USELESS = 0.95;
+enum { LAPS = 2 * RUNNERS, SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32, BLIND_SHARE = 8 };
+static const double FIREFLY = 11, CAUTION = 4.0 / 3;
 static const double NOTHING = 1e-30, BLIND = 1e30; /* not 0 and infinity: others are divided by them */
 
 /* Prices, fitted to CPU times; a sample costs 1, an eye vertex, too. That of a light vertex includes its splat. */
@@ -20,9 +20,9 @@ struct lap {
     struct prepared by;    /* how the runner samples; shares all that it points to */
     int every;
     struct tile_pixels pixels;
-    /* Sums of the luminance of a pixel, and of the splats in its cell: direct light at first hits; all that the render
-     * makes in each iteration; and the rest, by iteration of the lap. */
-    double direct[MOST_PIXELS], often[MOST_PIXELS], rare[SAMPLES][MOST_PIXELS];
+    /* Sums of the luminance of a pixel, and of the splats in its cell: all that the render makes in each iteration; and
+     * the rest, by iteration of the lap. */
+    double often[MOST_PIXELS], rare[SAMPLES][MOST_PIXELS];
     double price, samples;
 };
 
@@ -34,7 +34,6 @@ static void joined(void *context, const struct sample *sample, const struct join
     struct pixel_rect film = l->pixels.rect; /* splats around it are left out */
     double x = p->t == 1 ? floor(p->px) : sample->x, y = p->t == 1 ? floor(p->py) : sample->y;
     double value = fabs(rgb_luminance(p->added)); /* that signs of a filter differ is no noise of an image (filter.h) */
-    bool first = p->t > 1 && (p->s == 0 ? p->z - 1 : p->z)->eye_hit == FIRST_HIT; /* s = 0: z is on the light */
     int every = p->s < 2 ? 1 : l->every;
     if (p->t > 1 && p->s > 0)
         l->price += (double)PRICE_CONNECTION / every;
@@ -42,7 +41,6 @@ static void joined(void *context, const struct sample *sample, const struct join
         return; /* all runners have the same of light that the camera sees directly */
     int cell = pixels_cell(l->pixels, (int)x, (int)y);
     value *= p->t == 1 ? 1 : every; /* splats are divided by the count in the weights */
-    l->direct[cell] += p->s < 2 && first ? value : 0;
     *(every > 1 ? &l->rare[sample->iteration][cell] : &l->often[cell]) += value;
 }
 
@@ -88,7 +86,7 @@ static bool count_lap(void *context, int64_t number, int slot)
     return job_cancelled(&((struct lap *)context)->job) == CANCEL_NOT;
 }
 
-/* --- runners compete --------------------------------------------------------------------------------- */
+/* --- what laps tell ---------------------------------------------------------------------------------- */
 
 /* The square of x >= 0, continued by its tangent above FIREFLY. */
 static double huber(double x) { return x < FIREFLY ? x * x : 2 * FIREFLY * x - FIREFLY * FIREFLY; }
@@ -122,9 +120,7 @@ static void judge(struct runner *k, const struct lap *a, const double *unit, int
     double n = pixels_count(a->pixels), parts = 2 * SAMPLES * a->every * n;
     k->price = (a->price + b->price) / (a->samples + b->samples);
     k->variance = NOTHING;
-    k->direct = 0;
     for (int i = 0; i < n; i++) {
-        k->direct += variance(a->direct[i], b->direct[i], unit[i]) / n;
         k->variance += variance(a->often[i], b->often[i], unit[i]) / n;
         for (int j = 0; j < SAMPLES; j++)
             k->variance += (huber(a->rare[j][i] / unit[i]) + huber(b->rare[j][i] / unit[i])) / parts;
@@ -133,38 +129,19 @@ static void judge(struct runner *k, const struct lap *a, const double *unit, int
         k->variance = BLIND;
 }
 
-/* The brightness that noise is relative to: the mean of the pixel's and the picture's, over n laps. */
-static void find_units(const struct lap *lap, int n, double *unit)
+/* The brightness that noise is relative to: the mean of the pixel's and the picture's, over all laps. */
+static void find_units(const struct lap *lap, double *unit)
 {
     int pixels = pixels_count(lap->pixels);
     double picture = 0;
     for (int i = 0; i < pixels; i++) {
         unit[i] = NOTHING;
-        for (const struct lap *l = lap; l < lap + n; l++)
-            unit[i] += mean_of(l, i) / n;
+        for (const struct lap *l = lap; l < lap + LAPS; l++)
+            unit[i] += mean_of(l, i) / LAPS;
         picture += unit[i] / pixels;
     }
     for (int i = 0; i < pixels; i++)
         unit[i] = (unit[i] + picture) / 2;
-}
-
-/* Let n runners compete. False if there is no light, or the job is cancelled. */
-static bool compete(const struct render_job *job, const struct prepared *p, struct runner *first, int n)
-{
-    struct lap *lap = mem_alloc((size_t)(2 * n), sizeof *lap);
-    for (int i = 0; i < 2 * n; i++)
-        start_lap(job, p, &first[i / 2], (uint64_t)i % 2, &lap[i]);
-    struct parallel_jobs jobs = {2 * n, job->n_threads, 2 * n, lap, run_lap, count_lap, NULL};
-    double unit[MOST_PIXELS];
-    int most = 0;
-    bool all = job->scene->lights.n > 0 && parallel_run(&jobs) == 2 * n && job_cancelled(job) == CANCEL_NOT;
-    find_units(lap, 2 * n, unit);
-    for (int i = 0; i < n; i++)
-        most = most > pixels_lit(&lap[2 * i]) ? most : pixels_lit(&lap[2 * i]);
-    for (int i = 0; i < n && all; i++)
-        judge(&first[i], &lap[2 * i], unit, most);
-    free(lap);
-    return all;
 }
 
 /* --- the race ---------------------------------------------------------------------------------------- */
@@ -191,26 +168,39 @@ void race_begin(const struct scene *scene, struct prepared *p)
     one->light_points = 1;
 }
 
-/* The cheapest of the runners from number `first` on. */
-static int find_winner(const struct prepared *p, int first)
+/* Lay the laps of all runners, and judge them. False if there is no light, or the job is cancelled. */
+static bool compete(const struct render_job *job, struct prepared *p, struct lap *lap)
 {
-    int winner = first;
-    for (int i = first; i < RUNNERS; i++)
-        winner = runner_cost(&p->runner[i]) < runner_cost(&p->runner[winner]) ? i : winner;
-    return winner;
+    struct parallel_jobs jobs = {LAPS, job->n_threads, LAPS, lap, run_lap, count_lap, NULL};
+    double unit[MOST_PIXELS];
+    int most = 0;
+    for (int i = 0; i < LAPS; i++)
+        start_lap(job, p, &p->runner[i / 2], (uint64_t)i % 2, &lap[i]);
+    if (job->scene->lights.n == 0 || parallel_run(&jobs) < LAPS || job_cancelled(job) != CANCEL_NOT)
+        return false;
+    find_units(lap, unit);
+    for (int i = 0; i < LAPS; i += 2)
+        most = most > pixels_lit(&lap[i]) ? most : pixels_lit(&lap[i]);
+    for (int i = 0; i < RUNNERS; i++)
+        judge(&p->runner[i], &lap[2 * i], unit, most);
+    return true;
 }
 
-bool race_early(const struct render_job *job, struct prepared *p)
+int race_winner(const struct runner runner[RUNNERS])
 {
-    struct runner *quarter = &p->runner[RUNNER_QUARTER], *pt = &p->runner[RUNNER_PATH_TRACER];
-    const struct runner *one = &p->runner[RUNNER_ONE_POINT];
-    bool raced = compete(job, p, quarter, RUNNERS - RUNNER_QUARTER);
-    p->winner = find_winner(p, RUNNER_PATH_TRACER);
-    return raced && (one->direct > 2 * (one->variance - one->direct) || quarter->variance > USELESS * pt->variance);
+    double least = INFINITY;
+    int winner = RUNNER_ALL;
+    for (int i = 0; i < RUNNERS; i++) {
+        double cost = runner_cost(&runner[i]) * (i < RUNNER_PATH_TRACER ? 1 : CAUTION);
+        winner = cost < least ? i : winner;
+        least = fmin(cost, least);
+    }
+    return winner;
 }
 
 void race(const struct render_job *job, struct prepared *p)
 {
-    int n = p->runner[RUNNER_PATH_TRACER].price > 0 ? RUNNER_PATH_TRACER : RUNNERS; /* the others have competed */
-    p->winner = compete(job, p, p->runner, n) ? find_winner(p, RUNNER_ALL) : RUNNER_ALL;
+    struct lap *lap = mem_alloc(LAPS, sizeof *lap);
+    p->winner = compete(job, p, lap) ? race_winner(p->runner) : RUNNER_ALL;
+    free(lap);
 }

@@ -7,12 +7,9 @@
  * The least variance of a sample times its price wins [Grittmann 2022]. Prices count vertices and connections, so the
  * same runner wins on every machine. Each runner renders SAMPLES samples of some pixels twice, with random numbers that
  * the render does not use; splats anywhere in the cell of a pixel count as its own. A runner that meets light
- * in less than 1/BLIND_SHARE as many pixels as another of its stage cannot win.
- *
- * The race has two stages. First two path tracers, with as many light points as RUNNER_ALL and with one, compete with
- * RUNNER_QUARTER, and little has been learnt for any. The better path tracer wins if light sub-paths cannot help, since
- * direct light at first hits makes two thirds of the variance of RUNNER_ONE_POINT, or do not help, since RUNNER_QUARTER
- * has more than USELESS of the variance of the first path tracer. Else all is learnt, and the others compete, too.
+ * in less than 1/BLIND_SHARE as many pixels as another cannot win. A path tracer must be CAUTION times as cheap: it may
+ * have missed bright samples, and to pick it wrongly may cost twenty times, to trace light sub-paths in vain hardly two.
+ * All is learnt before: while little is known, light sub-paths seem useless where they are worth most.
  *
  * Tests: test_race.c.
  */
@@ -24,11 +21,10 @@
 enum { RACE_LEAST_PIXELS = 32 * 32 }; /* a smaller picture is rendered by the first: too few pixels show anything */
 
 /* race_begin: add the runners to *p, whose numbers are those of the first.
- * race_early: the first stage in *p, which has learnt as little as path tracers need. Does one of them win?
- * race: let all others compete in *p, which is prepared for the first.
- * Both set p->winner. If the job is cancelled, race_early says no and the first wins. */
+ * race: let them compete in *p, which is prepared for the first, and set p->winner: the first if the job is cancelled.
+ * race_winner: the number of the best of them, of which all is known. */
 void race_begin(const struct scene *scene, struct prepared *p);
-bool race_early(const struct render_job *job, struct prepared *p);
 void race(const struct render_job *job, struct prepared *p);
+int race_winner(const struct runner runner[RUNNERS]);
 
 #endif

@@ -3,7 +3,7 @@
  *     embed SCENE DIR        into DIR a picture in each format, a part and a checkpoint, which it continues; prints the
  *                            statistics' number of samples. Status 1 with a message where a call fails
  *     embed SCENE -n N       opens, renders and closes N times; prints the kilobytes that the process has held at most
- *                            after a tenth of them, and after all
+ *                            after each quarter of them
  *
  * test/run/embed.sh runs it, and with functions that fail (inject.c) under the address sanitizer. */
 #include <stdio.h>
@@ -75,13 +75,13 @@ int main(int argc, char **argv)
 {
     if (argc == 3)
         do_all(argv[1], argv[2]);
-    long n = argc == 4 ? strtol(argv[3], NULL, 10) : 0;
+    long n = argc == 4 ? 4 * (strtol(argv[3], NULL, 10) / 4) : 0;
     for (long i = 0; i < n && status == 0; i++) {
         asbdpt *r = open_scene(argv[1]);
         if (asbdpt_render(r, 1, NULL, NULL, NULL))
             failed(r);
         asbdpt_free(r);
-        if (i == n / 10 || i == n - 1)
+        if ((i + 1) % (n / 4) == 0)
             printf("%.0f\n", os_peak_memory() / 1024);
     }
     return status;

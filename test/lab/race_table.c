@@ -10,13 +10,15 @@ struct race_result race_result(const struct prepared *p)
     return r;
 }
 
-
 /* Variance times price, over the winner's. */
 static double relative_cost(const struct race_result *r, const struct runner *k)
 {
     const struct runner *winner = &r->runner[r->winner];
     return k->variance * k->price / (winner->variance * winner->price);
 }
+
+/* Has it met next to no light? (BLIND in race.c) */
+static bool met_nothing(const struct race_result *r, const struct runner *k) { return relative_cost(r, k) > 1e12; }
 
 /* "light sub-paths in one of 32 iterations", "a light sub-path for 4 pixels". */
 static void print_light(FILE *f, const struct numbers *n)
@@ -40,12 +42,9 @@ void race_print_winner(FILE *f, const struct race_result *r)
         return;
     fprintf(f, "RACE: the runner %s renders: ", runner_name(r->winner));
     print_light(f, &winner->numbers);
-    if (r->runner[RUNNER_ALL].price > 0)
-        fputs(". It has the least variance times price.", f);
-    else
-        fputs(", since they help little.", f);
+    fputs(". It has the least variance times price.", f);
     for (int i = 0; i < RUNNERS; i++)
-        if (i != r->winner && r->runner[i].price > 0) {
+        if (i != r->winner && !met_nothing(r, &r->runner[i])) {
             fprintf(f, "%s %s %.3g", before, runner_name(i), relative_cost(r, &r->runner[i]));
             before = ",";
         }
@@ -66,18 +65,16 @@ void race_print_table(FILE *f, const struct race_result *r)
         double later = (double)n->draws[LATER_HIT] / numbers_every(n);
         fprintf(f, "  %-14s %8.3g %6.2g %6d", runner_name(i), (double)n->draws[FIRST_HIT] / numbers_every(n), later,
                 n->light_points);
-        if (!(k->price > 0))
-            fprintf(f, " %10s %8s %8s", "-", "-", "-"); /* it did not have to start */
-        else if (relative_cost(r, k) < 1e12)
-            fprintf(f, " %10.4g %8.4g %8.3f", k->variance, k->price, relative_cost(r, k));
+        if (met_nothing(r, k))
+            fprintf(f, " %10s %8.4g %8s", "-", k->price, "-");
         else
-            fprintf(f, " %10.4g %8.4g %8s", k->variance, k->price, "-"); /* it met next to no light */
+            fprintf(f, " %10.4g %8.4g %8.3f", k->variance, k->price, relative_cost(r, k));
         fputs("  ", f);
         print_light(f, n);
         fprintf(f, "%s\n", i == r->winner ? "; chosen" : "");
     }
     fputs("  at first, later: light vertices for an eye vertex, in the mean over iterations; points: light points at a\n"
           "  first hit; variance: of a sample, relative to brightness; product: variance times price, over that of\n"
-          "  the chosen one; -: the path tracer has won before it had to start\n",
+          "  the chosen one; -: it met next to no light\n",
           f);
 }
