@@ -25,7 +25,7 @@ struct runner {
 /* As in RACES. The path tracers come last. */
 enum runner_number { RUNNER_ALL, RUNNER_QUARTER, RUNNER_PATH_TRACER, RUNNER_ONE_POINT, RUNNERS };
 
-/* runner_name: as -P race= has it. runner_cost: what a race minimises. */
+/* runner_name: as -P race= has it. runner_cost: what a race compares. */
 static inline const char *runner_name(int runner) { return RACES[RACE_RUNNERS + runner]; }
 static inline double runner_cost(const struct runner *k) { return k->variance * k->price; }
 

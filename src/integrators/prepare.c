@@ -8,11 +8,12 @@
 
 enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
 
+/* Whoever renders: that of all runners. */
 static struct learn_options what_to_learn(const struct render_job *job, const struct prepared *p)
 {
     const struct method *m = p->method;
     const struct parameters *q = &p->parameters;
-    bool light_paths = p->runner[p->winner].numbers.path_pixels > 0;
+    bool light_paths = p->numbers.path_pixels > 0;
     return (struct learn_options){
         .use = light_paths && (m->learns_use || q->emission < 1), .pairs = light_paths && m->learns_pairs,
         .guide = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
@@ -27,28 +28,26 @@ static void find_draw_worth(struct prepared *p)
         p->draw_worth[hit] = n > 0 ? 1 / n : 1;
 }
 
-/* Learn tables, and let runners compete if they may: for p->winner, or RUNNER_ALL before a race. */
-static void learn_and_race(const struct render_job *job, struct prepared *p)
+static void learn_all(const struct render_job *job, struct prepared *p, const struct learn_options *options)
 {
-    const int asked = p->numbers.path_pixels > 0 ? p->parameters.race : RACE_OFF;
-    race_begin(job->scene, p);
-    p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
-    const struct learn_options options = what_to_learn(job, p);
-    learn(job, &options, p->tables);
+    *p->tables = NO_TABLES;
+    learn(job, options, p->tables);
     find_draw_worth(p);
     if (p->method->prepare != NULL)
         p->method->prepare(job, p);
-    race_begin(job->scene, p); /* `prepare` may have changed the numbers */
-    if (asked == RACE_ON && rect_pixels(job->film_rect) >= RACE_LEAST_PIXELS)
-        race(job, p);
 }
 
-/* Was the job cancelled before all was learnt and raced? A race is of methods that learn. */
-static bool is_hasty(const struct render_job *job, const struct prepared *p)
+/* The runner that was asked for, the winner of a race, or the first. Is there a race? */
+static bool find_runner(const struct render_job *job, struct prepared *p)
 {
-    const struct learn_options o = what_to_learn(job, p);
-    bool learns = o.use || o.pairs || o.guide || o.count;
-    return (learns || p->method->prepare != NULL) && job_cancelled(job) != CANCEL_NOT;
+    const int asked = p->numbers.path_pixels > 0 ? p->parameters.race : RACE_OFF;
+    const bool races = asked == RACE_ON && rect_pixels(job->film_rect) >= RACE_LEAST_PIXELS;
+    p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
+    race_begin(job->scene, p);
+    if (races)
+        race(job, p);
+    p->numbers = p->runner[p->winner].numbers;
+    return races;
 }
 
 void method_prepare(const struct render_job *job, struct prepared *p)
@@ -58,11 +57,12 @@ void method_prepare(const struct render_job *job, struct prepared *p)
         p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
     p->size = (struct pass_size){0, p->parameters.tile, p->parameters.spread};
     p->tables = mem_alloc(1, sizeof *p->tables);
-    *p->tables = NO_TABLES;
-    learn_and_race(job, p);
-    p->numbers = p->runner[p->winner].numbers;
+    const struct learn_options options = what_to_learn(job, p);
+    learn_all(job, p, &options);
+    const bool learns = options.use || options.pairs || options.guide || options.count || p->method->prepare != NULL;
+    const bool races = find_runner(job, p);
     method_settle(job, p);
-    p->hasty = is_hasty(job, p);
+    p->hasty = (learns || races) && job_cancelled(job) != CANCEL_NOT;
 }
 
 void method_release(struct prepared *p)

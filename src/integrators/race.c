@@ -186,6 +186,8 @@ static bool compete(const struct render_job *job, struct prepared *p, struct lap
     return true;
 }
 
+bool race_blind(const struct runner *k) { return k->variance >= BLIND; }
+
 int race_winner(const struct runner runner[RUNNERS])
 {
     double least = INFINITY;

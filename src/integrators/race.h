@@ -9,7 +9,7 @@
  * the render does not use; splats anywhere in the cell of a pixel count as its own. A runner that meets light
  * in less than 1/BLIND_SHARE as many pixels as another cannot win. A path tracer must be CAUTION times as cheap: it may
  * have missed bright samples, and to pick it wrongly may cost twenty times, to trace light sub-paths in vain hardly two.
- * All is learnt before: while little is known, light sub-paths seem useless where they are worth most.
+ * All is learnt before: in some rooms light sub-paths seem useless while little is known.
  *
  * Tests: test_race.c.
  */
@@ -22,9 +22,11 @@ enum { RACE_LEAST_PIXELS = 32 * 32 }; /* a smaller picture is rendered by the fi
 
 /* race_begin: add the runners to *p, whose numbers are those of the first.
  * race: let them compete in *p, which is prepared for the first, and set p->winner: the first if the job is cancelled.
- * race_winner: the number of the best of them, of which all is known. */
+ * race_winner: the number of the best of runners that have all been judged.
+ * race_blind: has it met so little light that it cannot win? */
 void race_begin(const struct scene *scene, struct prepared *p);
 void race(const struct render_job *job, struct prepared *p);
 int race_winner(const struct runner runner[RUNNERS]);
+bool race_blind(const struct runner *k);
 
 #endif

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "integrators/race.h"
+
 struct race_result race_result(const struct prepared *p)
 {
     struct race_result r = {.winner = p->winner};
@@ -16,9 +18,6 @@ static double relative_cost(const struct race_result *r, const struct runner *k)
     const struct runner *winner = &r->runner[r->winner];
     return k->variance * k->price / (winner->variance * winner->price);
 }
-
-/* Has it met next to no light? (BLIND in race.c) */
-static bool met_nothing(const struct race_result *r, const struct runner *k) { return relative_cost(r, k) > 1e12; }
 
 /* "light sub-paths in one of 32 iterations", "a light sub-path for 4 pixels". */
 static void print_light(FILE *f, const struct numbers *n)
@@ -37,14 +36,14 @@ static void print_light(FILE *f, const struct numbers *n)
 void race_print_winner(FILE *f, const struct race_result *r)
 {
     const struct runner *winner = &r->runner[r->winner];
-    const char *before = "\n  That of the others, over its own:";
+    const char *before = " Variance times price of the others, over its own:\n ";
     if (!(winner->price > 0))
         return;
     fprintf(f, "RACE: the runner %s renders: ", runner_name(r->winner));
     print_light(f, &winner->numbers);
-    fputs(". It has the least variance times price.", f);
+    fputs(".", f);
     for (int i = 0; i < RUNNERS; i++)
-        if (i != r->winner && !met_nothing(r, &r->runner[i])) {
+        if (i != r->winner && !race_blind(&r->runner[i])) {
             fprintf(f, "%s %s %.3g", before, runner_name(i), relative_cost(r, &r->runner[i]));
             before = ",";
         }
@@ -65,7 +64,7 @@ void race_print_table(FILE *f, const struct race_result *r)
         double later = (double)n->draws[LATER_HIT] / numbers_every(n);
         fprintf(f, "  %-14s %8.3g %6.2g %6d", runner_name(i), (double)n->draws[FIRST_HIT] / numbers_every(n), later,
                 n->light_points);
-        if (met_nothing(r, k))
+        if (race_blind(k))
             fprintf(f, " %10s %8.4g %8s", "-", k->price, "-");
         else
             fprintf(f, " %10.4g %8.4g %8.3f", k->variance, k->price, relative_cost(r, k));

@@ -1,11 +1,11 @@
 #!/bin/sh
 # predictions.sh DIR: is the race (integrators/race.h) right? In COUNT (30) scenes of test/unit/random_structure.h,
-# from number FIRST (340) on, every runner renders after the same CPU time: RES (96x72), the time of SPP (32) samples
+# from number FIRST (370) on, every runner renders after the same CPU time: RES (96x72), the time of SPP (32) samples
 # of the first, SEEDS (3) seeds. Into DIR, going on with what is there: what equal-time writes, what `info --race`
 # predicts, and race.txt (predictions.awk): how often the runner that was predicted to be best is, what a wrong one
 # costs, and how far prices are from CPU times. Needs BUILD/test.
 # Exit status 1 if prices are wrong by more than PRICE (0.12), the root of the mean square of their logarithms.
-dir=$1 first=${FIRST:-340} size=${RES:-96x72}
+dir=$1 first=${FIRST:-370} size=${RES:-96x72}
 mkdir -p "$dir/scenes" || exit 1
 set --
 for number in $(seq "$first" $((first + ${COUNT:-30} - 1))); do

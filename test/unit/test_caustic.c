@@ -9,6 +9,7 @@
 #include "agree.h"
 #include "helpers.h"
 #include "random_parts.h"
+#include "random_structure.h"
 #include "suites.h"
 
 /* --- one chain --------------------------------------------------------------------------------------- */
@@ -166,8 +167,25 @@ static const struct agreement PARTITION[] = {
     {"scenes/test/caustic-bulb", 12, 8, 4, "bdpt", "caustics with=pt longest=2", 64, 64, 12, 4, true, 0.15},
     {"scenes/test/caustic-diver", 12, 8, 4, "lt", "caustics with=asbdpt longest=1", 32, 32, 12, 4, false, 0.15},
     {"scenes/test/mirror-glass", 12, 8, 4, "bdpt", "caustics with=pt longest=2", 24, 24, 12, 4, true, 0.15},
-    {"scenes/test/mirror-glass", 12, 8, 4, "bdpt", "caustics with=bdpt longest=2", 16, 16, 12, 4, true,
-     0.15}};
+    {"scenes/test/mirror-glass", 12, 8, 4, "bdpt", "caustics with=bdpt longest=2", 16, 16, 12, 4, true, 0.15}};
+
+/* Here a path tracer wins the race of asbdpt: its weights count light sub-paths in one of 32 iterations. */
+static void test_path_tracer(struct test *t)
+{
+    static const struct agreement row = {"yard", .depth = 4, .right = "bdpt", .ways = "caustics with=asbdpt longest=1",
+                                         .right_spp = 16, .spp = 16, .batches = 12, .tile = 12, .planted = 0.15};
+    const char *kind = NULL;
+    char *text = random_structure(354, &kind);
+    struct scene scene;
+    if (scene_from_text(t, text, &scene)) {
+        scene.width = 48;
+        scene.height = 36;
+        camera_prepare(&scene.camera, scene.width, scene.height);
+        check_agreement_in(t, &scene, &row, 1);
+        scene_free(&scene);
+    }
+    free(text);
+}
 
 /* --- any receiver -------------------------------------------------------------------------------------- */
 
@@ -363,5 +381,6 @@ void test_caustic(struct test *t)
     test_depth(t);
     test_nothing_there(t);
     check_agreements(t, PARTITION, sizeof PARTITION / sizeof PARTITION[0], 1);
+    test_path_tracer(t);
     test_receivers(t);
 }

@@ -156,7 +156,8 @@ void one_more_render(const struct prepared *p, const struct one_more *more, cons
 
 /* --- rows -------------------------------------------------------------------------------------------- */
 
-/* A method that is at its usual parameters is never refused. */
+/* A method that is at its usual parameters is never refused. Its light sub-paths are traced in each iteration (above),
+ * so the weights count them in each, whoever has won a race. */
 void one_more_prepare(const struct render_job *job, struct prepared *p)
 {
     struct one_more_own *own = p->own;
@@ -170,11 +171,11 @@ void one_more_prepare(const struct render_job *job, struct prepared *p)
     assert(ok);
     (void)ok;
     method_prepare(&other, &own->method);
+    own->method.numbers.every = 1;
+    method_settle(&other, &own->method);
     p->size = own->method.size;
     p->numbers = own->method.numbers;
     p->tables->regions.n = own->method.tables->regions.n;
-    memcpy(p->runner, own->method.runner, sizeof p->runner);
-    p->winner = own->method.winner;
 }
 
 void one_more_release(struct prepared *p) { method_release(&((struct one_more_own *)p->own)->method); }

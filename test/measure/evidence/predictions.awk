@@ -12,7 +12,7 @@ function keep(name, s, value) {
 FILENAME ~ /predicted$/ {
     split($0, part, / +/)
     if (part[1] == "scene") scene[++n] = s = part[2]
-    else if (part[1] == "" && part[6] ~ /^[-0-9.e]+$/ && part[7] ~ /^[-0-9.]+$/) {
+    else if (part[1] == "" && part[6] ~ /^[-0-9.e]+$/ && part[7] ~ /^[0-9.]+$/) {
         price[s, part[2]] = part[7] + 0
         if (/chosen$/) winner[s] = part[2]
     }
