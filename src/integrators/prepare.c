@@ -6,18 +6,20 @@
 #include "integrators/race.h"
 #include "learning/learn.h"
 
-enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
+enum { MIN_GUIDED_CELLS = 4 };  /* light cells; a guide does not help with fewer */
+static const double CALM = 0.5; /* variance of a sample, relative to the brightness squared */
 
-/* Whoever renders: that of all runners. */
-static struct learn_options what_to_learn(const struct render_job *job, const struct prepared *p)
+/* What to learn for p->winner. A path tracer of a method that learns much needs little, and has it from few sub-paths.
+ *   light_paths  for light sub-paths, too */
+static struct learn_options what_to_learn(const struct render_job *job, const struct prepared *p, bool light_paths)
 {
     const struct method *m = p->method;
     const struct parameters *q = &p->parameters;
-    bool light_paths = p->numbers.path_pixels > 0;
+    bool few = p->winner >= RUNNER_PATH_TRACER && m->learns_pairs;
     return (struct learn_options){
-        .use = light_paths && (m->learns_use || q->emission < 1), .pairs = light_paths && m->learns_pairs,
+        .use = light_paths && (m->learns_use || q->emission < 1), .pairs = light_paths && !few && m->learns_pairs,
         .guide = q->guide && job->strategy == LIGHTS_SPATIAL && job->scene->lights.n_cells >= MIN_GUIDED_CELLS,
-        .emission = q->emission, .delta = q->delta, .count = light_paths && m->vertices};
+        .emission = q->emission, .delta = q->delta, .count = light_paths && m->vertices, .few = few};
 }
 
 /* Of single vertices, a draw is one of so many of a light sub-path. */
@@ -28,26 +30,48 @@ static void find_draw_worth(struct prepared *p)
         p->draw_worth[hit] = n > 0 ? 1 / n : 1;
 }
 
-static void learn_all(const struct render_job *job, struct prepared *p, const struct learn_options *options)
+/* Learn tables for p->winner, and make of them what samples need. Was there anything to do? */
+static bool learn_for_winner(const struct render_job *job, struct prepared *p, bool light_paths)
 {
+    const struct learn_options o = what_to_learn(job, p, light_paths);
+    tables_free(p->tables);
     *p->tables = NO_TABLES;
-    learn(job, options, p->tables);
+    learn(job, &o, p->tables);
     find_draw_worth(p);
     if (p->method->prepare != NULL)
         p->method->prepare(job, p);
+    race_begin(job->scene, p); /* of the numbers, which `prepare` may have changed */
+    return o.use || o.pairs || o.guide || o.count || p->method->prepare != NULL;
 }
 
-/* The runner that was asked for, the winner of a race, or the first. Is there a race? */
-static bool find_runner(const struct render_job *job, struct prepared *p)
+static bool has_light_paths(const struct prepared *p) { return p->runner[p->winner].numbers.path_pixels > 0; }
+
+/* The race while little is known: may a path tracer render, with nothing more learnt? */
+static bool is_calm(const struct render_job *job, struct prepared *p)
+{
+    p->winner = RUNNER_PATH_TRACER;
+    learn_for_winner(job, p, true);
+    race(job, p);
+    if (p->winner < RUNNER_PATH_TRACER || p->runner[p->winner].variance > CALM)
+        return false;
+    if (!has_light_paths(p)) /* those of its rivals have had their tables */
+        learn_for_winner(job, p, false);
+    return true;
+}
+
+/* Learn, and find the runner: the one that was asked for, or the winner of a race. Was there anything to do? */
+static bool learn_and_race(const struct render_job *job, struct prepared *p)
 {
     const int asked = p->numbers.path_pixels > 0 ? p->parameters.race : RACE_OFF;
     const bool races = asked == RACE_ON && rect_pixels(job->film_rect) >= RACE_LEAST_PIXELS;
-    p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
     race_begin(job->scene, p);
+    if (races && p->method->learns_pairs && is_calm(job, p))
+        return true;
+    p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
+    bool learns = learn_for_winner(job, p, has_light_paths(p));
     if (races)
         race(job, p);
-    p->numbers = p->runner[p->winner].numbers;
-    return races;
+    return learns || races;
 }
 
 void method_prepare(const struct render_job *job, struct prepared *p)
@@ -57,12 +81,10 @@ void method_prepare(const struct render_job *job, struct prepared *p)
         p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
     p->size = (struct pass_size){0, p->parameters.tile, p->parameters.spread};
     p->tables = mem_alloc(1, sizeof *p->tables);
-    const struct learn_options options = what_to_learn(job, p);
-    learn_all(job, p, &options);
-    const bool learns = options.use || options.pairs || options.guide || options.count || p->method->prepare != NULL;
-    const bool races = find_runner(job, p);
+    *p->tables = NO_TABLES;
+    p->hasty = learn_and_race(job, p) && job_cancelled(job) != CANCEL_NOT;
+    p->numbers = p->runner[p->winner].numbers;
     method_settle(job, p);
-    p->hasty = (learns || races) && job_cancelled(job) != CANCEL_NOT;
 }
 
 void method_release(struct prepared *p)

@@ -9,7 +9,7 @@
  * the render does not use; splats anywhere in the cell of a pixel count as its own. A runner that meets light
  * in less than 1/BLIND_SHARE as many pixels as another cannot win. A path tracer must be CAUTION times as cheap: it may
  * have missed bright samples, and to pick it wrongly may cost twenty times, to trace light sub-paths in vain hardly two.
- * All is learnt before: in some rooms light sub-paths seem useless while little is known.
+ * prepare.h says what is learnt before.
  *
  * Tests: test_race.c.
  */

@@ -275,7 +275,7 @@ void learn(const struct render_job *job, const struct learn_options *options, st
                          .work = workspaces_new(job->n_threads, job->max_depth), .take = take,
                          .counts = {.tables = &NO_TABLES}};
     bool regions = options->use || options->guide || options->pairs;
-    bool few = options->guide && !options->use && !options->pairs;
+    bool few = options->few || (options->guide && !options->use && !options->pairs);
     double pixels = (double)rect_pixels(job->film_rect);
     long n = few ? int_within(pixels / FEW_PIXELS, FEW_LEAST, LEARN_MOST)
                  : int_within(pixels * LEARN_PER_PIXEL, LEARN_LEAST, LEARN_MOST);

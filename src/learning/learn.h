@@ -25,8 +25,8 @@
 #include "transport/tile_pass.h"
 
 /* Eye sub-paths: for each pixel of the image, at least, and at most. As many light sub-paths, but at most LEARN_LIGHT.
- * If only `guide` is learnt, one eye sub-path for FEW_PIXELS pixels, but at least FEW_LEAST: then learning takes the
- * time of half a sample of each pixel. */
+ * If only `guide` is learnt, or `few` are asked for, one eye sub-path for FEW_PIXELS pixels, but at least FEW_LEAST:
+ * then learning takes the time of half a sample of each pixel. */
 enum { LEARN_PER_PIXEL = 4, LEARN_LEAST = 2 * 1024, LEARN_MOST = 48 * 1024, LEARN_LIGHT = 16 * 1024 };
 enum { FEW_PIXELS = 4, FEW_LEAST = 1024 };
 enum { REGIONS = 1536, REGION_CUBES = 8 }; /* at most so many; along the diagonal of the box of eye vertices */
@@ -35,6 +35,7 @@ enum { REGIONS = 1536, REGION_CUBES = 8 }; /* at most so many; along the diagona
 struct learn_options {
     bool use, guide, pairs; /* of struct tables */
     bool count;             /* its light_vertices; with `use` they are counted, too */
+    bool few;               /* by as few sub-paths as `guide` alone */
     double emission;        /* delta of the table of emission, which needs `use`; 1: do not learn it */
     double delta;           /* of the table of pairs */
 };

@@ -107,7 +107,7 @@ bool worth_values(const struct scene *scene, const struct render_job *options, i
     if (!job_settle(&v.job, scene, &prepared, err))
         return false;
     v.job.film_rect = (struct pixel_rect){0, 0, scene->width, scene->height};
-    prepared.parameters.race = RACE_OFF; /* it decides nothing here */
+    prepared.parameters.race = RACE_OFF; /* which may choose a path tracer, that has no pairs */
     job_prepare(&v.job, &prepared);
     v.counts = prepared.counts;
     v.light = mem_alloc((size_t)v.job.max_depth + 1, sizeof *v.light);

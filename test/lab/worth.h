@@ -8,7 +8,7 @@
  * The last two are coloured by their logarithm, over a factor of WORTH_RANGE below their largest value. A bar below
  * them shows the colours.
  *
- * Nothing of it depends on the race before a render, which is left out.
+ * Nothing of it depends on the race before a render, which is left out: a path tracer may have learnt no pairs.
  *
  * Tests: test_pictures.c, test/run/examples.sh.
  */

@@ -442,6 +442,7 @@ check [ $told -ge 12 ]
 # worth: what was learnt, as a picture.
 expect 0 '' "$lab" worth "$box" --pixel 3,9 --res 12x12 --spp 4 --quiet -o worth.png
 check [ -s worth.png ]
+# The race, which would choose a path tracer here, is left out.
 prints '^  \(path_tracer\|one_point\) .*; chosen$' "$lab" info "$scenes/forest.pbrt" --race --integrator asbdpt --res 48x32
 expect 0 '' "$lab" worth "$scenes/forest.pbrt" --pixel 12,12 --res 48x32 --spp 4 --quiet -o worth.png
 expect 1 'learns nothing about pairs' "$lab" worth "$box" --pixel 3,9 --res 12x12 -P select=pool -o worth.png
