@@ -10,6 +10,11 @@ check() {
     for n in $(names assignment); do
         [ -f "doc/course/$n.md" ] || wrong "there is no doc/course/$n.md"
         dig "$n" "$dir"
+        for object in $(get "$n" early | cut -d ' ' -f 3-); do # what is not there is not built anew, and keeps its fault
+            source=${object#build/obj/}
+            source=${source%.o}.c
+            [ -f "src/$source" ] || [ -f "$source" ] || wrong "$n: $object has no source"
+        done
         for file in $(files "$n"); do
             case $file in src/geometry/*.h) file=src/geometry/shape.c ;; *.h) file=src/transport/connect.c ;; esac
             ${CC:-cc} -std=c99 -I"$dir/src" -fsyntax-only "$dir/$file" || wrong "$file has no body left"
@@ -95,6 +100,10 @@ asked() {
 # that is planted (or PLANT alone) is found, and its step is named.
 prove() {
     bad=0
+    if ! planted | grep -q "^$1"; then # an assignment by its whole name
+        names assignment | grep -qxF "$1" || die "nothing is planted by the name '$1'"
+        set -- "${1%%-*}"
+    fi
     for n in $(names assignment | grep "^${1%%-*}"); do
         tree=$work/prove-$n
         rm -rf "$tree"

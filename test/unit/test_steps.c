@@ -16,7 +16,7 @@ enum { MAX = 12, ALBEDO_PERCENT = 30 };
 
 /* A closed box of six matte sides, and what %s adds; the lens in its middle. The ceiling gives light and reflects. */
 static const char BOX[] =
-    "Camera \"perspective\" \"float fov\" 90\n"
+    "Integrator \"bdpt\" Camera \"perspective\" \"float fov\" 90\n"
     "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\nWorldBegin\n"
     "Material \"matte\" \"rgb Kd\" [.3 .3 .3]\n%s"
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3  4 5 6 4 6 7  0 1 5 0 5 4  1 2 6 1 6 5  3 0 4 3 4 7]\n"
@@ -209,6 +209,25 @@ static void light_passes(struct test *t)
     tear_down(&r);
 }
 
+/* Most rays that enter a ball of thick milk are scattered in it: a vertex that is on no surface. */
+static void scattered(struct test *t, enum transport mode)
+{
+    struct room r;
+    struct vertex path[4];
+    int within = 0;
+    if (!build(t, BOX, "MakeNamedMedium \"milk\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [50 50 50]\n"
+               "AttributeBegin Material \"\" MediumInterface \"milk\" \"\" Translate 0 0 1 "
+               "Shape \"sphere\" \"float radius\" .9 AttributeEnd\n", &r))
+        return;
+    for (uint64_t i = 0; i < 200; i++) {
+        int n = walk(t, &r, mode, i, 0, path, 4);
+        for (int k = 1; k < n; k++)
+            within += path[k].kind == VERTEX_MEDIUM;
+    }
+    CHECK(t, within > 20, "fog: 200 walks in a box with a ball of milk are scattered %d times within it", within);
+    tear_down(&r);
+}
+
 void test_walk(struct test *t)
 {
     for (int i = 0; i < 3; i++) {
@@ -220,6 +239,8 @@ void test_walk(struct test *t)
     roulette(t, IMPORTANCE);
     ends(t);
     light_passes(t);
+    scattered(t, RADIANCE);
+    scattered(t, IMPORTANCE);
 }
 
 /* --- two vertices joined ----------------------------------------------------------------------------- */
@@ -330,20 +351,20 @@ void test_joint(struct test *t)
 
 /* --- the formulas of the weights --------------------------------------------------------------------- */
 
-/* With densities per area of a large world, x small, and of a small one. */
-static void formulas(struct test *t, double x)
+/* With densities per area of a large world, x small, and of a small one. Is mis_step right? */
+static bool formulas(struct test *t, double x)
 {
     const double g = 0.7 * x, c = 3, rev = 0.4, mis = 5, F = 2.5 * x, R = 1.75 * x, n = 4, A = 6 / x, B = 9 * x;
-    CHECK(t, close_to(mis_step(c, rev, mis, F, g), g * (c + rev * mis) / F), "mis_step");
     CHECK(t, close_to(mis_side(R, F, c, rev, mis), R / F * (c + rev * mis)), "mis_side");
     CHECK(t, close_to(mis_weight(n, A, B), n / (n + A + B)), "mis_weight");
+    return CHECK(t, close_to(mis_step(c, rev, mis, F, g), g * (c + rev * mis) / F), "mis_step");
 }
 
 static void measured(struct test *t, const char *scale)
 {
     struct room r;
     struct vertex path[MAX];
-    double pdf = 0, camera = 0, recursion = 0;
+    double pdf = 0, camera = 0, g = 0, recursion = 0;
     if (!build(t, BOX, scale, &r))
         return;
     for (uint64_t i = 0; i < 200; i++) {
@@ -357,22 +378,64 @@ static void measured(struct test *t, const char *scale)
             double off = fabs(v->pdf_fwd / (left * fabs(dot(v->ng, w)) * spread) - 1);
             pdf = most_of(pdf, k > 1 ? off : 0);
             camera = most_of(camera, k == 1 ? off : 0);
-            if (k > 1)
-                recursion = most_of(recursion, fabs(v->mis * prev->pdf_fwd / (at_prev * spread) /
-                                                    (prev->mis_c + rev * prev->mis) - 1));
+            if (k == 1)
+                continue;
+            g = most_of(g, fabs(v->g / (at_prev * spread) - 1));
+            recursion = most_of(recursion, fabs(v->mis * prev->pdf_fwd / v->g / (prev->mis_c + rev * prev->mis) - 1));
         }
     }
     CHECK(t, pdf < 1e-9, "pdf_fwd of a vertex on a matte wall is off by a factor of %g", pdf + 1);
     CHECK(t, camera < 1e-9, "camera: pdf_fwd of the first vertex is off by a factor of %g", camera + 1);
+    CHECK(t, g < 1e-9, "g of a vertex is off by a factor of %g", g + 1);
     CHECK(t, recursion < 1e-9, "recursion: mis of a vertex is off by a factor of %g", recursion + 1);
     tear_down(&r);
 }
 
+/* At distance 2, and at right angles, of rays that come from `prev`. */
+static void check_parallel(struct test *t, const struct walk *w, const struct vertex *prev, const char *what)
+{
+    const struct departure from = {.ray = {.d = {0, 0, 1}}, .pdf = 3};
+    struct vertex v = {.kind = VERTEX_SURFACE, .ng = {0, 0, -1}};
+    walk_measure(w, &v, prev, &from, 4);
+    CHECK(t, v.pdf_fwd == from.pdf && v.g == 1, "%s: where parallel rays arrive F is %g and g %g, not %g and 1", what,
+          v.pdf_fwd, v.g, from.pdf);
+}
+
+/* What no walk in the box meets: a light at infinity, a lens of parallel rays, and a departure by a delta lobe. */
+static void exceptions(struct test *t)
+{
+    static const char PARALLEL[] = "Camera \"orthographic\"\n"
+                                   "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\nWorldBegin\n"
+                                   "%sLightSource \"infinite\" \"rgb L\" [1 1 1]\nWorldEnd\n";
+    const struct vertex sky = {.kind = VERTEX_LIGHT, .pdf_fwd = 2.5, .mis_c = 1};
+    const struct vertex lens = {.kind = VERTEX_LENS, .pdf_fwd = 1};
+    const struct vertex wall = {.kind = VERTEX_SURFACE, .ng = {0.6, 0, 0.8}, .pdf_fwd = 2.5, .mis = 5, .mis_c = 3};
+    struct departure from = {.ray = {.d = {0, 0, 1}}, .pdf = 3, .pdf_rev = 0.4};
+    struct vertex joined = {.kind = VERTEX_SURFACE, .ng = {0, 0.6, 0.8}}, mirrored = joined;
+    struct room r;
+    if (!build(t, PARALLEL, "Shape \"sphere\"\n", &r))
+        return;
+    const struct walk w = {&r.scene, &ALL, &r.arena, &r.sampler, 0};
+    check_parallel(t, &w, &sky, "parallel");
+    check_parallel(t, &w, &lens, "camera");
+    walk_measure(&w, &joined, &wall, &from, 4);
+    from.delta = true;
+    walk_measure(&w, &mirrored, &wall, &from, 4);
+    CHECK(t, close_to(mirrored.mis / joined.mis, 0.4 * 5 / (3 + 0.4 * 5)),
+          "delta: mis after a mirror is %g times that after a wall, not %g", mirrored.mis / joined.mis,
+          0.4 * 5 / (3 + 0.4 * 5));
+    tear_down(&r);
+}
+
+/* walk_measure calls mis_step: what becomes of a wrong one says nothing of walk_measure. */
 void test_weights(struct test *t)
 {
-    formulas(t, 1e-12);
-    formulas(t, 1);
-    formulas(t, 1e12);
+    bool right = true;
+    for (int i = -1; i <= 1; i++)
+        right = formulas(t, pow(1e12, i)) && right;
+    if (!right)
+        return;
     for (int i = 0; i < 3; i++)
         measured(t, SCALES[i]);
+    exceptions(t);
 }
