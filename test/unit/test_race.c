@@ -299,7 +299,7 @@ static void test_expectations(struct test *t, int spp)
             if (k <= RUNNERS)
                 snprintf(way, sizeof way, "asbdpt race=%s", k < RUNNERS ? runner_name(k) : "on");
             const char *name = set_method(&scene, way);
-            int samples = k < RUNNER_PATH_TRACER ? spp : 8 * spp;
+            int samples = k < RUNNER_PATH_TRACER || k > RUNNERS ? spp : 8 * spp;
             struct batches x = render_batches(t, &scene, name, 5, samples, BATCHES, TILE, (uint64_t)k + 2);
             double p = verify_batches(&x, &right, 1).p, ratio = batches_mean(&x, NULL) / batches_mean(&right, NULL);
             if (k > RUNNERS)

@@ -145,10 +145,11 @@ static double batches_differ_p(const struct batches *a, const struct batches *b,
     return both >= 0 && isfinite(batches_mean(a, NULL)) && isfinite(batches_mean(b, NULL)) ? both : 0;
 }
 
+/* Where each sample is exact but for the rounding of its vertices, which are floats, so is the mean. */
 static double known_p(const struct batches *b, double low, double high)
 {
     double error, mean = batches_mean(b, &error);
-    double p = mean < low * (1 - 1e-9) ? mean_p(b, low) : mean > high * (1 + 1e-9) ? mean_p(b, high) : 1;
+    double p = mean < low * (1 - 1e-8) ? mean_p(b, low) : mean > high * (1 + 1e-8) ? mean_p(b, high) : 1;
     return isfinite(mean) ? p : 0;
 }
 
@@ -247,12 +248,28 @@ static struct gate draw_gate(struct rng *r, double unit)
     return gate[rng_below(r, 4)];
 }
 
+/* Is a surface so near to the lens that few vertices of lt lie on what a pixel sees of it? */
+static bool is_near(const struct scene *s)
+{
+    double least = INFINITY;
+    vec3 lo, hi;
+    scene_bounds(s, &lo, &hi);
+    for (int y = 0; y < s->height; y++)
+        for (int x = 0; x < s->width; x++) {
+            struct ray ray = camera_ray(&s->camera, x + 0.5, y + 0.5, 0.5, 0.5);
+            struct surface at;
+            if (scene_intersect(s, &ray, &at))
+                least = fmin(least, length(sub(at.p, ray.o)));
+        }
+    return least < 0.05 * length(sub(hi, lo));
+}
+
 static void look_at(struct subject *s)
 {
     struct rng r = rng_stream(s->number, RNG_TEST, 8, 0);
     struct way other = draw_other(&r, s->made.media);
     bool pt = !(s->made.delta_light && (s->made.specular || s->made.fog));
-    bool lt = !s->made.specular && !s->made.one_ray && !s->made.fog;
+    bool lt = !s->made.specular && !s->made.one_ray && !s->made.fog && !is_near(&s->scene);
     if (s->made.known && pt)
         compare(s, &PT, NULL);
     if (s->made.one_ray)
