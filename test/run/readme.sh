@@ -27,10 +27,11 @@ why() {
         "make evidence"* | *"equal-time"* | *out/gallery* | *"-lab family"* | *"tune.sh"* | \
         *"conform/measure.sh"* | *"ajar.pbrt -o out/ajar.png "*) echo "over a minute" ;;
     "make install"* | "make clean") echo "changes the system or the tree" ;;
+    valgrind*) command -v valgrind >/dev/null || echo "valgrind is not there" ;;
     *resampling*) echo "a method that the page adds" ;;
     *"conform out/pbrt") command -v "${PBRT:-pbrt}" >/dev/null || echo "pbrt-v3 is not there" ;; # as kit.sh: need
     *"verify --images A"*) echo "placeholder" ;;
-    *) echo "$1" | grep -Eq '(^|[ /])[A-Z]{2,}([ ./]|$)|\.\.\.' && echo "placeholder" ;;
+    *) echo "$1" | grep -Eq '(^|[ /=])[A-Z]{2,}([ ./]|$)|\.\.\.' && echo "placeholder" ;;
     esac
 }
 
@@ -48,7 +49,7 @@ left
 # A line each: "$ COMMAND", and "> LINE" for what is quoted from its output.
 awk '
     !/^    / { quoting = 0; next }
-    /^    (\.\/|sh |(make|mkdir|cc|awk)( |$)|[A-Z]+=)/ {
+    /^    (\.\/|sh |(make|mkdir|cc|awk|valgrind)( |$)|[A-Z]+=)/ {
         sub(/^    /, "")
         sub(/ +# .*/, "")
         print "$ " $0
