@@ -23,6 +23,7 @@
 #include "lab/sides.h"
 #include "lab/stats.h"
 #include "parser/parser.h"
+#include "random_structure.h"
 
 void write_bytes(const char *path, const void *data, size_t n)
 {
@@ -170,6 +171,20 @@ const char *scene_path(struct test *t, const char *path, char out[512])
     }
     snprintf(out, 512, "%s/%s", test_tmp(t), path);
     return out;
+}
+
+bool scene_from_structure(struct test *t, uint64_t number, int width, int height, struct scene *out)
+{
+    const char *kind = NULL;
+    char *text = random_structure(number, &kind);
+    bool ok = scene_from_text(t, text, out);
+    free(text);
+    if (ok) {
+        out->width = width;
+        out->height = height;
+        camera_prepare(&out->camera, width, height);
+    }
+    return ok;
 }
 
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out)

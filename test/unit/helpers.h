@@ -48,6 +48,9 @@ bool scene_from_format(struct test *t, struct scene *out, const char *format, ..
  * own directory, beside all that it names. */
 const char *scene_path(struct test *t, const char *path, char out[512]);
 
+/* scene_from_structure: the same of a generated scene (random_structure.h), at the given resolution. */
+bool scene_from_structure(struct test *t, uint64_t number, int width, int height, struct scene *out);
+
 /* scene_from_file: the same for such a path, at the given resolution (0: as it is) with a box filter. */
 bool scene_from_file(struct test *t, const char *path, int width, int height, struct scene *out);
 

@@ -9,7 +9,6 @@
 #include "agree.h"
 #include "helpers.h"
 #include "random_parts.h"
-#include "random_structure.h"
 #include "suites.h"
 
 /* --- one chain --------------------------------------------------------------------------------------- */
@@ -174,17 +173,11 @@ static void test_path_tracer(struct test *t)
 {
     static const struct agreement row = {"yard", .depth = 4, .right = "bdpt", .ways = "caustics with=asbdpt longest=1",
                                          .right_spp = 16, .spp = 16, .batches = 12, .tile = 12, .planted = 0.15};
-    const char *kind = NULL;
-    char *text = random_structure(354, &kind);
     struct scene scene;
-    if (scene_from_text(t, text, &scene)) {
-        scene.width = 48;
-        scene.height = 36;
-        camera_prepare(&scene.camera, scene.width, scene.height);
-        check_agreement_in(t, &scene, &row, 1);
-        scene_free(&scene);
-    }
-    free(text);
+    if (!scene_from_structure(t, 354, 48, 36, &scene))
+        return;
+    check_agreement_in(t, &scene, &row, 1);
+    scene_free(&scene);
 }
 
 /* --- any receiver -------------------------------------------------------------------------------------- */

@@ -2,7 +2,6 @@
  * numbers and credits. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "bench.h"
@@ -11,7 +10,6 @@
 #include "integrators/race.h"
 #include "lab/stats.h"
 #include "lab/verify.h"
-#include "random_structure.h"
 #include "suites.h"
 
 /* A floor that a point light shines on, the eye above it; something small of the given material out of sight. */
@@ -76,23 +74,17 @@ static void test_where_they_pay(struct test *t)
 static void test_where_learning_pays(struct test *t)
 {
     static const uint64_t structures[] = {331, 363, 437};
-    const char *kind = NULL;
     struct scene scene;
     struct settled s;
     for (size_t i = 0; i < sizeof structures / sizeof structures[0]; i++) {
-        char *text = random_structure(structures[i], &kind);
-        if (scene_from_text(t, text, &scene)) {
-            scene.width = 96;
-            scene.height = 72;
-            camera_prepare(&scene.camera, 96, 72);
-            if (settle(t, &scene, 0, &s)) {
-                CHECK(t, s.learnt, "%s %d: a path tracer has won before all was learnt", kind, (int)structures[i]);
-                CHECK(t, i == 2 || s.winner < RUNNER_PATH_TRACER, "%s %d: a path tracer renders", kind,
-                      (int)structures[i]);
-            }
-            scene_free(&scene);
+        const int number = (int)structures[i];
+        if (!scene_from_structure(t, structures[i], 96, 72, &scene))
+            continue;
+        if (settle(t, &scene, 0, &s)) {
+            CHECK(t, s.learnt, "structure %d: a path tracer has won before all was learnt", number);
+            CHECK(t, i == 2 || s.winner < RUNNER_PATH_TRACER, "structure %d: a path tracer renders", number);
         }
-        free(text);
+        scene_free(&scene);
     }
 }
 
