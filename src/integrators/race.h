@@ -21,7 +21,7 @@
 enum { RACE_LEAST_PIXELS = 32 * 32 }; /* a smaller picture is rendered by the first: too few pixels show anything */
 
 /* race_begin: add the runners to *p, whose numbers are those of the first.
- * race: let them compete in *p, which is prepared for the first, and set p->winner: the first if the job is cancelled.
+ * race: let them compete in *p, with what it has learnt, and set p->winner: the first if the job is cancelled.
  * race_winner: the number of the best of runners that have all been judged.
  * race_blind: has it met so little light that it cannot win? */
 void race_begin(const struct scene *scene, struct prepared *p);

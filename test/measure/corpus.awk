@@ -9,10 +9,9 @@
 #                                                   of `report`, over pt and over bdpt alone; page=few: how many
 #                                                   scenes of `report` a path tracer renders
 BEGIN {
-    power = ":lightsamplestrategy=power"
-    split("mse8 relmse 8x8 mse8,power relmse,power 8x8,power", measure, " ")
+    split("mse8 relmse 8x8", measure, " ")
     baselines = "pt bdpt"
-    n_measures = page == "quartiles" ? 3 : page == "sentence" || page == "runners" ? 1 : page ? 3 : 6
+    n_measures = page == "sentence" ? 1 : 3
     FORM = "%-16s %-12s %4d %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %8.3f %7.1f %% %7.1f %%\n"
 }
 /\t/ { split($0, field, "\t"); set[field[1]] = field[4]; next }
@@ -51,11 +50,10 @@ function noisy(number,    key, i) {
 }
 # asbdpt over the better of the baselines, pt and bdpt or one of them; -1: asbdpt or all of these are missing, or there
 # is no noise.
-function score(number, m,    k, a, p, b) {
-    k = (m - 1) % 3 + 1
+function score(number, k,    a, p, b) {
     a = cost(number, "asbdpt", k)
-    p = baselines ~ /^pt/ ? cost(number, "pt" (m > 3 ? power : ""), k) : -1
-    b = baselines ~ /bdpt$/ ? cost(number, "bdpt" (m > 3 ? power : ""), k) : -1
+    p = baselines ~ /^pt/ ? cost(number, "pt", k) : -1
+    b = baselines ~ /bdpt$/ ? cost(number, "bdpt", k) : -1
     b = b > 0 && (p <= 0 || b < p) ? b : p
     return a > 0 && b > 0 && noisy(number) ? a / b : -1
 }

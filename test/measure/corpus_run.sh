@@ -8,13 +8,13 @@
 set -u
 [ $# -ge 2 ] || { echo "usage: sh test/measure/corpus_run.sh DIR OUT [PROGRAM]" >&2; exit 2; }
 directory=$1 out=$2 program=${3:-./asbdpt-lab} jobs=${JOBS:-1} list=${LIST:-$1/list.txt}
+methods=${METHODS:-bdpt,pt,asbdpt}
 case $program in */*) ;; *) program=./$program ;; esac
 if [ "${FORTY:-}" = yes ]; then
-    methods=${METHODS:-bdpt,pt,asbdpt} limit=${LIMIT:-100}
+    limit=${LIMIT:-100}
     size="--width ${WIDTH:-320} --spp ${SPP:-64} --seeds ${SEEDS:-2}"
 else
-    power=:lightsamplestrategy=power
-    methods=${METHODS:-bdpt,pt,asbdpt,bdpt$power,pt$power} limit=${LIMIT:-40}
+    limit=${LIMIT:-40}
     size="--width ${WIDTH:-112} --spp ${SPP:-32} --seeds ${SEEDS:-3}"
 fi
 size="$size${HALF:+ --half $HALF}"
