@@ -7,6 +7,6 @@
 #define ASBDPT_VERSION_H
 
 #define VERSION "asbdpt 0.9"
-#define ESTIMATOR 21
+#define ESTIMATOR 22
 
 #endif

@@ -19,8 +19,6 @@ void pool_shuffle(const struct pool *pool, const struct tile_pass *pass, long it
 bool loop_turn(const struct prepared *p, const struct tile_pass *pass, long iteration)
 {
     const int *corner = pass->tile->pixel[0], every = numbers_every(&p->numbers);
-    if (every == 1)
-        return true;
     struct sampler sampler = sample_stream(pass, RNG_TURN, corner[0], corner[1], (uint64_t)(iteration / every));
     return iteration % every == (long)(sampler_number(&sampler, DRAW_ORDER) * every);
 }

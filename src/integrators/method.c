@@ -27,6 +27,9 @@ bool method_read(const struct method *m, const struct scene *scene, struct prepa
     bool ok = (m->parameters == NULL || settings_fields(s, m->parameters, &p->parameters, err)) &&
               (m->own == NULL || settings_fields(s, m->own, p->own, err)) &&
               (m->check == NULL || m->check(p, scene, err));
+    int *draws = p->parameters.numbers.draws;
+    if (draws[LATER_HIT] < 0)
+        draws[LATER_HIT] = draws[FIRST_HIT];
     if (!ok)
         free(p->own);
     return ok;

@@ -34,12 +34,12 @@ struct prepared {
     const struct method *method;
     struct parameters parameters;
     void *own;                /* see struct method; owned */
-    struct numbers numbers;   /* those of the parameters, or of the winner of a race */
+    struct numbers numbers;   /* those of the parameters, or of the runner */
     double draw_worth[EYE_HITS]; /* samples of BDPT that a draw counts as, without a credit; `prepare` may change it */
     struct counts counts;     /* in the weights */
     struct tables *tables;    /* owned */
     struct scene *uniform;    /* the job's scene if it chooses lights uniformly, else NULL; owned */
-    struct pass_size size;    /* any block, tiles of DEFAULT_TILE_SIZE, unless parameters or `prepare` change it */
+    struct pass_size size;    /* any block, tiles of DEFAULT_TILE_SIZE, unless parameters, `prepare` or the runner change it */
     struct runner runner[RUNNERS];
     int winner;               /* of a race, or as the parameter says */
     bool hasty;               /* the job was cancelled before all was learnt and raced */
@@ -71,7 +71,8 @@ struct method {
     /* Each parameter is valid by itself. Check that they fit each other and the scene; false with a message if not. May
      * be NULL. */
     bool (*check)(const struct prepared *p, const struct scene *scene, struct error *err);
-    /* Complete what is learnt, before the counts are made; or choose p->size. May be NULL. */
+    /* Complete what is learnt, before the counts are made; or choose p->size. Called each time after learning. May be
+     * NULL. */
     void (*prepare)(const struct render_job *job, struct prepared *p);
     void (*release)(struct prepared *p); /* release what `prepare` has added to p->own. May be NULL */
 

@@ -52,7 +52,7 @@ static bool is_calm(const struct render_job *job, struct prepared *p)
     p->winner = RUNNER_PATH_TRACER;
     learn_for_winner(job, p, true);
     race(job, p);
-    if (p->winner < RUNNER_PATH_TRACER || p->runner[p->winner].variance > CALM)
+    if (p->winner < RUNNER_PATH_TRACER || p->runner[p->winner].variance >= CALM)
         return false;
     if (!has_light_paths(p)) /* those of its rivals have had their tables */
         learn_for_winner(job, p, false);
@@ -65,8 +65,8 @@ static bool learn_and_race(const struct render_job *job, struct prepared *p)
     const int asked = p->numbers.path_pixels > 0 ? p->parameters.race : RACE_OFF;
     const bool races = asked == RACE_ON && rect_pixels(job->film_rect) >= RACE_LEAST_PIXELS;
     race_begin(job->scene, p);
-    if (races && p->method->learns_pairs && is_calm(job, p))
-        return true;
+    if (races && p->method->learns_pairs && (is_calm(job, p) || job_cancelled(job) != CANCEL_NOT))
+        return true; /* if cancelled, what has been learnt so far remains */
     p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
     bool learns = learn_for_winner(job, p, has_light_paths(p));
     if (races)
@@ -77,11 +77,8 @@ static bool learn_and_race(const struct render_job *job, struct prepared *p)
 void method_prepare(const struct render_job *job, struct prepared *p)
 {
     p->numbers = p->parameters.numbers;
-    if (p->numbers.draws[LATER_HIT] < 0)
-        p->numbers.draws[LATER_HIT] = p->numbers.draws[FIRST_HIT];
     p->size = (struct pass_size){0, p->parameters.tile, p->parameters.spread};
     p->tables = mem_alloc(1, sizeof *p->tables);
-    *p->tables = NO_TABLES;
     p->hasty = learn_and_race(job, p) && job_cancelled(job) != CANCEL_NOT;
     p->numbers = p->runner[p->winner].numbers;
     method_settle(job, p);

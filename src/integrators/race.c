@@ -23,7 +23,7 @@ struct lap {
     /* Sums of the luminance of a pixel, and of the splats in its cell: all that the render makes in each iteration; and
      * the rest, by iteration of the lap. */
     double often[MOST_PIXELS], rare[SAMPLES][MOST_PIXELS];
-    double price, samples;
+    double price;
 };
 
 /* --- one lap ----------------------------------------------------------------------------------------- */
@@ -49,7 +49,6 @@ static void walked(void *context, const struct sample *sample, enum transport mo
     struct lap *l = context;
     (void)sample, (void)path;
     l->price += mode == RADIANCE ? 1 + n : (double)n * PRICE_LIGHT_VERTEX / l->every;
-    l->samples += mode == RADIANCE;
 }
 
 static void start_lap(const struct render_job *job, const struct prepared *p, const struct runner *k, uint64_t number,
@@ -117,13 +116,13 @@ static int pixels_lit(const struct lap *a)
 static void judge(struct runner *k, const struct lap *a, const double *unit, int most)
 {
     const struct lap *b = a + 1;
-    double n = pixels_count(a->pixels), parts = 2 * SAMPLES * a->every * n;
-    k->price = (a->price + b->price) / (a->samples + b->samples);
+    double n = pixels_count(a->pixels), samples = 2 * SAMPLES * n;
+    k->price = (a->price + b->price) / samples;
     k->variance = NOTHING;
     for (int i = 0; i < n; i++) {
         k->variance += variance(a->often[i], b->often[i], unit[i]) / n;
         for (int j = 0; j < SAMPLES; j++)
-            k->variance += (huber(a->rare[j][i] / unit[i]) + huber(b->rare[j][i] / unit[i])) / parts;
+            k->variance += (huber(a->rare[j][i] / unit[i]) + huber(b->rare[j][i] / unit[i])) / (samples * a->every);
     }
     if (BLIND_SHARE * pixels_lit(a) < most)
         k->variance = BLIND;
@@ -203,6 +202,8 @@ int race_winner(const struct runner runner[RUNNERS])
 void race(const struct render_job *job, struct prepared *p)
 {
     struct lap *lap = mem_alloc(LAPS, sizeof *lap);
+    for (int i = 0; i < RUNNERS; i++)
+        p->runner[i].variance = p->runner[i].price = 0; /* of an earlier race */
     p->winner = compete(job, p, lap) ? race_winner(p->runner) : RUNNER_ALL;
     free(lap);
 }

@@ -3,7 +3,7 @@
  * The tile traces K light sub-paths in an iteration, as many as BDPT. They have importances I_k and probabilities
  *     q_k = (1 - delta) I_k / sum I + delta / K,                                               [Hesterberg 1995]
  * a defensive mixture: every sub-path that can contribute has a chance. Vose's alias table [Vose 1991] over q has K
- * bins of at most two sub-paths, like the dissertation's bins. Each pixel visits exactly one bin, in random order, and
+ * bins of at most two sub-paths, like the dissertation's bins. Each pixel visits one bin, in random order, and
  * draws one of its two sub-paths. It connects the sub-path as in BDPT and multiplies the strategies s >= 2, t >= 2 by
  *     W = 1 / (K q_k).
  * For a fixed pool, the expectation of a pixel is the mean over the pool, so the estimate is unbiased for any I that
@@ -44,8 +44,9 @@ static struct cache *build(const struct prepared *p, const struct tile_pass *pas
         q[k] = (delta < 1 ? (1 - delta) * q[k] / sum : 0) + delta / pool->n;
     alias_build(&pool->alias, q, pool->n);
     pool_shuffle(pool, pass, iteration, order);
-    for (int i = 0, x, y; pixels_get(pass->tile->pixels, i, &x, &y); i++) {
-        struct sampler choice = sample_stream(pass, RNG_SELECT, x, y, (uint64_t)iteration);
+    for (int i = 0; i < pass->tile->n_pixels; i++) {
+        const int *at = pass->tile->pixel[i];
+        struct sampler choice = sample_stream(pass, RNG_SELECT, at[0], at[1], (uint64_t)iteration);
         double pmf, u = sampler_number(&choice, DRAW_LIGHT_END);
         int k = alias_sample_bin(&pool->alias, order[i % pool->n], u, &pmf, NULL);
         drawn[i] = (struct drawn){pool_path(pool, k), 1, pool->length[k], pmf};

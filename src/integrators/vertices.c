@@ -6,12 +6,11 @@
  * The ratio (table.h) is large at places of which the camera can use much. Each eye vertex draws C vertices.
  *
  * The strategies s >= 2, t >= 2 with their light end at x count as about n(x) = 2 C ratio(x) / N samples in the MIS
- * weights, where N is the mean number of vertices of a light sub-path, and 2 the credit of a stratified draw. n is a
+ * weights, where N is the mean number of them in a light sub-path, and 2 the credit of a stratified draw. n is a
  * function of the surface point alone, so all strategies of a path compute the same n.
  *
  * Tests: test_asbdpt.c.
  */
-#include "base/number.h"
 #include "integrators/loop.h"
 
 static struct cache *build(const struct prepared *p, const struct tile_pass *pass, long iteration)

@@ -2,7 +2,6 @@
 #include "learning/learn.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/alias.h"
 #include "base/number.h"

@@ -192,10 +192,11 @@ static void medium(struct lobe_list *list, const struct material *m)
 struct material *material_medium(double g)
 {
     static const struct field NONE[] = {{.name = NULL}};
-    static const struct material_row ROW = {
-        .name = "medium", .fields = NONE, .size = sizeof(struct simple), .most_lobes = 1, .diffuse = true,
-        .lobes = medium};
-    struct material *m = material_new(&ROW);
+    static const struct material_row ROWS[] = {
+        {.name = "medium", .fields = NONE, .size = sizeof(struct simple), .most_lobes = 1, .lobes = medium,
+         .diffuse = true},
+        {.name = "sharp", .fields = NONE, .size = sizeof(struct simple), .most_lobes = 1, .lobes = medium}};
+    struct material *m = material_new(&ROWS[!(fabs(g) <= 0.8)]); /* there, light that goes on is 45 times that of g = 0 */
     ((struct simple *)m)->g = g;
     return m;
 }

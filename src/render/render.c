@@ -107,7 +107,7 @@ static bool good_enough(const struct run *r)
 static void take_splats(void *context, struct tile *tile)
 {
     struct under_way *p = context;
-    if ((tile->taken = parallel_await(&p->run->parallel, p->number)))
+    if ((tile->taken = !pass_cancelled(&p->pass) && parallel_await(&p->run->parallel, p->number)))
         film_take_splats(p->run->film, tile);
     tile->n_splats = 0;
 }

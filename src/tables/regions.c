@@ -1,13 +1,12 @@
 /* regions.c: see regions.h. */
 #include "tables/regions.h"
 
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bits.h"
 #include "base/mem.h"
 #include "base/number.h"
-#include "base/rng.h"
 
 /* A key: level (2 bits), face (3 bits, never 0), x, y, z (19 bits each). */
 enum { AXIS_BITS = 19, FACE_SHIFT = 3 * AXIS_BITS, LEVEL_SHIFT = FACE_SHIFT + 3 };

@@ -60,7 +60,7 @@ void sample_add(struct sample *sample, struct joined j)
         return;
     j.scale *= sample->filter_weight;
     j.added = black ? rgb_black() : rgb_scale(rgb_scale(j.c->value, j.scale), j.c->weight);
-    if (!rgb_is_finite(j.added)) { /* the whole sample would be lost */
+    if (!rgb_fits_float(j.added)) { /* the whole sample would be lost */
         sample->pass->tile->nonfinite++;
         return;
     }

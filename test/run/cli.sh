@@ -94,6 +94,7 @@ for number in connections=0 later=0 pathpixels=0; do
     expect 0 '' "$program" render "$box" $small --integrator asbdpt -P $number -o x.pfm
     check [ ! -s stderr.txt ]
 done
+expect 0 '' "$program" render caustics/caustic-pane.pbrt $small --strict --integrator asbdpt -P select=vertices -o x.pfm
 # Without lights nothing is rendered, whatever is asked for: a million samples of a hundred thousand pixels, in no time.
 printf 'WorldBegin Shape "sphere" WorldEnd\n' >dark.pbrt
 printf 'WorldBegin WorldEnd\n' >empty.pbrt

@@ -120,7 +120,8 @@ static double how_often(const struct settled *s, int k, enum eye_hit end, bool s
 static void test_nothing_is_given_up(struct test *t)
 {
     static const char *const materials[] = {"matte", "mirror", "glass", "uber", "disney", "plastic", "metal",
-                                            "substrate", "translucent"};
+                                            "substrate", "translucent",
+        "matte\" MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"float g\" -.9 Material \"matte"};
     for (size_t i = 0; i < sizeof materials / sizeof materials[0]; i++) {
         char text[2048];
         struct scene scene;
