@@ -196,7 +196,8 @@ struct material *material_medium(double g)
         {.name = "medium", .fields = NONE, .size = sizeof(struct simple), .most_lobes = 1, .lobes = medium,
          .diffuse = true},
         {.name = "sharp", .fields = NONE, .size = sizeof(struct simple), .most_lobes = 1, .lobes = medium}};
-    struct material *m = material_new(&ROWS[!(fabs(g) <= 0.8)]); /* there, light that goes on is 45 times that of g = 0 */
+    /* at 0.8 light that goes straight on is 45 times that of g = 0 */
+    struct material *m = material_new(&ROWS[!(fabs(g) <= 0.8)]);
     ((struct simple *)m)->g = g;
     return m;
 }
