@@ -20,8 +20,8 @@ struct lap {
     struct prepared by;    /* how the runner samples; shares all that it points to */
     int every;
     struct tile_pixels pixels;
-    /* The luminance of a pixel, and of the splats in its cell, by iteration of the lap: all that the render makes in each
-     * iteration; and the rest. */
+    /* The luminance of a pixel, and of the splats in its cell, by iteration of the lap: all that the render makes in
+     * each iteration; and the rest. */
     double often[SAMPLES][MOST_PIXELS], rare[SAMPLES][MOST_PIXELS];
     double price;
 };

@@ -73,7 +73,7 @@ static void test_where_they_pay(struct test *t)
 /* In these rooms light sub-paths help, some only who knows which of them matter where: no first race may end it. */
 static void test_where_learning_pays(struct test *t)
 {
-    static const uint64_t structures[] = {331, 363, 372, 389, 437};
+    static const uint64_t structures[] = {331, 363, 372, 389};
     struct scene scene;
     struct settled s;
     for (size_t i = 0; i < sizeof structures / sizeof structures[0]; i++) {
@@ -82,7 +82,7 @@ static void test_where_learning_pays(struct test *t)
             continue;
         if (settle(t, &scene, 0, &s)) {
             CHECK(t, s.learnt, "structure %d: a path tracer has won before all was learnt", number);
-            CHECK(t, i == 4 || s.winner < RUNNER_PATH_TRACER, "structure %d: a path tracer renders", number);
+            CHECK(t, s.winner < RUNNER_PATH_TRACER, "structure %d: a path tracer renders", number);
         }
         scene_free(&scene);
     }
