@@ -56,6 +56,7 @@ static const struct agreement EXPECTATIONS[] = {
     {"scenes/test/mirror-glass", 16, 16, 4, "bdpt", EVERY, 2, 2, 12, 8, true, 0.1},
     {"scenes/test/all-materials", 16, 16, 4, "bdpt", EVERY, 2, 2, 12, 8, true, 0.1},
     {"scenes/test/light-kinds", 24, 24, 4, "pt", SHARED, 2, 2, 12, 12, true, 0.2},
+    {"scenes/test/light-area-infinite", 12, 12, 3, "pt", "restirgi guide=on", 48, 48, 12, 12, true, 0.2},
     {"scenes/test/mirror-glass", 24, 24, 4, "pt", SHARED, 8, 8, 12, 12, true, 0.2},
     {"scenes/test/all-materials", 24, 24, 4, "pt", SHARED, 2, 2, 12, 12, true, 0.2},
     {SLOPE, 0, 0, 4, "pt", "restirgi neighbours=8", 512, 512, 16, 1, false, 0.1},

@@ -110,7 +110,7 @@ static void aggregate_next(const struct sample *sample, struct node **member, in
     const struct connection hit = reuse_hit(sample, from->z, next, rgb_grey(1));
     int able;
     double roulette, sum = ask(member, n, neg(next->wo), &able);
-    double all = sum + able * from->p * reuse_hit_density(sample->pass->job->scene, next);
+    double all = sum + able * from->p * reuse_hit_density(sample, from->z, next);
     rgb step = reuse_step(from->z, next, &roulette);
     rgb light = rgb_scale(rgb_add(rgb_scale(hit.value, sum / all), from[1].before), roulette / sum);
     if (next->prev_delta)

@@ -130,7 +130,7 @@ static void offer_later(struct pixel *p, struct reservoir *r, const struct verte
                 x.s == 0 ? reuse_hit(sample, &p->sample.eye[x.t - 2], &p->sample.eye[x.t - 1], beta)
                          : connect_s1(job->scene, sample->pass->counts, &at, &sample->sampler, 0, 1, &x.y);
             x.kind = x.s == 0 && x.t == 4 ? HIT : LATER;
-            x.light = x.kind == HIT ? pdf * reuse_hit_density(job->scene, &z[1]) : c.weight;
+            x.light = x.kind == HIT ? pdf * reuse_hit_density(sample, z, &z[1]) : c.weight;
             x.L = c.value;
             x.ends_on = c.light;
             if (own)

@@ -57,11 +57,14 @@ rgb reuse_step(const struct vertex *z, const struct vertex *next, double *roulet
 struct connection reuse_hit(const struct sample *sample, const struct vertex *prev, const struct vertex *z,
                             rgb beta);
 
-/* reuse_hit_density: where s = 1 draws what s = 0 hits at z: density there over that of the walk. */
-static inline double reuse_hit_density(const struct scene *scene, const struct vertex *z)
+/* reuse_hit_density: where s = 1 at the vertex before draws what s = 0 hits at z: density there over that of the walk. */
+static inline double reuse_hit_density(const struct sample *sample, const struct vertex *prev, const struct vertex *z)
 {
     z = z->lamp != NULL ? z->lamp : z;
-    return z->light < 0 ? 0 : vertex_light_point(scene, z).pdf / z->pdf_fwd;
+    if (z->light < 0)
+        return 0;
+    const struct light_point at = vertex_light_point(sample->pass->job->scene, z);
+    return table_ratio(&sample->pass->counts->tables->guide, prev->place, at.cell) * at.pdf / z->pdf_fwd;
 }
 
 /* reuse_sees: does z see the light's point? */
