@@ -65,8 +65,9 @@ static void print_runners(void)
 {
     printf("\n");
     print_wrapped("Runners: ways to render. With race=on each takes a few samples that no image uses, and the one with "
-                  "the least variance times price renders. None gives light up. asbdpt-lab info --race SCENE.pbrt "
-                  "shows what was found.", 0, 0);
+                  "the least variance times price renders, one of the last two only if it is less than three quarters "
+                  "of the others'. None gives light up. asbdpt-lab info --race SCENE.pbrt shows "
+                  "what was found.", 0, 0);
     static const char *const HELPS[RUNNERS] = {
         "as the parameters say: pathpixels, connections, later, lightpoints",
         "a light sub-path for four times as many pixels",

@@ -6,7 +6,8 @@
 #include "integrators/race.h"
 #include "learning/learn.h"
 
-enum { MIN_GUIDED_CELLS = 4 }; /* light cells; a guide does not help with fewer */
+enum { MIN_GUIDED_CELLS = 4 };  /* light cells; a guide does not help with fewer */
+static const double CALM = 0.5; /* variance of a sample, relative to the brightness squared */
 
 /* What to learn for p->winner. A path tracer of a method that learns much needs little, and has it from few sub-paths.
  *   light_paths  for light sub-paths, too */
@@ -45,15 +46,17 @@ static bool learn_for_winner(const struct render_job *job, struct prepared *p, b
 
 static bool has_light_paths(const struct prepared *p) { return p->runner[p->winner].numbers.path_pixels > 0; }
 
-/* The race while little is known: does a path tracer win it? Then it renders, with nothing more learnt. */
-static bool path_tracer_wins(const struct render_job *job, struct prepared *p)
+/* The race while little is known: may a path tracer render, with nothing more learnt? */
+static bool is_calm(const struct render_job *job, struct prepared *p)
 {
     p->winner = RUNNER_PATH_TRACER;
     learn_for_winner(job, p, true);
     race(job, p);
-    if (p->winner >= RUNNER_PATH_TRACER && !has_light_paths(p)) /* those of its rivals have had their tables */
+    if (p->winner < RUNNER_PATH_TRACER || p->runner[p->winner].variance >= CALM)
+        return false;
+    if (!has_light_paths(p)) /* those of its rivals have had their tables */
         learn_for_winner(job, p, false);
-    return p->winner >= RUNNER_PATH_TRACER;
+    return true;
 }
 
 /* Learn, and find the runner: the one that was asked for, or the winner of a race. Was there anything to do? */
@@ -62,7 +65,7 @@ static bool learn_and_race(const struct render_job *job, struct prepared *p)
     const int asked = p->numbers.path_pixels > 0 ? p->parameters.race : RACE_OFF;
     const bool races = asked == RACE_ON && rect_pixels(job->film_rect) >= RACE_LEAST_PIXELS;
     race_begin(job->scene, p);
-    if (races && p->method->learns_pairs && (path_tracer_wins(job, p) || job_cancelled(job) != CANCEL_NOT))
+    if (races && p->method->learns_pairs && (is_calm(job, p) || job_cancelled(job) != CANCEL_NOT))
         return true; /* if cancelled, what has been learnt so far remains */
     p->winner = asked >= RACE_RUNNERS ? asked - RACE_RUNNERS : RUNNER_ALL;
     bool learns = learn_for_winner(job, p, has_light_paths(p));

@@ -6,9 +6,9 @@
 #include "base/number.h"
 #include "base/parallel.h"
 
-enum { LAPS = 2 * RUNNERS, SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32 };
-static const double FIREFLY = 11, SURE = 3; /* standard deviations */
-static const double NOTHING = 1e-30;        /* not 0: others are divided by it */
+enum { LAPS = 2 * RUNNERS, SIDE = 16, MOST_PIXELS = SIDE * SIDE, SAMPLES = 4, RARE = 32, BLIND_SHARE = 8 };
+static const double FIREFLY = 11, CAUTION = 4.0 / 3;
+static const double NOTHING = 1e-30, BLIND = 1e30; /* not 0 and infinity: others are divided by them */
 
 /* Prices, fitted to CPU times; a sample costs 1, an eye vertex, too. That of a light vertex includes its splat. */
 enum { PRICE_CONNECTION = 2, PRICE_LIGHT_VERTEX = 3 };
@@ -20,9 +20,9 @@ struct lap {
     struct prepared by;    /* how the runner samples; shares all that it points to */
     int every;
     struct tile_pixels pixels;
-    /* The luminance of a pixel, and of the splats in its cell, by iteration of the lap: all that the render makes in
-     * each iteration; and the rest. */
-    double often[SAMPLES][MOST_PIXELS], rare[SAMPLES][MOST_PIXELS];
+    /* Sums of the luminance of a pixel, and of the splats in its cell: all that the render makes in each iteration; and
+     * the rest, by iteration of the lap. */
+    double often[MOST_PIXELS], rare[SAMPLES][MOST_PIXELS];
     double price;
 };
 
@@ -41,7 +41,7 @@ static void joined(void *context, const struct sample *sample, const struct join
         return; /* all runners have the same of light that the camera sees directly */
     int cell = pixels_cell(l->pixels, (int)x, (int)y);
     value *= p->t == 1 ? 1 : every; /* splats are divided by the count in the weights */
-    (every > 1 ? l->rare : l->often)[sample->iteration][cell] += value;
+    *(every > 1 ? &l->rare[sample->iteration][cell] : &l->often[cell]) += value;
 }
 
 static void walked(void *context, const struct sample *sample, enum transport mode, const struct vertex *path, int n)
@@ -90,62 +90,46 @@ static bool count_lap(void *context, int64_t number, int slot)
 /* The square of x >= 0, continued by its tangent above FIREFLY. */
 static double huber(double x) { return x < FIREFLY ? x * x : 2 * FIREFLY * x - FIREFLY * FIREFLY; }
 
-/* What an iteration of the render makes of a pixel, and the mean over a lap. */
-static double made(const struct lap *l, int j, int i) { return l->often[j][i] + l->rare[j][i] / l->every; }
+/* The variance of a sample, from two sums of samples, relative to a unit of brightness. */
+static double variance(double a, double b, double unit) { return huber(fabs(a - b) / unit / sqrt(2.0 * SAMPLES)); }
 
+/* What the render makes of a pixel, the mean over a lap. */
 static double mean_of(const struct lap *l, int i)
 {
-    double sum = 0;
+    double mean = l->often[i] / SAMPLES;
     for (int j = 0; j < SAMPLES; j++)
-        sum += made(l, j, i);
-    return sum / SAMPLES;
+        mean += l->rare[j][i] / (SAMPLES * l->every);
+    return mean;
 }
 
-/* From the two laps of a runner. Of what the render makes in one of `every` iterations we take the second moment, which
- * is nearly the variance. */
-static void judge(struct runner *k, const struct lap *a, const double *unit)
+/* The number of pixels in which a runner has met light in one of its two laps. */
+static int pixels_lit(const struct lap *a)
+{
+    int lit = 0;
+    for (int i = 0; i < pixels_count(a->pixels); i++)
+        lit += mean_of(a, i) + mean_of(a + 1, i) > 0;
+    return lit;
+}
+
+/* From the two laps of a runner; most: of pixels_lit. For what the render makes in one of `every` iterations we take the
+ * second moment, which is nearly the variance. */
+static void judge(struct runner *k, const struct lap *a, const double *unit, int most)
 {
     const struct lap *b = a + 1;
     double n = pixels_count(a->pixels), samples = 2 * SAMPLES * n;
     k->price = (a->price + b->price) / samples;
     k->variance = NOTHING;
     for (int i = 0; i < n; i++) {
-        double d = 0;
-        for (int j = 0; j < SAMPLES; j++) {
-            d += a->often[j][i] - b->often[j][i];
+        k->variance += variance(a->often[i], b->often[i], unit[i]) / n;
+        for (int j = 0; j < SAMPLES; j++)
             k->variance += (huber(a->rare[j][i] / unit[i]) + huber(b->rare[j][i] / unit[i])) / (samples * a->every);
-        }
-        k->variance += huber(fabs(d) / unit[i] / sqrt(2.0 * SAMPLES)) / n; /* two sums of samples */
     }
+    if (BLIND_SHARE * pixels_lit(a) < most)
+        k->variance = BLIND;
 }
 
-/* The mean over a runner's samples, in units, and its variance, by the iterations of its two laps: within one, pixels
- * share light sub-paths. */
-static double mean_over(const struct lap *lap, const double *unit, double *variance)
-{
-    double sum = 0, squares = 0, n = pixels_count(lap->pixels);
-    for (int j = 0; j < 2 * SAMPLES; j++) {
-        double x = 0;
-        for (int i = 0; i < n; i++)
-            x += made(&lap[j / SAMPLES], j % SAMPLES, i) / (n * unit[i]);
-        sum += x / (2 * SAMPLES);
-        squares += x * x / (2 * SAMPLES);
-    }
-    *variance = fmax(squares - sum * sum, 0) / (2 * SAMPLES - 1);
-    return sum;
-}
-
-/* What N samples have missed comes about once in N, or less often. So if their mean surely lacks d of that of the first
- * runner, whose laps are all[2], their variance is at least d^2 N. */
-static void judge_lack(struct runner *k, const struct lap *a, const struct lap *all, const double *unit)
-{
-    double v[2], d = mean_over(all, unit, &v[0]) - mean_over(a, unit, &v[1]);
-    if (d > SURE * sqrt(v[0] + v[1]))
-        k->variance = d * d * 2 * SAMPLES * pixels_count(a->pixels);
-}
-
-/* The brightness that noise is relative to: the mean of the pixel's and the picture's, over all laps. Is there any? */
-static bool find_units(const struct lap *lap, double *unit)
+/* The brightness that noise is relative to: the mean of the pixel's and the picture's, over all laps. */
+static void find_units(const struct lap *lap, double *unit)
 {
     int pixels = pixels_count(lap->pixels);
     double picture = 0;
@@ -157,7 +141,6 @@ static bool find_units(const struct lap *lap, double *unit)
     }
     for (int i = 0; i < pixels; i++)
         unit[i] = (unit[i] + picture) / 2;
-    return picture > 2 * NOTHING;
 }
 
 /* --- the race ---------------------------------------------------------------------------------------- */
@@ -184,30 +167,34 @@ void race_begin(const struct scene *scene, struct prepared *p)
     one->light_points = 1;
 }
 
-/* Lay the laps of all runners, and judge them. False if no light is met, or the job is cancelled. */
+/* Lay the laps of all runners, and judge them. False if there is no light, or the job is cancelled. */
 static bool compete(const struct render_job *job, struct prepared *p, struct lap *lap)
 {
     struct parallel_jobs jobs = {LAPS, job->n_threads, LAPS, lap, run_lap, count_lap, NULL};
     double unit[MOST_PIXELS];
+    int most = 0;
     for (int i = 0; i < LAPS; i++)
         start_lap(job, p, &p->runner[i / 2], (uint64_t)i % 2, &lap[i]);
-    if (job->scene->lights.n == 0 || parallel_run(&jobs) < LAPS || job_cancelled(job) != CANCEL_NOT ||
-        !find_units(lap, unit))
+    if (job->scene->lights.n == 0 || parallel_run(&jobs) < LAPS || job_cancelled(job) != CANCEL_NOT)
         return false;
-    for (int i = 0; i < RUNNERS; i++) {
-        judge(&p->runner[i], &lap[2 * i], unit);
-        judge_lack(&p->runner[i], &lap[2 * i], lap, unit);
-    }
+    find_units(lap, unit);
+    for (int i = 0; i < LAPS; i += 2)
+        most = most > pixels_lit(&lap[i]) ? most : pixels_lit(&lap[i]);
+    for (int i = 0; i < RUNNERS; i++)
+        judge(&p->runner[i], &lap[2 * i], unit, most);
     return true;
 }
+
+bool race_blind(const struct runner *k) { return k->variance >= BLIND; }
 
 int race_winner(const struct runner runner[RUNNERS])
 {
     double least = INFINITY;
     int winner = RUNNER_ALL;
     for (int i = 0; i < RUNNERS; i++) {
-        winner = runner_cost(&runner[i]) < least ? i : winner;
-        least = fmin(runner_cost(&runner[i]), least);
+        double cost = runner_cost(&runner[i]) * (i < RUNNER_PATH_TRACER ? 1 : CAUTION);
+        winner = cost < least ? i : winner;
+        least = fmin(cost, least);
     }
     return winner;
 }

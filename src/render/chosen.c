@@ -19,7 +19,7 @@ void chosen_numbers(const struct prepared *p, struct chosen_number out[CHOSEN_NU
     memset(out, 0, CHOSEN_NUMBERS * sizeof *out); /* an empty name ends the list */
     memcpy(out, numbers, sizeof numbers);
     for (int i = 0; i < RUNNERS; i++)
-        if (winner->price > 0) { /* 0: no race, or cancelled */
+        if (p->runner[i].price > 0 && winner->price > 0 && !race_blind(&p->runner[i])) { /* 0: no race, or cancelled */
             snprintf(out[used].name, sizeof out->name, "race_%s", runner_name(i));
             out[used++].value = runner_cost(&p->runner[i]) / runner_cost(winner);
         }

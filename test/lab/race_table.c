@@ -43,7 +43,7 @@ void race_print_winner(FILE *f, const struct race_result *r)
     print_light(f, &winner->numbers);
     fputs(".", f);
     for (int i = 0; i < RUNNERS; i++)
-        if (i != r->winner) {
+        if (i != r->winner && !race_blind(&r->runner[i])) {
             fprintf(f, "%s %s %.3g", before, runner_name(i), relative_cost(r, &r->runner[i]));
             before = ",";
         }
@@ -64,12 +64,16 @@ void race_print_table(FILE *f, const struct race_result *r)
         double later = (double)n->draws[LATER_HIT] / numbers_every(n);
         fprintf(f, "  %-14s %8.3g %6.2g %6d", runner_name(i), (double)n->draws[FIRST_HIT] / numbers_every(n), later,
                 n->light_points);
-        fprintf(f, " %10.4g %8.4g %8.3f  ", k->variance, k->price, relative_cost(r, k));
+        if (race_blind(k))
+            fprintf(f, " %10s %8.4g %8s", "-", k->price, "-");
+        else
+            fprintf(f, " %10.4g %8.4g %8.3f", k->variance, k->price, relative_cost(r, k));
+        fputs("  ", f);
         print_light(f, n);
         fprintf(f, "%s\n", i == r->winner ? "; chosen" : "");
     }
     fputs("  at first, later: light vertices for an eye vertex, in the mean over iterations; points: light points at a\n"
           "  first hit; variance: of a sample, relative to brightness; product: variance times price, over that of\n"
-          "  the chosen one\n",
+          "  the chosen one; -: it met next to no light\n",
           f);
 }

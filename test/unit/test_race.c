@@ -73,7 +73,7 @@ static void test_where_they_pay(struct test *t)
 /* In these rooms light sub-paths help, some only who knows which of them matter where: no first race may end it. */
 static void test_where_learning_pays(struct test *t)
 {
-    static const uint64_t structures[] = {331, 363, 372, 389};
+    static const uint64_t structures[] = {331, 363, 437};
     struct scene scene;
     struct settled s;
     for (size_t i = 0; i < sizeof structures / sizeof structures[0]; i++) {
@@ -82,7 +82,7 @@ static void test_where_learning_pays(struct test *t)
             continue;
         if (settle(t, &scene, 0, &s)) {
             CHECK(t, s.learnt, "structure %d: a path tracer has won before all was learnt", number);
-            CHECK(t, s.winner < RUNNER_PATH_TRACER, "structure %d: a path tracer renders", number);
+            CHECK(t, i == 2 || s.winner < RUNNER_PATH_TRACER, "structure %d: a path tracer renders", number);
         }
         scene_free(&scene);
     }
@@ -320,14 +320,15 @@ static void test_names(struct test *t)
     scene_free(&scene);
 }
 
-/* race_winner: the least product wins. */
+/* race_winner: the least product wins, but of path tracers only if it is less than three quarters of the others'. */
 static void test_winner(struct test *t)
 {
     static const struct {
         double variance[RUNNERS];
         int winner;
-    } cases[] = {{{5, 4, 6, 7}, RUNNER_QUARTER}, {{4, 5, 6, 7}, RUNNER_ALL}, {{5, 5, 4.9, 5}, RUNNER_PATH_TRACER},
-                 {{5, 5, 4, 3}, RUNNER_ONE_POINT}};
+    } cases[] = {{{5, 4, 6, 7}, RUNNER_QUARTER}, {{4, 5, 6, 7}, RUNNER_ALL}, {{5, 5, 4, 5}, RUNNER_ALL},
+                 {{5, 5, 3.8, 3.7}, RUNNER_ONE_POINT}, {{5, 5, 3.8, 3.8}, RUNNER_ALL},
+                 {{1e30, 1e30, 4, 1e30}, RUNNER_PATH_TRACER}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct runner runner[RUNNERS];
         for (int k = 0; k < RUNNERS; k++)
