@@ -6,14 +6,14 @@
 #                    HIGH RELMSE LOW HIGH 8x8 LOW HIGH". With worst= and mean=: exit status 1 beyond them by mse8, or
 #                    where asbdpt misses light
 #   two groups       first-row and first-worst, of the first
-#   -v missing=FILE  its section unknown has lines "SCENE METHOD MEASURE": squared errors that no number of runs tells,
-#                    since the noise of their reference is unknown or larger
+#   -v missing=FILE  its section unknown has lines "SCENE METHOD MEASURE [GROUP]": squared errors that no number of runs
+#                    tells, since the noise of their reference is unknown or larger
 BEGIN {
     FS = ","
     split("mse8 relmse relmse8x8", square, " "); split("mse8 relmse 8x8", measure, " ")
     while (missing != "" && (getline line < missing) > 0) {
         if (line ~ /^== /) on = line == "== unknown"
-        else if (on) { split(line, part, " "); unknown[named(part[2]), part[1], part[3]] }
+        else if (on) { split(line, part, " "); unknown[named(part[2]), part[1], part[3], part[4]] }
     }
 }
 function named(label) { return label == "subspaces" ? "asbdpt" : label }
@@ -35,7 +35,7 @@ FNR == 1 {
 }
 # mean_cost: of a method in a scene, by measure k. 0: not known.
 function mean_cost(g, l, s, k,    i, sum) {
-    if ((l, s, measure[k]) in unknown || (g, l, s) in unaffordable) return 0
+    if ((l, s, measure[k], "") in unknown || (l, s, measure[k], g) in unknown || (g, l, s) in unaffordable) return 0
     for (i = 1; i <= seeds[g, l, s]; i++) sum += cost[g, l, s, k, i]
     return i > 1 && sum > 0 ? sum / (i - 1) : 0
 }
