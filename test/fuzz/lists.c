@@ -61,6 +61,19 @@ static bool make_file(const char *directory, const struct list_file *f, struct e
     return ok || error_set(err, "%s: cannot be written", path);
 }
 
+/* Where links are not allowed, as in a WASI sandbox to a path from the root. */
+static bool copy_file(const char *path, const char *to, const char *name, struct error *err)
+{
+    struct list_file f = {.packed = false};
+    uint8_t *data;
+    if (snprintf(f.name, sizeof f.name, "%s", name) >= (int)sizeof f.name || !file_read(path, &data, &f.size, err))
+        return false;
+    f.text = (const char *)data;
+    bool ok = make_file(to, &f, err);
+    free(data);
+    return ok;
+}
+
 static bool unpack_file(const char *from, const char *to, const char *name, struct error *err)
 {
     char path[PATH], link[PATH];
@@ -71,7 +84,7 @@ static bool unpack_file(const char *from, const char *to, const char *name, stru
         snprintf(link, sizeof link, "%s/%s", to, name) >= PATH)
         return error_set(err, "%s/%s: a path that is too long", from, name);
     if (end == NULL || strcmp(end, ".txt") != 0)
-        return symlink(path, link) == 0 || errno == EEXIST || error_set(err, "%s: cannot be linked", link);
+        return symlink(path, link) == 0 || errno == EEXIST || copy_file(path, to, name, err);
     if (!file_read(path, &data, &size, err))
         return false;
     const char *at = (const char *)data; /* file_read puts a zero byte behind it */

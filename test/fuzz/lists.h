@@ -24,8 +24,8 @@ bool list_next(const char **at, struct list_file *out);
 /* list_bytes: what packed text says, into out, which has room for `size`; returns how many bytes. */
 size_t list_bytes(const char *text, size_t size, uint8_t *out);
 
-/* list_unpack: make a directory that has the files of all lists of the folder `from`, and links to its other files.
- * Returns false with a message. */
+/* list_unpack: make a directory that has the files of all lists of the folder `from`, and links to its other files, or
+ * copies where none can be made. Returns false with a message. */
 bool list_unpack(const char *from, const char *to, struct error *err);
 
 #endif

@@ -34,7 +34,7 @@ static bool mesh_subdivide(struct mesh *m, int levels, struct error *err)
     shape_fields_set(&f, "P", &points, sizeof points);
     shape_fields_set(&f, "indices", &indices, sizeof indices);
     shape_fields_set(&f, "levels", &levels, sizeof levels);
-    bool ok = shape_fields_mesh(&f, 2.5e9, &made, err);
+    bool ok = shape_fields_mesh(&f, 2e9, &made, err);
     free(index);
     mesh_free(ok ? m : &made);
     if (ok)
@@ -158,7 +158,7 @@ static void check_refused(struct test *t)
     refuse(t, same, 2, 2, "two that run along it the same way");
     refuse(t, none, 1, 2, "between points 0 and 0");
     refuse(t, three, 1, 30, "there can be 2^30");
-    refuse(t, three, 1, 12, "1.678e+07 triangles: this needs 3355.4 MB more memory, but 2500.0 of");
+    refuse(t, three, 1, 12, "1.678e+07 triangles: this needs 3355.4 MB more memory, but 2000.0 of");
 }
 
 /* Normals are as long as the product of two tangents: a mesh twice as large has them four times as long. */
