@@ -66,7 +66,9 @@ static bool copy_file(const char *path, const char *to, const char *name, struct
 {
     struct list_file f = {.packed = false};
     uint8_t *data;
-    if (snprintf(f.name, sizeof f.name, "%s", name) >= (int)sizeof f.name || !file_read(path, &data, &f.size, err))
+    if (snprintf(f.name, sizeof f.name, "%s", name) >= (int)sizeof f.name)
+        return error_set(err, "%s: a name that is too long", path);
+    if (!file_read(path, &data, &f.size, err))
         return false;
     f.text = (const char *)data;
     bool ok = make_file(to, &f, err);

@@ -301,7 +301,7 @@ static void test_exact_range(struct test *t)
     CHECK(t, !exact_join(&full, &empty) && exact_join(&full, &s), "an overflow below is refused");
 }
 
-/* A connection that is not finite, or does not fit a float, is left out, and counted; what else the sample has brought stays. */
+/* A connection that fits no float is left out, and counted; what else the sample has brought stays. */
 static void test_one_lost(struct test *t)
 {
     static const double BAD[] = {NAN, INFINITY, -INFINITY, 1e200};

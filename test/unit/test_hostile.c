@@ -176,7 +176,7 @@ static const struct repetition REPETITIONS[] = {
      "Integrator \"bdpt\" MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [ 1e-9 1e-9 1e-9 ] "
      "WorldBegin LightSource \"point\" Material \"none\"",
      "MediumInterface \"\" \"m\" Shape \"sphere\" \"float radius\" %d.5 MediumInterface \"m\" \"\" "
-     "Shape \"sphere\" \"float radius\" %d.7", "WorldEnd", 2000, 0, 0},
+     "Shape \"sphere\" \"float radius\" %d.7", "WorldEnd", 7000, 0, 0},
     {"instances of lamps",
      "WorldBegin AreaLightSource \"diffuse\" ObjectBegin \"o\" Shape \"loopsubdiv\" \"integer levels\" 5 "
      "\"integer indices\" [ 0 1 2 0 2 3 0 3 1 1 3 2 ] \"point P\" [ 0 0 0 1 0 0 0 1 0 0 0 1 ] ObjectEnd",
