@@ -185,7 +185,7 @@ check-long: asbdpt asbdpt-lab $(BUILD)/test experiments web portability inject #
 	    diff -r -x equal.png doc/tour/figures out/figures"
 	if command -v python3 >/dev/null; then python3 test/measure/recompute.py; else echo "recompute: skipped: no python3"; fi
 	sh test/run/cluster.sh $(PROGRAM)
-	BUILD=$(BUILD) sh test/measure/structures.sh out/structures
+	BUILD=$(BUILD) COUNT=12 sh test/measure/structures.sh out/structures
 	BUILD=$(BUILD) COUNT=10 SPP=16 sh test/measure/predictions.sh out/race
 	RES=8x6 SPP=1 REFERENCE_SPP=1 SEEDS=61 sh test/lab/tune.sh out/tune pt
 
