@@ -315,7 +315,7 @@ static const struct {
               {"scenes/forest.pbrt", 1024, 2048, 256, 4096, 1 << 19},
               {"scenes/sky.pbrt", 256, 0, 256, 256, 1 << 18},
               {"scenes/test/light-kinds.pbrt", 256, 256, 256, 512, 1 << 17},
-              {"scenes/test/all-materials.pbrt", 512, 256, 320, 640, 1 << 18}};
+              {"scenes/test/all-materials.pbrt", 512, 256, 320, 640, 1 << 20}};
 
 static void test_six_scenes(struct test *t)
 {
