@@ -12,6 +12,7 @@
 # Run from the top, where make has been run.
 #   sh test/run/tools.sh fetch DIR: puts Debian's into DIR for TOOLS=DIR; installs nothing
 chosen=" $* "
+unset FULL # here the least is enough
 dir=$(mktemp -d) || exit 1
 trap 'rm -rf "$dir"' EXIT
 trap 'exit 1' HUP INT TERM
