@@ -3,8 +3,8 @@
  * Until interrupt_defer the first SIGINT, SIGTERM, SIGHUP or SIGXCPU (a limit of CPU time) ends the program. After it
  * the first is kept for the work to look at, so that a render can stop and write what there is. Whatever follows within
  * a second is the same wish: a terminal, GNU timeout and batch systems signal a program and its group. A later one ends
- * the program at once, unless it is a further SIGXCPU, which nobody sends. Whichever way the program ends, except by
- * SIGKILL, temporary files are removed: file.h registers them here.
+ * the program at once, unless it is a further SIGXCPU, which nobody sends. When it ends by itself or by one of
+ * these, temporary files are removed: file.h registers them here.
  *
  * A signal handler can reach nothing but static variables; those of interrupt.c are the only ones of the program that
  * change. Tests: test/run/checkpoint.sh. */

@@ -9,6 +9,7 @@
 #include "base/interrupt.h"
 #include "base/number.h"
 #include "base/os.h"
+#include "render/noise_estimate.h"
 
 /* Is the checkpoint to be resumed the one to be written? */
 static bool resumes_its_own(const struct checkpoint *o)
@@ -132,7 +133,7 @@ static void say_noise(const struct checkpoint *k)
 {
     const struct film *f = &k->of->film;
     const struct noise_estimate *relative = &f->noise[NOISE_RELATIVE], *levels = &f->noise[NOISE_8_BIT];
-    long every = 2L * f->run;
+    long every = noise_every(f);
     if (relative->value < INFINITY)
         say_line("asbdpt: noise %.3g +- %.1g of the brightness around, %.3g +- %.1g of 255 levels, at %ld samples per "
                  "pixel: %s the limit", relative->value, relative->error, levels->value, levels->error,

@@ -133,6 +133,8 @@ static bool merge(const struct merge_options *o, struct merge *m, bool picture, 
     struct pixel_rect rect = {0, 0, first->width, first->height};
     if (!check_ranges(m, picture ? 0 : first->first, picture ? first->planned : 0, o->partial, &end))
         return error_set(err, "nothing was written");
+    if (end == first->first)
+        return error_set(err, "the parts hold no samples");
     film_init(&film, rect, rect.x1, rect.y1);
     bool ok = add_parts(m, &film, err) && write_film(o, m, end, &film, out, err);
     film_free(&film);

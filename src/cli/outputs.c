@@ -51,9 +51,13 @@ bool outputs_open(const struct texts *names, const struct tone_options *tone, bo
 static bool write_one(struct outputs *o, struct output *one, int width, int height, const float *pixels,
                       struct error *err)
 {
-    const struct raster r = {o->place, width, height, pixels, NULL, 0};
+    const struct raster r = {o->place, width, height, pixels, NULL, 0, o->preview};
     if (!one->is_part)
         return image_finish(&one->file, &r, err);
+    if (!part_possible(o->film, one->file.path, err)) {
+        file_abandon(&one->file);
+        return false;
+    }
     part_write(&one->file, o->part, o->film);
     return file_commit(&one->file, err);
 }
@@ -93,6 +97,7 @@ bool outputs_preview(const struct outputs *o, struct error *err)
     const struct film *f = o->film;
     first.item = NULL;
     first.n = 0;
+    first.preview = true;
     if (!add_file(&first, o->item[0].file.path, false, err))
         return false;
     float *pixels = mem_alloc(rect_pixels(f->rect) * 3, sizeof *pixels);

@@ -194,7 +194,7 @@ bool image_finish(struct file_output *f, const struct raster *r, struct error *e
 {
     const struct format *format = format_to_write(f->path);
     format->write(f->stream, r);
-    if (format->warn != NULL)
+    if (format->warn != NULL && !r->preview)
         format->warn(f->path, r);
     return file_commit(f, err);
 }

@@ -37,6 +37,7 @@ struct raster {
     const float *pixels;        /* [height*width*3], linear RGB, top row first */
     const struct channel *more; /* [n_more] in addition to R, G, B: OpenEXR keeps all, PNG "A", the others none */
     int n_more;
+    bool preview; /* nothing is said of what the format cuts */
 };
 
 /* raster_alpha: the channel "A", or NULL. */
@@ -113,8 +114,8 @@ const char *image_list_written(char text[IMAGE_LIST_TEXT]);
 /* image_create, image_finish: write a picture in the format named by the extension; to standard output, -, as PFM.
  * .ppm and .png are clamped to [0,1] and sRGB encoded; .exr has halfs, like pbrt-v3's, and a warning says how many
  * values these have cut; .float.exr has floats. The file appears whole or not at all. The first says what is wrong with
- * the name or the place, as of a terminal, and is to be followed by image_finish or file_abandon; the second, which may
- * come hours later, fails on any I/O error. */
+ * the name or the place, and is to be followed by image_finish or file_abandon; the second, which may come hours later,
+ * fails on any I/O error. */
 bool image_create(const char *path, struct file_output *out, struct error *err);
 bool image_finish(struct file_output *f, const struct raster *r, struct error *err);
 

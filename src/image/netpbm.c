@@ -1,5 +1,5 @@
-/* netpbm.c: the formats with a header of words, PFM and PPM, see image.h. isspace is that of the C locale, the only
- * one this program knows. */
+/* netpbm.c: the formats with a header of words, PFM and PPM, see image.h. isspace is that of the C locale, a
+ * program's at first. */
 #include <ctype.h>
 #include <float.h>
 #include <math.h>

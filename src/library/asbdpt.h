@@ -12,7 +12,7 @@
  * of memory ends the process with a message, as in the program; what a scene would take is asked first (--max-memory).
  *
  * Threads: a render belongs to one thread at a time; several renders may be under way in several threads. Their only
- * shared state is a list of temporary files, behind a lock. No call touches signals or the locale; numbers in scenes
+ * shared state is a list of temporary files, behind a lock. No call touches signals or the locale; numbers in texts
  * need the "C" locale, which is a program's at first. The same scene, seed and samples give the same bytes, for any
  * number of threads, in one call or in many.
  *
@@ -79,9 +79,10 @@ typedef int asbdpt_cancel(void *context);
 /* asbdpt_render: render some more samples of each pixel, first learning if the method learns.
  *   samples   how many; they end with a whole four where the filter has negative lobes, and with a block of
  *             select=bins. With restart=0 all of --spp is one block, and no call can add to it
- *             0: all that are missing of --spp, or until --noise is reached
+ *             0: all that are missing of --spp. Neither goes on once --noise is reached
  *   progress, cancel  may be NULL; `context` is passed to both
- * A render that is cancelled is no error; the next call continues it. */
+ * A render that is cancelled is no error; the next call continues it. If it was cancelled while it learnt, its samples
+ * go by what it had learnt; they are kept in no part or checkpoint, and cannot continue one. */
 int asbdpt_render(asbdpt *r, long samples, asbdpt_progress *progress, asbdpt_cancel *cancel, void *context);
 
 /* asbdpt_samples: samples of each pixel so far, in the mean. -1 without a scene. */
@@ -98,7 +99,7 @@ int asbdpt_error(asbdpt *r, float *pixels);
 int asbdpt_keep_error(asbdpt *r);
 
 /* asbdpt_statistics: what was rendered and how, the JSON object of --stats: parameters, samples, seconds, memory, what
- * the method chose. Valid until the next call with this render. NULL without a scene, and where no file can be made. */
+ * the method chose. Valid until the next call with this render. NULL without a scene. */
 const char *asbdpt_statistics(asbdpt *r);
 
 /* asbdpt_save: the picture so far in the format of the name: .pfm, .exr, .float.exr, .png, .ppm; or .part, all samples

@@ -174,11 +174,13 @@ int asbdpt_read(asbdpt *r, float *pixels)
 
 int asbdpt_keep_error(asbdpt *r)
 {
+    struct error err = {.text = ""};
     if (!begins(r, true) || !unsampled(r))
         return 1;
-    if (r->film.half == NULL)
+    bool ok = r->film.half != NULL || budget_has(&r->scene.memory, film_bytes(r->film.rect, true), &err);
+    if (ok && r->film.half == NULL)
         film_keep_halves(&r->film);
-    return 0;
+    return end_call(r, ok, &err);
 }
 
 int asbdpt_error(asbdpt *r, float *pixels)
@@ -188,9 +190,10 @@ int asbdpt_error(asbdpt *r, float *pixels)
     if (!begins(r, true))
         return 1;
     bool ok = f->half != NULL || error_set(&err, "no error is kept: call asbdpt_keep_error before the first sample");
-    ok = ok && ((f->iterations > 0 && f->passes == 0 && f->iterations % (2L * f->run) == 0) ||
-                error_set(&err, "the error is known at every %ld samples, not at %ld", 2L * noise_run(1),
-                          f->iterations));
+    long every = noise_every(f);
+    ok = ok && (every > 0 || error_set(&err, "the error is known once asbdpt_render was called"));
+    ok = ok && ((f->iterations > 0 && f->passes == 0 && f->iterations % every == 0) ||
+                error_set(&err, "the error is known at every %ld samples, not at %ld", every, f->iterations));
     double scale = r->scene.film_scale / (double)(f->iterations > 0 ? f->iterations : 1);
     for (size_t i = 0; ok && i < rect_pixels(f->rect) * 3; i++)
         pixels[i] = float_within(fabs(2 * exact_value(&f->half[i]) - film_value(f, i)) * scale);
@@ -217,10 +220,15 @@ static bool save_picture(const asbdpt *r, const char *path, struct error *err)
     film_develop(&r->film, r->scene.film_scale, pixels);
     for (size_t i = 0; i < rect_pixels(r->film.rect) * 3; i++)
         pixels[i] = pixels[i] > 0 ? pixels[i] : 0;
-    const struct raster raster = {r->part.place, width, height, pixels, NULL, 0};
+    const struct raster raster = {r->part.place, width, height, pixels, NULL, 0, false};
     bool ok = image_finish(&file, &raster, err);
     free(pixels);
     return ok;
+}
+
+static bool save_part(const asbdpt *r, const char *path, struct error *err)
+{
+    return part_possible(&r->film, path, err) && state_save(r, path, err);
 }
 
 /* The scene's files are not written over. */
@@ -236,7 +244,7 @@ static int save(asbdpt *r, const char *path, bool (*write)(const asbdpt *r, cons
 
 int asbdpt_save(asbdpt *r, const char *path)
 {
-    return save(r, path, file_has_extension(path, ".part") ? state_save : save_picture);
+    return save(r, path, file_has_extension(path, ".part") ? save_part : save_picture);
 }
 
 int asbdpt_save_checkpoint(asbdpt *r, const char *path) { return save(r, path, state_save); }

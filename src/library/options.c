@@ -163,18 +163,26 @@ static bool read_seed(struct reader *r, uint64_t *out)
     if (!next_value(r, &text))
         return false;
     errno = 0;
-    *out = strtoull(text, &end, 10);
-    return (isdigit((unsigned char)*text) && *end == '\0' && errno == 0) ||
-           error_set(r->err, "%s %s: expected a whole number from 0 to 18446744073709551615", r->option->name, text);
+    uint64_t seed = strtoull(text, &end, 10);
+    if (!isdigit((unsigned char)*text) || *end != '\0' || errno != 0)
+        return error_set(r->err, "%s %s: expected a whole number from 0 to 18446744073709551615", r->option->name,
+                         text);
+    *out = seed;
+    return true;
 }
 
-static bool read_word(struct reader *r, const char **out)
+/* A text; of an option with words one of these. */
+static bool read_text(struct reader *r, const char **out)
 {
-    const char *const *words = r->option->words;
+    const char *const *words = r->option->kind == OPTION_WORD ? r->option->words : NULL, *text;
     char list[NAMES_TEXT];
-    return next_value(r, out) && (names_find(words, *out) >= 0 ||
-           error_set(r->err, "%s %s: expected %s%s", r->option->name, *out, names_list(words, list),
-                     near_of(*out, words).text));
+    if (!next_value(r, &text))
+        return false;
+    if (words != NULL && names_find(words, text) < 0)
+        return error_set(r->err, "%s %s: expected %s%s", r->option->name, text, names_list(words, list),
+                         near_of(text, words).text);
+    *out = text;
+    return true;
 }
 
 static bool read_pair(struct reader *r, struct settings *pairs)
@@ -214,10 +222,8 @@ static bool read_value(struct reader *r, void *target)
         return read_seed(r, target);
     if (kind == OPTION_PAIRS)
         return read_pair(r, target);
-    if (kind == OPTION_TEXT)
-        return next_value(r, target);
-    if (kind == OPTION_WORD)
-        return read_word(r, target);
+    if (kind == OPTION_TEXT || kind == OPTION_WORD)
+        return read_text(r, target);
     return is_texts(r->option) ? read_texts(r, target) : read_numbers(r, target);
 }
 

@@ -41,7 +41,7 @@ bool state_open(struct asbdpt *r, struct error *err)
         return false;
     }
     r->load = os_wall_seconds() - start;
-    r->open = budget_has(&r->scene.memory, film_bytes(r->job.film_rect), &why);
+    r->open = budget_has(&r->scene.memory, film_bytes(r->job.film_rect, job_asks_noise(&r->job)), &why);
     if (!r->open) {
         error_set(err, "%s: its film of %dx%d pixels: %s; --res makes it smaller", r->job.scene_path, r->scene.width,
                   r->scene.height, why.text);
@@ -64,9 +64,17 @@ static struct part grown(const struct asbdpt *r, long end)
     return p;
 }
 
+/* Samples by what was learnt in haste and samples by all of it are of two pictures. */
+static bool refuse_haste(struct error *err)
+{
+    return error_set(err, "learning was cancelled, but the samples of the checkpoint go by all of it: open both again");
+}
+
 bool state_load(struct asbdpt *r, const char *path, struct error *err)
 {
     struct part found;
+    if (r->prepared.hasty)
+        return refuse_haste(err);
     FILE *file = part_open(path, &found, err);
     if (file == NULL)
         return false;
@@ -90,6 +98,7 @@ bool state_load(struct asbdpt *r, const char *path, struct error *err)
         film_free(&r->film);
         begin_film(r, halves);
     }
+    r->by_parts |= ok && found.end < r->part.end;
     part_free(&found);
     if (!ok)
         r->part = before;
@@ -148,7 +157,7 @@ static bool find_end(struct asbdpt *r, long samples, long *end, struct error *er
         job_prepare(&r->job, &r->prepared);
     f->learnt_short |= r->prepared.hasty && !begun;
     if (r->prepared.hasty && !f->learnt_short)
-        return error_set(err, "learning was cancelled, but the samples of the checkpoint go by all of it: open both again");
+        return refuse_haste(err);
     long block = r->prepared.size.block, unit = block > 0 && block < LONG ? block : filter_cycle(&r->scene.filter);
     *end = (r->part.first + f->iterations + samples + unit - 1) / unit * unit;
     if (block >= LONG && *end < r->part.end)
@@ -166,7 +175,8 @@ bool state_render(struct asbdpt *r, long samples, struct error *err)
     job->progress = r->progress != NULL ? progress : NULL;
     job->cancel = r->cancel != NULL ? cancel : NULL;
     job->context = r;
-    bool ok = samples == 0 || find_end(r, samples, &end, err);
+    bool ok = !r->prepared.hasty || f->learnt_short || refuse_haste(err);
+    ok = ok && (samples == 0 || find_end(r, samples, &end, err));
     while (ok && more) {
         bool within = f->passes > 0 && r->by_parts; /* a block that is incomplete ends where it was to end */
         job->first = r->part.first + f->iterations;

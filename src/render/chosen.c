@@ -14,7 +14,7 @@ void chosen_numbers(const struct prepared *p, struct chosen_number out[CHOSEN_NU
     const struct chosen_number numbers[] = {
         {"draws_first_hit", draws * n->draws[FIRST_HIT]}, {"draws_after", draws * n->draws[LATER_HIT]},
         {"light_points_first_hit", n->light_points}, {"pixels_per_light_path", n->path_pixels},
-        {"iterations_per_light_path", numbers_every(n)}, {"regions", p->tables->regions.n}};
+        {"iterations_per_light_path", numbers_every(n)}, {"regions", p->tables != NULL ? p->tables->regions.n : 0}};
     int used = (int)(sizeof numbers / sizeof *numbers);
     memset(out, 0, CHOSEN_NUMBERS * sizeof *out); /* an empty name ends the list */
     memcpy(out, numbers, sizeof numbers);

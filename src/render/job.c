@@ -190,12 +190,13 @@ bool job_adapt(struct scene *scene, const struct method *const *readers, const s
 
 /* --- jobs --------------------------------------------------------------------------------------------- */
 
-/* Fractions lie within [0,1]: readers of scenes and options see to it. */
+/* Fractions lie within [0,1]: readers of scenes and options see to it. Products are floats, as pbrt's. */
 struct pixel_rect render_crop(const struct scene *scene)
 {
     const double *c = scene->crop;
-    return (struct pixel_rect){(int)ceil(scene->width * c[0]), (int)ceil(scene->height * c[2]),
-                               (int)ceil(scene->width * c[1]), (int)ceil(scene->height * c[3])};
+    float x0 = (float)scene->width * (float)c[0], x1 = (float)scene->width * (float)c[1];
+    float y0 = (float)scene->height * (float)c[2], y1 = (float)scene->height * (float)c[3];
+    return (struct pixel_rect){(int)ceil(x0), (int)ceil(y0), (int)ceil(x1), (int)ceil(y1)};
 }
 
 bool job_settle(struct render_job *job, const struct scene *scene, struct prepared *out, struct error *err)

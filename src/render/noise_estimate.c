@@ -1,6 +1,8 @@
 /* noise_estimate.c: see noise_estimate.h. */
 #include "render/noise_estimate.h"
 
+#include <limits.h>
+
 #include "base/maths.h"
 #include "base/number.h"
 #include "image/image.h"
@@ -56,9 +58,11 @@ static int block_count(int pixels)
 
 int noise_run(int block) { return block * ((LONGEST_BLOCK - 1) / block + 1); }
 
+long noise_every(const struct film *f) { return f->run < INT_MAX / 2 ? 2L * f->run : INT_MAX; }
+
 bool noise_measure(struct film *f, double scale)
 {
-    if (f->half == NULL || f->passes > 0 || f->iterations == 0 || f->iterations % (2L * f->run) != 0)
+    if (f->half == NULL || f->passes > 0 || f->iterations == 0 || f->iterations % noise_every(f) != 0)
         return false;
     int width = rect_width(f->rect), height = rect_height(f->rect), nx = block_count(width), ny = block_count(height);
     struct blocks blocks[N_NOISE_SCALES] = {{0, 0, 0, 0}};

@@ -24,6 +24,9 @@
 /* noise_run: iterations of a run where tile passes have blocks of so many. */
 int noise_run(int block);
 
+/* noise_every: the samples from one measurement to the next; 0 before the film was rendered into. */
+long noise_every(const struct film *film);
+
 /* noise_measure: set film->noise, for the picture at this scale, if the film keeps halves and they are of one size and
  * not empty. Returns whether it has. */
 bool noise_measure(struct film *film, double scale);

@@ -213,6 +213,12 @@ static char *header_text(const struct part *p)
     return text;
 }
 
+bool part_possible(const struct film *film, const char *path, struct error *err)
+{
+    return !film->learnt_short ||
+           error_set(err, "%s: learning was cut short, so the samples do not go with those of other parts", path);
+}
+
 void part_write(struct file_output *file, const struct part *p, const struct film *film)
 {
     struct part now = *p; /* its identity is borrowed */

@@ -55,6 +55,9 @@ struct part {
 struct part part_describe(const struct render_job *job);
 void part_free(struct part *p);
 
+/* part_possible: do the film's samples go with those of other parts? False with a message if learning was cut short. */
+bool part_possible(const struct film *film, const char *path, struct error *err);
+
 /* part_write: the film into a file that was begun; file_commit or file_abandon is to follow. */
 void part_write(struct file_output *file, const struct part *p, const struct film *film);
 

@@ -215,16 +215,16 @@ static bool cut(struct run *r, struct error *err)
 bool render_scene(struct render_job *job, struct prepared *p, struct film *film, struct error *err)
 {
     struct run r = {.job = job, .method = p, .film = film};
-    bool begun = film->iterations > 0 || film->passes > 0, prepared = p->tables != NULL;
-    if (!prepared)
+    bool begun = film->iterations > 0 || film->passes > 0;
+    if (p->tables == NULL)
         job_prepare(job, p);
     film->learnt_short |= p->hasty && !begun;
     if (!check_range(&r, err) || !cut(&r, err))
         return false;
     /* Learning that was cut short has learnt other things than what the film's samples go by: no more are added. */
-    bool in_haste = p->hasty && begun && !prepared;
+    bool in_haste = p->hasty && !film->learnt_short;
     if (job->scene->lights.n == 0 && job->observers == NULL) { /* all samples are black */
-        film->block.iterations = job->end - job->first;
+        film->block.iterations = job->end > job->first ? job->end - job->first : 0;
         film_end_block(film);
     } else if (job->end > job->first && !in_haste && !good_enough(&r)) /* what is resumed may be */
         run_all(&r);

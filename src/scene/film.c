@@ -116,9 +116,9 @@ bool splat_part(const struct splat *s, const struct filter *filter, int x, int y
 /* Of each pixel the values of the image. */
 static size_t values(const struct film *f) { return 3 * rect_pixels(f->rect); }
 
-double film_bytes(struct pixel_rect rect)
+double film_bytes(struct pixel_rect rect, bool halves)
 {
-    size_t value = sizeof(struct exact_sum) + 4 * sizeof(float); /* splats, picture, what is written */
+    size_t value = (1 + halves) * sizeof(struct exact_sum) + 4 * sizeof(float); /* splats, picture, what is written */
     return (double)rect_pixels(rect) * (double)(3 * value + sizeof(bool));
 }
 

@@ -134,9 +134,9 @@ struct film {
     bool learnt_short;   /* its samples use what was learnt in less than the full time */
 };
 
-/* film_bytes: what a film of these pixels takes, and the pictures that are made of it.
+/* film_bytes: what a film of these pixels takes, with halves or without, and the pictures that are made of it.
  * film_init: black, for the pixels of `rect` out of a frame of full_width x full_height. Release with film_free. */
-double film_bytes(struct pixel_rect rect);
+double film_bytes(struct pixel_rect rect, bool halves);
 void film_init(struct film *f, struct pixel_rect rect, int full_width, int full_height);
 void film_free(struct film *f);
 

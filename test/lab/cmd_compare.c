@@ -64,7 +64,7 @@ static bool write_heatmap(const struct compare_options *o, struct file_output *f
     double most = o->most > 0 ? o->most : picture_percentile(error, pixels, PERCENTILE);
     compare_heatmap(error, pixels, most, map);
     struct sheet sheet = map_with_bar(map, width, height, most);
-    const struct raster picture = {{0, 0, 0, 0}, sheet.width, sheet.height, sheet.pixels, NULL, 0};
+    const struct raster picture = {{0, 0, 0, 0}, sheet.width, sheet.height, sheet.pixels, NULL, 0, false};
     bool ok = image_finish(f, &picture, err);
     sheet_free(&sheet);
     if (ok)

@@ -188,7 +188,7 @@ static bool begin_planes(struct channels *l, struct error *err)
     struct error why;
     planes_init(&l->planes, &r->of.scene, &r->of.film, o->lights != NULL, o->alpha, l->wanted[AOV_VARIANCE],
                 r->of.job.n_threads);
-    if (!budget_has(&r->of.scene.memory, (1 + l->planes.n) * film_bytes(r->of.film.rect), &why))
+    if (!budget_has(&r->of.scene.memory, (1 + l->planes.n) * film_bytes(r->of.film.rect, false), &why))
         return error_set(err, "%s: its film and %d more of %dx%d pixels: %s; --res makes them smaller",
                          r->of.job.scene_path, l->planes.n, r->of.scene.width, r->of.scene.height, why.text);
     l->observers = planes_observers(&l->planes);
@@ -282,7 +282,7 @@ static bool write_one(const struct channels *l, struct channel_file *f, float *c
     const struct render_run *r = l->run;
     const struct film *film = f->light >= 0 ? &l->planes.film[f->light] : &r->of.film;
     float *pixels = f->aov < N_AOVS ? NULL : image_of(film, r->of.scene.film_scale), *alpha = NULL;
-    struct raster raster = {r->of.part.place, rect_width(film->rect), rect_height(film->rect), pixels, NULL, 0};
+    struct raster raster = {r->of.part.place, rect_width(film->rect), rect_height(film->rect), pixels, NULL, 0, false};
     struct channel channel[1 + 3 * N_AOVS];
     if (f->aov < N_AOVS)
         raster.pixels = picture[f->aov];

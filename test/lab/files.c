@@ -10,7 +10,7 @@
 bool image_write(const char *path, int width, int height, const float *pixels, struct error *err)
 {
     struct file_output f;
-    const struct raster r = {{0, 0, 0, 0}, width, height, pixels, NULL, 0};
+    const struct raster r = {{0, 0, 0, 0}, width, height, pixels, NULL, 0, false};
     return image_create(path, &f, err) && image_finish(&f, &r, err);
 }
 

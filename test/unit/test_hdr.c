@@ -264,7 +264,7 @@ static void test_alpha(struct test *t)
 {
     static const float PIXELS[6] = {0.1f, 0.2f, 0.05f, 0.3f, 0, 3}, ALPHA[2] = {0.25f, 0};
     const struct channel more[2] = {{"Z", PIXELS, 3, true}, {"A", ALPHA, 1, false}};
-    const struct raster plain = {{0, 0, 0, 0}, 2, 1, PIXELS, NULL, 0}, with = {{0, 0, 0, 0}, 2, 1, PIXELS, more, 2};
+    const struct raster plain = {{0, 0, 0, 0}, 2, 1, PIXELS, NULL, 0, false}, with = {{0, 0, 0, 0}, 2, 1, PIXELS, more, 2, false};
     struct image img;
     struct error err = {.text = ""};
     size_t n, n_plain;
@@ -315,7 +315,7 @@ static void test_place(struct test *t)
     if (!CHECK(t, image_read(fixture(t, path, "window.exr"), NULL, &img, &err), "%s", err.text))
         return;
     snprintf(path, sizeof path, "%s/place.float.exr", test_tmp(t));
-    const struct raster raster = {img.place, img.width, img.height, img.f32, NULL, 0};
+    const struct raster raster = {img.place, img.width, img.height, img.f32, NULL, 0, false};
     CHECK(t, img.place.x == -7 && img.place.y == 20 && img.place.width == 100 && img.place.height == 80,
           "at %d,%d of %dx%d", img.place.x, img.place.y, img.place.width, img.place.height);
     if (CHECK(t, image_create(path, &file, &err) && image_finish(&file, &raster, &err) &&

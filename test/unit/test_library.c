@@ -65,6 +65,7 @@ static void test_order(struct test *t)
     REFUSED(asbdpt_save(r, SCENE), "the scene is read from this file");
     REFUSED(asbdpt_load_checkpoint(r, SCENE), SCENE);
     REFUSED(asbdpt_error(r, pixels), "asbdpt_keep_error");
+    CHECK(t, asbdpt_statistics(r) != NULL, "statistics before the first sample");
     CHECK(t, asbdpt_render(r, 1, NULL, NULL, NULL) == 0 && asbdpt_samples(r) == 1, "%s", asbdpt_message(r));
     REFUSED(asbdpt_keep_error(r), "samples already");
     REFUSED(asbdpt_load_checkpoint(r, "x.part"), "samples already");
@@ -162,6 +163,50 @@ static void test_error(struct test *t)
     for (int i = 0; i < VALUES; i++)
         square += sqr((double)error[i] / (double)whole[i]) / VALUES;
     CHECK(t, square > 1e-5 && square < 0.1, "relative variance %g", square);
+    char path[256];
+    snprintf(path, sizeof path, "%s/e.part", test_tmp(t));
+    CHECK(t, asbdpt_save_checkpoint(r, path) == 0, "%s", asbdpt_message(r));
+    asbdpt_free(r);
+    r = open_with(t, "scenes/sky.pbrt", "pt", "1");
+    CHECK(t, asbdpt_keep_error(r) == 0 && asbdpt_load_checkpoint(r, path) == 0, "%s", asbdpt_message(r));
+    REFUSED(asbdpt_error(r, error), "once asbdpt_render was called");
+    asbdpt_free(r);
+    remove(path);
+}
+
+/* The product of a size and a fraction is a float, as in pbrt: as a double it would be a little more than 55. */
+static void test_crop(struct test *t)
+{
+    asbdpt *r = asbdpt_new();
+    int width, height;
+    CHECK(t, asbdpt_set(r, "--res", "100x10") == 0 && asbdpt_set(r, "--cropwindow", "0,0.55,0,1") == 0 &&
+          asbdpt_open(r, SCENE) == 0 && asbdpt_size(r, &width, &height) == 0 && width == 55 && height == 10,
+          "%dx%d pixels; %s", width, height, asbdpt_message(r));
+    asbdpt_free(r);
+}
+
+/* What is refused changes nothing. */
+static void test_refused(struct test *t)
+{
+    static const char DARK[] = "Film \"image\" \"integer xresolution\" 500 \"integer yresolution\" 500\nWorldBegin\n"
+                               "WorldEnd\n";
+    float whole[VALUES], pixels[VALUES];
+    asbdpt *r = asbdpt_new();
+    CHECK(t, asbdpt_set(r, "--seed", "1") == 0 && asbdpt_set(r, "--integrator", "bdpt") == 0 &&
+          asbdpt_set(r, "--res", "16x16") == 0, "%s", asbdpt_message(r));
+    REFUSED(asbdpt_set(r, "--seed", "12x"), "whole number");
+    REFUSED(asbdpt_set(r, "--integrator", ""), "empty");
+    REFUSED(asbdpt_set(r, "--integrator", NULL), "needs a value");
+    CHECK(t, asbdpt_open(r, SCENE) == 0 && asbdpt_render(r, 1, NULL, NULL, NULL) == 0, "%s", asbdpt_message(r));
+    render_whole(t, "bdpt", "1", 1, whole);
+    picture(t, r, pixels);
+    CHECK(t, memcmp(whole, pixels, sizeof whole) == 0, "a refused option has changed the picture");
+    asbdpt_free(r);
+    r = asbdpt_new();
+    CHECK(t, asbdpt_set(r, "--max-memory", ".05") == 0 && open_text(r, "dark", DARK) == 0, "%s", asbdpt_message(r));
+    REFUSED(asbdpt_keep_error(r), "memory");
+    CHECK(t, asbdpt_render(r, 100, NULL, NULL, NULL) == 0 && asbdpt_render(r, 0, NULL, NULL, NULL) == 0 &&
+          asbdpt_samples(r) == 100, "%g samples of 100", asbdpt_samples(r));
     asbdpt_free(r);
 }
 
@@ -258,6 +303,37 @@ static void test_cancel(struct test *t)
     remove(path);
 }
 
+static int stop(void *context) { return (void)context, ASBDPT_STOP; }
+
+/* Samples by what was learnt in haste and by all of it are not mixed. */
+static void test_haste(struct test *t)
+{
+    char good[256], bad[256];
+    snprintf(good, sizeof good, "%s/good.part", test_tmp(t));
+    snprintf(bad, sizeof bad, "%s/bad.part", test_tmp(t));
+    asbdpt *r = open_with(t, SCENE, "asbdpt", "1");
+    CHECK(t, asbdpt_render(r, 8, NULL, NULL, NULL) == 0 && asbdpt_save(r, good) == 0, "%s", asbdpt_message(r));
+    asbdpt_free(r);
+    r = open_with(t, SCENE, "asbdpt", "1");
+    CHECK(t, asbdpt_render(r, 8, NULL, stop, NULL) == 0 && asbdpt_samples(r) == 0, "%g samples", asbdpt_samples(r));
+    REFUSED(asbdpt_load_checkpoint(r, good), "open both again");
+    CHECK(t, asbdpt_render(r, 8, NULL, NULL, NULL) == 0 && asbdpt_samples(r) == 8, "%s", asbdpt_message(r));
+    REFUSED(asbdpt_save(r, bad), "learning was cut short");
+    CHECK(t, asbdpt_save_checkpoint(r, bad) == 0, "%s", asbdpt_message(r));
+    asbdpt_free(r);
+    r = open_with(t, SCENE, "asbdpt", "1");
+    CHECK(t, asbdpt_load_checkpoint(r, bad) == 0 && asbdpt_samples(r) == 0, "%g samples", asbdpt_samples(r));
+    asbdpt_free(r);
+    r = open_with(t, SCENE, "asbdpt", "1");
+    CHECK(t, asbdpt_load_checkpoint(r, good) == 0 && asbdpt_render(r, 0, NULL, stop, NULL) == 0 &&
+          asbdpt_samples(r) == 8, "%g samples of 8", asbdpt_samples(r));
+    REFUSED(asbdpt_render(r, 0, NULL, NULL, NULL), "open both again");
+    REFUSED(asbdpt_render(r, 8, NULL, NULL, NULL), "open both again");
+    asbdpt_free(r);
+    remove(good);
+    remove(bad);
+}
+
 /* --- paths -------------------------------------------------------------------------------------------- */
 
 struct told {
@@ -352,6 +428,9 @@ void test_library(struct test *t)
     test_error(t);
     test_two(t);
     test_cancel(t);
+    test_haste(t);
+    test_refused(t);
+    test_crop(t);
     test_block(t);
     test_paths(t);
     test_parameters(t);
