@@ -7,6 +7,6 @@
 #define ASBDPT_VERSION_H
 
 #define VERSION "asbdpt 0.9"
-#define ESTIMATOR 22
+#define ESTIMATOR 23
 
 #endif

@@ -83,7 +83,7 @@ static struct cache *build(const struct prepared *p, const struct tile_pass *pas
         struct group *g = &cache->group[group_of[y->place]];
         cache->candidate[g->first + g->n] = y;
         cache->before[g->first + g->n++] = g->L;
-        g->L += rgb_luminance(y->beta);
+        g->L += rgb_worth(y->beta);
     }
     cache->sums = arena_alloc(arena, (size_t)n_regions * sizeof *cache->sums);
     for (int e = 0; e < n_regions; e++)
@@ -117,7 +117,7 @@ static bool draw(const struct prepared *p, const struct cache *cache, struct sam
     const struct group *g = &cache->group[k];
     double share = sums[k + 1] - sums[k], within = (target - sums[k]) / share * g->L;
     const struct vertex *y = cache->candidate[g->first + cumulative_find(&cache->before[g->first], g->n, within)];
-    *out = drawn_vertex(y, share / total * rgb_luminance(y->beta) / g->L);
+    *out = drawn_vertex(y, share / total * rgb_worth(y->beta) / g->L);
     return true;
 }
 

@@ -21,7 +21,7 @@ static struct cache *build(const struct prepared *p, const struct tile_pass *pas
     double *weight = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *weight);
     for (int i = 0; i < pool->n_candidates; i++) {
         const struct vertex *y = pool->candidate[i];
-        weight[i] = rgb_luminance(y->beta) * table_ratio(&p->tables->pairs, 0, y->place);
+        weight[i] = rgb_worth(y->beta) * table_ratio(&p->tables->pairs, 0, y->place);
     }
     alias_build(&pool->alias, weight, pool->n_candidates);
     return NULL;

@@ -116,14 +116,14 @@ static void trace_eye_path(struct learning *l, struct workspace *work, long i, s
     for (const struct vertex *z = work->eye + 1; z < work->eye + n; z++) {
         if (!vertex_connectible(z))
             continue;
-        double beta = rgb_luminance(z->beta);
+        double beta = rgb_worth(z->beta);
         uint64_t key = regions_key(&l->tables->regions, z->p, vertex_side(z));
         lessons_add(out, (struct lesson){VISIT, key, 0, 0, beta});
         for (int j = 0; l->options->guide && j < LIGHTS_PER_VERTEX; j++) {
             struct vertex y;
             struct connection c = connect_s1(l->job->scene, &l->counts, z, &sampler, j, LIGHTS_PER_VERTEX, &y);
             if (y.light >= 0)
-                lessons_add(out, (struct lesson){GUIDE, key, y.place, rgb_luminance(c.value) / beta, beta});
+                lessons_add(out, (struct lesson){GUIDE, key, y.place, rgb_worth(c.value) / beta, beta});
         }
     }
 }
@@ -160,7 +160,7 @@ double learnt_use(const struct tables *tables, const struct vertex *path, int fi
     double sum = 0;
     for (const struct vertex *y = path + first; y < path + end; y++)
         if (vertex_connectible(y))
-            sum += rgb_luminance(y->beta) * tables->use[y->place];
+            sum += rgb_worth(y->beta) * tables->use[y->place];
     return sum;
 }
 
@@ -230,7 +230,7 @@ static void fill_pool(struct learning *l, struct pool *pool, long i)
     pool_find_candidates(pool);
     double *L = arena_alloc(&pool->arena, (size_t)pool->n_candidates * sizeof *L);
     for (int k = 0; k < pool->n_candidates; k++)
-        L[k] = rgb_luminance(pool->candidate[k]->beta);
+        L[k] = rgb_worth(pool->candidate[k]->beta);
     alias_build(&pool->alias, L, pool->n_candidates);
 }
 
@@ -247,10 +247,10 @@ static void trace_trials(struct learning *l, struct workspace *work, long i, str
     int n = trace_eye(l, work, i, STREAM_EYE, &sampler);
     for (const struct vertex *z = work->eye + 1; z < work->eye + n; z++)
         for (int k = 0; k < TRIALS && pool->alias.n > 0 && vertex_connectible(z); k++) {
-            double beta = rgb_luminance(z->beta), u = (k + sampler_number(&sampler, DRAW_LIGHT_END)) / TRIALS;
+            double beta = rgb_worth(z->beta), u = (k + sampler_number(&sampler, DRAW_LIGHT_END)) / TRIALS;
             const struct vertex *y = pool->candidate[alias_sample(&pool->alias, u, NULL, NULL)];
             struct connection found = connect_vertices(l->job->scene, &l->counts, y, z);
-            double x = rgb_luminance(found.value) / (beta * rgb_luminance(y->beta));
+            double x = rgb_worth(found.value) / (beta * rgb_worth(y->beta));
             lessons_add(out, (struct lesson){TRIAL, (uint64_t)z->place, y->place, x, beta});
         }
 }

@@ -69,8 +69,10 @@ static void lobes(struct lobe_list *list, const struct material *m)
     coat->of.gloss = 0.1 - (0.1 - 0.001) * fraction_at(list, d->clearcoat_gloss);
     /* Two refractions give the colour. Thin ones scatter less, as the index does. [Burley 2015] */
     rgb T = rgb_scale(rgb_make(sqrt(c.r), sqrt(c.g), sqrt(c.b)), through);
-    struct lobe *glass = lobe_dielectric(lobe_add(list, LOBE_MICROFACET_TRANSMISSION, none, T), 1, eta);
-    rough(glass, list, d, d->thin ? (0.65 * eta - 0.35) * roughness : roughness);
+    enum lobe_kind kind = eta == 1 ? LOBE_SPECULAR_TRANSMISSION : LOBE_MICROFACET_TRANSMISSION; /* as in glass.c */
+    struct lobe *glass = lobe_dielectric(lobe_add(list, kind, none, T), 1, eta);
+    if (eta != 1)
+        rough(glass, list, d, d->thin ? (0.65 * eta - 0.35) * roughness : roughness);
     glass->separate = !d->thin;
     double behind = 0.5 * limited(number_at(list, d->diffuse_transmission), 0, 2);
     if (d->thin)

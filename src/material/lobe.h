@@ -8,8 +8,9 @@
  *   - diffuse lobes have the value they have everywhere, and a sample that falls on the wrong side of the geometric
  *     plane is turned round to -wi: that keeps its density |cos|/pi and reaches all directions where it is not black;
  *   - facets are only met by pairs that lie on the right sides of the shading plane too, and whose facet faces both
- *     directions; other pairs are black. (pbrt-v3 evaluates its formulas there although it never samples such pairs, so
- *     that its own integrators disagree: by 1 % on glass of alpha 0.7, not visibly below 0.1.)
+ *     directions; other pairs are black, but of LOBE_FRESNEL_BLEND, which draws them too. (pbrt-v3 evaluates its
+ *     formulas there although it never samples such pairs, so that its own integrators disagree: by 1 % on glass of
+ *     alpha 0.7, not visibly below 0.1.)
  *
  * Tests: test_lobe.c, test_bsdf.c.
  */

@@ -117,7 +117,7 @@ static const struct field GAUSSIAN[] = {WIDTHS, {"alpha", FIELD_NUMBER, OF(alpha
                                         {.name = NULL}};
 static const struct field MITCHELL[] = {WIDTHS, {"B", FIELD_NUMBER, OF(B), FIELD_KEPT, -100, .high = 100},
                                         {"C", FIELD_NUMBER, OF(C), FIELD_KEPT, -100, .high = 100}, {.name = NULL}};
-static const struct field SINC[] = {WIDTHS, {"tau", FIELD_NUMBER, OF(tau), FIELD_KEPT, 0.1, .high = 1e6},
+static const struct field SINC[] = {WIDTHS, {"tau", FIELD_NUMBER, OF(tau), FIELD_KEPT, 0.7, .high = 1e6},
                                     {.name = NULL}};
 
 static const struct object_type FILTER_TYPES[] = {

@@ -119,12 +119,13 @@ static rgb share_along(const struct light *l, vec3 w)
     return f->env == NULL ? rgb_grey(1) : envmap_picture(f->env, (x + 1) / 2, (y + 1) / 2);
 }
 
-/* Powers are those of [PBRT3 12.1-12.6]; of lights at infinity, what meets the disk of the scene's sphere. */
+/* Powers are those of [PBRT3 12.1-12.6]; of lights at infinity, what meets the disk of the scene's sphere, of the sky
+ * from all directions of a half space: pi times pbrt's. */
 static double light_power(const struct light *l, const struct geometry *geo, double scene_radius)
 {
     double disk = PI * sqr(scene_radius);
     const struct envmap *map = l->frame != NULL ? l->frame->env : NULL;
-    double lum = rgb_luminance(map != NULL ? rgb_mul(l->L, map->mean) : l->L);
+    double lum = rgb_worth(map != NULL ? rgb_mul(l->L, map->mean) : l->L);
     switch (l->kind) {
     case LIGHT_AREA: return lum * PI * shape_area(geo, l->prim) * (l->two_sided ? 2 : 1);
     case LIGHT_POINT: return lum * 4 * PI;
@@ -185,11 +186,11 @@ static double weight_of(const struct light_set *set, int light)
 }
 
 /* Make the cells: all lights except the sky are divided into cells of equal numbers. The sky's own cells follow.
- *   weight  out, [LAMP_CELLS + SKY_CELLS] */
+ *   weight  out, [LIGHT_CELLS] */
 static void make_cells(struct light_set *set, double *weight)
 {
     int lamps = set->n - (set->n_layers > 0), each = (lamps + LAMP_CELLS - 1) / LAMP_CELLS, sky = sky_cells(set);
-    set->cell = mem_alloc(LAMP_CELLS + SKY_CELLS, sizeof *set->cell);
+    set->cell = mem_alloc(LIGHT_CELLS, sizeof *set->cell);
     set->before = mem_alloc((size_t)set->n, sizeof *set->before);
     set->n_cells = 0;
     for (int i = 0; i < set->n; i++) {
@@ -218,7 +219,7 @@ static void make_cells(struct light_set *set, double *weight)
 
 static void build_choice(struct light_set *set)
 {
-    double *weight = mem_alloc(LAMP_CELLS + SKY_CELLS, sizeof *weight);
+    double *weight = mem_alloc(LIGHT_CELLS, sizeof *weight);
     make_cells(set, weight);
     alias_build(&set->choice, weight, set->n_cells);
     free(weight);

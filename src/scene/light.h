@@ -94,11 +94,11 @@ struct light_group {
 enum { LIGHT_MAX_GROUPS = 64 }; /* that films keep */
 
 /* The sky is cut into cells of directions, at most SKY_CELLS. Every other light is in one cell, alone or with its
- * neighbours if there are more than LAMP_CELLS. */
+ * neighbours if there are more than LAMP_CELLS. Where the sky stands between them, one cell more. */
 struct light_cell {
     int light, n; /* the first light and how many; of the sky 1 */
 };
-enum { LAMP_CELLS = 256, SKY_CELLS = 512 };
+enum { LAMP_CELLS = 256, SKY_CELLS = 512, LIGHT_CELLS = LAMP_CELLS + 1 + SKY_CELLS };
 
 /* All lights of a scene and what sampling them needs. A cell is chosen first, then a light in it, then a point on the
  * light. */
@@ -137,7 +137,7 @@ int light_group(struct light_set *set, const char *name, enum light_kind kind);
 int light_read_map(struct light_set *set, const char *path, const struct budget *memory, struct error *err);
 
 /* light_watts: what a light of a prepared set sends into the scene, W, luminance: of one at infinity, what enters the
- * scene's sphere. `power` is pbrt-v3's: of a sky only what crosses a disk, pi R^2 pi L. All directions w cross a disk
+ * scene's sphere. `power` is of a sky only what crosses a disk, pi R^2 pi L. All directions w cross a disk
  * each, pi R^2 4 pi L. */
 static inline double light_watts(const struct light *l) { return l->power * (l->kind == LIGHT_INFINITE ? 4 : 1); }
 

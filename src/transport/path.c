@@ -120,7 +120,7 @@ bool walk_leave(const struct walk *w, const struct vertex *v, enum transport mod
 int walk_on(const struct walk *w, struct departure from, struct vertex *path, int n, int max_vertices,
             enum transport mode)
 {
-    double first = rgb_max(from.beta);
+    double first = rgb_max(rgb_abs(from.beta));
     while (n < max_vertices) {
         struct surface at;
         struct edge edge;
@@ -142,7 +142,7 @@ int walk_on(const struct walk *w, struct departure from, struct vertex *path, in
         n++;
         if (n == max_vertices || !walk_leave(w, &path[n - 1], mode, &from))
             break;
-        if (n > 2 && !survives(w, rgb_max(from.beta) / first, &from.beta))
+        if (n > 2 && !survives(w, rgb_max(rgb_abs(from.beta)) / first, &from.beta))
             break;
     }
     return n;

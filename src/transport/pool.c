@@ -38,7 +38,7 @@ void pool_find_candidates(struct pool *p)
     for (int k = 0; k < p->n; k++) {
         const struct vertex *path = pool_path(p, k);
         for (const struct vertex *y = path + 1; y < path + p->length[k]; y++) {
-            double L = rgb_luminance(y->beta);
+            double L = rgb_worth(y->beta);
             if (vertex_connectible(y) && L > 0 && L < MOST_LUMINANCE) /* not if NaN */
                 p->candidate[p->n_candidates++] = y;
         }

@@ -72,7 +72,7 @@ static void map_draws(const struct view *v)
             int n = path_light(&w, v->light, v->job.max_depth + 1, NULL);
             for (int i = 1; i < n; i++) {
                 const struct vertex *y = &v->light[i];
-                double worth = vertex_connectible(y) ? v->ratio[y->place] * rgb_luminance(y->beta) : 0;
+                double worth = vertex_connectible(y) ? v->ratio[y->place] * rgb_worth(y->beta) : 0;
                 if (pass == 0)
                     total += worth;
                 else if (worth > 0)

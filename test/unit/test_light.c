@@ -110,8 +110,33 @@ static void test_shared_picture(struct test *t)
     }
 }
 
+/* As many cells as there can be: the sky stands between lamps, so that their runs are one more. */
+static void test_most_cells(struct test *t)
+{
+    enum { WIDTH = 64, HEIGHT = 32, LAMPS = 512 };
+    static float pixels[WIDTH * HEIGHT * 3];
+    static char text[LAMPS * 32];
+    char path[256];
+    struct error err = {.text = ""};
+    struct scene scene;
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++)
+        pixels[i] = 1;
+    snprintf(path, sizeof path, "%s/even.pfm", test_tmp(t));
+    CHECK(t, image_write(path, WIDTH, HEIGHT, pixels, &err), "%s", err.text);
+    size_t n = (size_t)snprintf(text, sizeof text, "WorldBegin LightSource \"point\"\n"
+                                "LightSource \"infinite\" \"string mapname\" \"%s\"\n", path);
+    for (int i = 1; i < LAMPS; i++)
+        n += (size_t)snprintf(text + n, sizeof text - n, "LightSource \"point\"\n");
+    snprintf(text + n, sizeof text - n, "WorldEnd");
+    if (!scene_from_text(t, text, &scene))
+        return;
+    CHECK(t, scene.lights.n_cells == LIGHT_CELLS, "%d cells, not %d", scene.lights.n_cells, LIGHT_CELLS);
+    scene_free(&scene);
+}
+
 void test_light(struct test *t)
 {
+    test_most_cells(t);
     test_choice(t);
     test_stored_map(t);
     test_shared_picture(t);

@@ -161,6 +161,11 @@ static void lobes_of_materials(struct test *t)
     }
     bsdf = make(&b, m, 2);
     CHECK(t, strcmp(kinds(&bsdf, text), "smooth-glass") == 0, "glass of index 1 does not scatter");
+    struct material *disney = all_same(row_of("disney"), b.grey[5]);
+    set(disney, "eta", b.grey[10]);
+    bsdf = make(&b, &disney, 0);
+    CHECK(t, strcmp(kinds(&bsdf, text), "disney refraction facets clearcoat refraction") == 0, "disney of index 1: %s", text);
+    free_all(&disney, 1);
     set(m[0], "Kd", texture_add_constant(&b.textures, rgb_make(-1, -2, 0)));
     bsdf = make(&b, m, 0);
     CHECK(t, bsdf.n_lobes == 0, "negative colours are black");

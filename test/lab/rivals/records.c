@@ -61,7 +61,7 @@ void records_fill(struct records *r, struct arena *arena, const struct scene *sc
         c->sum = 0;
         for (int v = 0; v < n; v++) {
             const struct vertex *y = found[v];
-            h[v] = rgb_luminance(y->beta) * (u != NULL ? u[v] : 1) * record_worth(c, scene, y, y->wo);
+            h[v] = rgb_worth(y->beta) * (u != NULL ? u[v] : 1) * record_worth(c, scene, y, y->wo);
             if (!(h[v] > 0 && h[v] < INFINITY && record_sees(c, scene, y)))
                 h[v] = 0;
             before[v] = c->sum;

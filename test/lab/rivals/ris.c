@@ -266,7 +266,7 @@ static void gather(struct cache *r, const struct prepared *p, const struct tile_
         r->V--;
     r->g = 0;
     for (int v = 0; v < r->V; v++)
-        r->g += rgb_luminance(r->found[v]->beta) / r->K;
+        r->g += rgb_worth(r->found[v]->beta) / r->K;
     if (r->own->presampled > 0)
         ris2_presample(r, pass, arena, iteration);
     r->records = records_place(p, pass, arena, iteration, r->own->records);
@@ -372,7 +372,7 @@ void ris_join(struct cache *r, struct sample *sample, const struct vertex *z, in
     double N[RECORDS_NEAR + 1], P = each * (which < m.m ? m.record[which]->h[v] / m.record[which]->sum : 1.0 / r->V);
     r->all = N[m.m] = worth_alone(r, each, L);
     for (int i = 0; i < m.m; i++)
-        r->all += N[i] = worth(r, each, L, m.record[i]->h[v] * L / (rgb_luminance(y->beta) * u), m.record[i]->expected);
+        r->all += N[i] = worth(r, each, L, m.record[i]->h[v] * L / (rgb_worth(y->beta) * u), m.record[i]->expected);
     r->one = N[which];
     struct joint j;
     struct connection made = {.weight = 0};

@@ -25,15 +25,15 @@ void ris2_presample(struct cache *r, const struct tile_pass *pass, struct arena 
     r->u = arena_alloc(arena, (size_t)M2 * sizeof *r->u);
     for (int v = 0; v < n; v++) {
         before[v] = S;
-        S += rgb_luminance(all[v]->beta);
+        S += rgb_worth(all[v]->beta);
     }
     r->V = 0;
     r->found = kept;
     for (int i = 0; S > 0 && S < INFINITY && i < M2; i++) {
         double at = (i + sampler_number(&sampler, DRAW_ORDER)) / M2;
         const struct vertex *v = all[cumulative_find(before, n, at * S)];
-        r->u[r->V] = S / (M2 * rgb_luminance(v->beta));
-        if (rgb_luminance(v->beta) > 0)
+        r->u[r->V] = S / (M2 * rgb_worth(v->beta));
+        if (rgb_worth(v->beta) > 0)
             kept[r->V++] = v;
     }
 }

@@ -301,7 +301,7 @@ static struct cache *build(const struct prepared *p, const struct tile_pass *pas
         struct group *g = &v->group[pool->candidate[i]->place];
         v->candidate[g->first + g->n] = pool->candidate[i];
         v->before[g->first + g->n++] = g->L;
-        g->L += rgb_luminance(pool->candidate[i]->beta);
+        g->L += rgb_worth(pool->candidate[i]->beta);
     }
     return v;
 }
@@ -332,7 +332,7 @@ static bool draw(const struct prepared *p, const struct cache *v, struct sample 
     const struct group *g = &v->group[l];
     double share = row[l + 1] - row[l], within = (target - row[l]) / share * g->L;
     const struct vertex *y = v->candidate[g->first + cumulative_find(&v->before[g->first], g->n, within)];
-    *out = drawn_vertex(y, share / total * rgb_luminance(y->beta) / g->L);
+    *out = drawn_vertex(y, share / total * rgb_worth(y->beta) / g->L);
     return out->pmf > 0;
 }
 
