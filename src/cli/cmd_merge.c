@@ -126,6 +126,7 @@ static bool write_film(const struct merge_options *o, struct merge *m, long end,
 static bool merge(const struct merge_options *o, struct merge *m, bool picture, struct outputs *out, struct error *err)
 {
     struct film film;
+    struct error why;
     long end;
     if (!read_headers(m, &o->part, o->partial, err))
         return false;
@@ -135,6 +136,9 @@ static bool merge(const struct merge_options *o, struct merge *m, bool picture, 
         return error_set(err, "nothing was written");
     if (end == first->first)
         return error_set(err, "the parts hold no samples");
+    const struct budget memory = budget_new(0, "");
+    if (!budget_has(&memory, film_bytes(rect, false), &why))
+        return error_set(err, "%s: its film of %dx%d pixels: %s", m->part[0].path, rect.x1, rect.y1, why.text);
     film_init(&film, rect, rect.x1, rect.y1);
     bool ok = add_parts(m, &film, err) && write_film(o, m, end, &film, out, err);
     film_free(&film);
