@@ -59,7 +59,7 @@ static void test_bias(struct test *t)
     "-1 1 1 1 1 1] WorldEnd"
 static const struct agreement QUICK[] = {
     {NARROW, 12, 12, 5, "bdpt", "asbdpt select=pool, asbdpt select=vertices, asbdpt race=off, lvc", 4, 4, 16, 6, true, 0.1},
-    {NARROW, 12, 12, 5, "pt", "lt", 4, 4, 16, 6, false, 0.1},
+    {NARROW, 12, 12, 5, "pt", "lt", 32, 32, 16, 6, false, 0.1},
     {"scenes/cornell-box", 16, 16, 4, "bdpt",
      "asbdpt select=pool metric=constant, asbdpt select=pool metric=throughput, asbdpt select=pool metric=importance,"
      "asbdpt select=vertices connections=2, asbdpt select=subspaces, asbdpt select=subspaces connections=2,"
