@@ -27,7 +27,7 @@ struct outputs {
     const struct part *part; /* what is written into parts; borrowed */
     const struct film *film;
     bool unclamped;          /* pictures keep values below 0 */
-    bool preview;
+    bool preview;            /* no warnings */
 };
 
 /* What the options --exposure and --tonemap say; and rows of options that several tables have, for members `tone` and

@@ -17,7 +17,7 @@
 #include "base/error.h"
 
 enum exr_type { EXR_UINT, EXR_HALF, EXR_FLOAT };                            /* as numbered in files */
-enum exr_compression { EXR_NONE, EXR_RLE, EXR_ZIPS, EXR_ZIP, EXR_PIZ, EXR_READ }; /* those below EXR_READ are read, but RLE */
+enum exr_compression { EXR_NONE, EXR_RLE, EXR_ZIPS, EXR_ZIP, EXR_PIZ, EXR_READ }; /* read: below EXR_READ, not RLE */
 enum { EXR_ZIP_ROWS = 16, EXR_PIZ_ROWS = 32 };                              /* of a block; the others have one row */
 
 struct exr_channel {

@@ -64,7 +64,7 @@ static struct part grown(const struct asbdpt *r, long end)
     return p;
 }
 
-/* Samples by what was learnt in haste and samples by all of it are of two pictures. */
+/* After learning that was cancelled, samples are of another picture than those of a checkpoint. */
 static bool refuse_haste(struct error *err)
 {
     return error_set(err, "learning was cancelled, but the samples of the checkpoint go by all of it: open both again");

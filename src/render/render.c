@@ -222,11 +222,11 @@ bool render_scene(struct render_job *job, struct prepared *p, struct film *film,
     if (!check_range(&r, err) || !cut(&r, err))
         return false;
     /* Learning that was cut short has learnt other things than what the film's samples go by: no more are added. */
-    bool in_haste = p->hasty && !film->learnt_short;
-    if (job->scene->lights.n == 0 && job->observers == NULL) { /* all samples are black */
-        film->block.iterations = job->end > job->first ? job->end - job->first : 0;
+    bool more = job->end > job->first && (!p->hasty || film->learnt_short);
+    if (more && job->scene->lights.n == 0 && job->observers == NULL) { /* all samples are black */
+        film->block.iterations = job->end - job->first;
         film_end_block(film);
-    } else if (job->end > job->first && !in_haste && !good_enough(&r)) /* what is resumed may be */
+    } else if (more && !good_enough(&r)) /* what is resumed may be */
         run_all(&r);
     return true;
 }

@@ -168,7 +168,7 @@ static struct envmap *sum_of_layers(const struct light_set *set)
     double *luminance = mem_alloc((size_t)width * (size_t)height, sizeof *luminance);
     for (int i = 0; i < width * height; i++) {
         vec3 w = envmap_direction((i % width + 0.5) / width, (i / width + 0.5) / height);
-        luminance[i] = rgb_luminance(light_Le_sky(set, w, false));
+        luminance[i] = rgb_worth(light_Le_sky(set, w, false));
         mean += luminance[i] / width / height;
     }
     for (int i = 0; i < width * height; i++)

@@ -137,8 +137,8 @@ int light_group(struct light_set *set, const char *name, enum light_kind kind);
 int light_read_map(struct light_set *set, const char *path, const struct budget *memory, struct error *err);
 
 /* light_watts: what a light of a prepared set sends into the scene, W, luminance: of one at infinity, what enters the
- * scene's sphere. `power` is of a sky only what crosses a disk, pi R^2 pi L. All directions w cross a disk
- * each, pi R^2 4 pi L. */
+ * scene's sphere. `power` is of a sky only what crosses a disk, pi R^2 pi L. All directions w cross a disk each,
+ * pi R^2 4 pi L. */
 static inline double light_watts(const struct light *l) { return l->power * (l->kind == LIGHT_INFINITE ? 4 : 1); }
 
 /* light_prepare: powers, the choice table, the scene's sphere. Call once the geometry is complete. */

@@ -58,7 +58,8 @@ static void test_bias(struct test *t)
     "0 1 5 0 5 4 2 7 3 2 6 7 0 6 2 0 4 6 1 3 7 1 7 5] \"point P\" [-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1\n"    \
     "-1 1 1 1 1 1] WorldEnd"
 static const struct agreement QUICK[] = {
-    {NARROW, 12, 12, 5, "bdpt", "asbdpt select=pool, asbdpt select=vertices, asbdpt race=off, lvc", 4, 4, 16, 6, true, 0.1},
+    {NARROW, 12, 12, 5, "bdpt", "asbdpt select=pool, asbdpt select=vertices, asbdpt race=off, lvc", 4, 4, 16, 6, true,
+     0.1},
     {NARROW, 12, 12, 5, "pt", "lt", 32, 32, 16, 6, false, 0.1},
     {"scenes/cornell-box", 16, 16, 4, "bdpt",
      "asbdpt select=pool metric=constant, asbdpt select=pool metric=throughput, asbdpt select=pool metric=importance,"

@@ -264,7 +264,8 @@ static void test_alpha(struct test *t)
 {
     static const float PIXELS[6] = {0.1f, 0.2f, 0.05f, 0.3f, 0, 3}, ALPHA[2] = {0.25f, 0};
     const struct channel more[2] = {{"Z", PIXELS, 3, true}, {"A", ALPHA, 1, false}};
-    const struct raster plain = {{0, 0, 0, 0}, 2, 1, PIXELS, NULL, 0, false}, with = {{0, 0, 0, 0}, 2, 1, PIXELS, more, 2, false};
+    const struct raster plain = {{0, 0, 0, 0}, 2, 1, PIXELS, NULL, 0, false};
+    const struct raster with = {{0, 0, 0, 0}, 2, 1, PIXELS, more, 2, false};
     struct image img;
     struct error err = {.text = ""};
     size_t n, n_plain;

@@ -164,7 +164,8 @@ static void lobes_of_materials(struct test *t)
     struct material *disney = all_same(row_of("disney"), b.grey[5]);
     set(disney, "eta", b.grey[10]);
     bsdf = make(&b, &disney, 0);
-    CHECK(t, strcmp(kinds(&bsdf, text), "disney refraction facets clearcoat refraction") == 0, "disney of index 1: %s", text);
+    CHECK(t, strcmp(kinds(&bsdf, text), "disney refraction facets clearcoat refraction") == 0, "disney of index 1: %s",
+          text);
     free_all(&disney, 1);
     set(m[0], "Kd", texture_add_constant(&b.textures, rgb_make(-1, -2, 0)));
     bsdf = make(&b, m, 0);
